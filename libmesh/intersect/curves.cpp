@@ -1,0 +1,43 @@
+#include <libmesh/geometry/contact_point.hpp>
+#include <libmesh/geometry/triangle_triangle.hpp>
+#include <libmesh/intersect/curves.hpp>
+#include <libtree/parallel.hpp>
+
+namespace tf {
+namespace {
+
+triangle3 corners(mesh_view mesh, std::uint32_t f) {
+    const face& at = mesh.faces[f];
+    return {mesh.points[at[0]], mesh.points[at[1]], mesh.points[at[2]]};
+}
+
+void append_common_set(mesh_view mesh, const face_pair& pair, std::uint32_t index,
+                       std::vector<curve_segment>& segments) {
+    const triangle3 a = corners(mesh, pair.a);
+    const triangle3 b = corners(mesh, pair.b);
+    const triangle_contact common = intersect(a, b);
+    std::array<point3, 6> ends;
+    for (std::size_t i = 0; i < common.count; ++i)
+        ends[i] = approximate_point(a, b, common.ends[i]);
+    if (common.count == 1) segments.push_back({{ends[0], ends[0]}, index});
+    if (common.count == 2) segments.push_back({{ends[0], ends[1]}, index});
+    if (common.count < 3) return;
+    for (std::size_t i = 0; i < common.count; ++i)
+        segments.push_back({{ends[i], ends[(i + 1) % common.count]}, index});
+}
+
+}  // namespace
+
+std::vector<curve_segment> intersection_curves(mesh_view mesh, std::span<const face_pair> pairs) {
+    constexpr std::size_t grain = 1 << 12;
+    std::vector<std::vector<curve_segment>> parts(chunk_count(pairs.size(), grain));
+    for_chunks(pairs.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        for (std::size_t i = begin; i < end; ++i)
+            append_common_set(mesh, pairs[i], static_cast<std::uint32_t>(i), parts[chunk]);
+    });
+    std::vector<curve_segment> segments;
+    for (const auto& part : parts) segments.insert(segments.end(), part.begin(), part.end());
+    return segments;
+}
+
+}  // namespace tf

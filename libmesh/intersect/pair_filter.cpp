@@ -1,0 +1,263 @@
+#include <libmesh/exact/detail/filter.hpp>
+#include <libmesh/intersect/detail/pair_filter.hpp>
+
+#include <array>
+#include <bit>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libmesh/intersect/pair_filter.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#ifndef TREEFORM_PAIR_FILTER_ONCE
+#define TREEFORM_PAIR_FILTER_ONCE
+namespace tf::detail {
+namespace {
+
+/// Class and corners by the equality of corner numbers: bit 3r + i of the index says that corner i
+/// of a is corner i + r (mod 3) of b.
+struct sharing {
+    std::uint32_t in_class, corners;
+};
+
+constexpr auto sharing_of = [] {
+    std::array<sharing, 512> table{};
+    for (unsigned code = 0; code < 512; ++code) {
+        unsigned in_a = 0, in_b = 0;
+        for (unsigned r = 0; r < 3; ++r)
+            for (unsigned i = 0; i < 3; ++i)
+                if ((code >> (3 * r + i) & 1U) != 0) {
+                    in_a |= 1U << i;
+                    in_b |= 1U << ((i + r) % 3);
+                }
+        const int shared_a = std::popcount(in_a), shared_b = std::popcount(in_b);
+        sharing entry{candidate_classes::other, 0};
+        if (shared_a == 0) entry.in_class = candidate_classes::separate;
+        if (shared_a == 1 && shared_b == 1)
+            entry = {candidate_classes::corner,
+                     candidate::corners(static_cast<std::uint32_t>(std::countr_zero(in_a)),
+                                        static_cast<std::uint32_t>(std::countr_zero(in_b)))};
+        if (shared_a == 2 && shared_b == 2)
+            entry = {candidate_classes::edge,
+                     candidate::corners(static_cast<std::uint32_t>(std::countr_one(in_a)),
+                                        static_cast<std::uint32_t>(std::countr_one(in_b)))};
+        table[code] = entry;
+    }
+    return table;
+}();
+
+}  // namespace
+}  // namespace tf::detail
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace tf::detail::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The index into `sharing_of`.
+unsigned sharing_code(const numbered_face& a, const numbered_face& b) {
+#if HWY_TARGET == HWY_SCALAR
+    unsigned code = 0;
+    for (unsigned r = 0; r < 3; ++r)
+        for (unsigned i = 0; i < 3; ++i)
+            code |= static_cast<unsigned>(a[i] == b[r + i]) << (3 * r + i);
+    return code;
+#else
+    const hn::FixedTag<std::uint32_t, 4> d;
+    const auto corners = hn::LoadU(d, a.data());
+    unsigned code = 0;
+    for (unsigned r = 0; r < 3; ++r) {
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(d, hn::Eq(corners, hn::LoadU(d, b.data() + r)), bits);
+        code |= (bits[0] & 7U) << (3 * r);
+    }
+    return code;
+#endif
+}
+
+void sort_candidates(const candidate_block& block, const numbered_face* faces,
+                     candidate_classes& classes) {
+    std::array<candidate*, 4> end;
+    for (std::size_t which = 0; which < end.size(); ++which)
+        end[which] = classes.list[which].data();
+    for (std::size_t i = 0; i < block.first.size(); ++i) {
+        const sharing entry =
+            sharing_of[sharing_code(faces[block.first[i]], faces[block.second[i]])];
+        *end[entry.in_class]++ = candidate(static_cast<std::uint32_t>(i), entry.corners);
+    }
+    for (std::size_t which = 0; which < end.size(); ++which)
+        classes.count[which] = static_cast<std::size_t>(end[which] - classes.list[which].data());
+}
+
+using lanes_tag = hn::CappedTag<double, 8>;
+using lanes = hn::Vec<lanes_tag>;
+using lanes_mask = hn::Mask<lanes_tag>;
+
+struct vec {
+    lanes x, y, z;
+};
+
+template <std::size_t Corners>
+vec load(const pair_batch<Corners>& batch, std::size_t corner, std::size_t i) {
+    const lanes_tag d;
+    return {hn::Load(d, batch.at[corner][0] + i), hn::Load(d, batch.at[corner][1] + i),
+            hn::Load(d, batch.at[corner][2] + i)};
+}
+
+vec operator-(const vec& a, const vec& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+
+vec abs(const vec& a) { return {hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)}; }
+
+lanes dot(const vec& a, const vec& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+/// Which lanes lie certainly ahead of a plane, and which certainly behind.
+struct sides {
+    lanes_mask ahead, behind;
+};
+
+/// The plane through the origin along u and v: its normal, and the permanent of each component.
+class plane {
+  public:
+    plane(const vec& u, const vec& v) {
+        component(u.y, v.z, u.z, v.y, normal_.x, permanent_.x);
+        component(u.z, v.x, u.x, v.z, normal_.y, permanent_.y);
+        component(u.x, v.y, u.y, v.x, normal_.z, permanent_.z);
+    }
+
+    /// \source the bound of libmesh/exact/detail/filter.hpp for `orient3d`
+    [[nodiscard]] sides of(const vec& w) const {
+        const lanes_tag d;
+        const lanes value = dot(normal_, w);
+        const lanes permanent = dot(permanent_, abs(w));
+        const lanes error = hn::Mul(hn::Set(d, error_factor<orient3d_polynomial>), permanent);
+        const lanes_mask known = hn::Ge(permanent, hn::Set(d, least_permanent));
+        return {hn::And(known, hn::Gt(value, error)),
+                hn::And(known, hn::Lt(value, hn::Neg(error)))};
+    }
+
+  private:
+    static void component(lanes uy, lanes vz, lanes uz, lanes vy, lanes& normal, lanes& permanent) {
+        const lanes p = hn::Mul(uy, vz);
+        const lanes q = hn::Mul(uz, vy);
+        normal = hn::Sub(p, q);
+        permanent = hn::Add(hn::Abs(p), hn::Abs(q));
+    }
+
+    vec normal_;
+    vec permanent_;
+};
+
+lanes_mask same_side(const sides& a, const sides& b) {
+    return hn::Or(hn::And(a.ahead, b.ahead), hn::And(a.behind, b.behind));
+}
+lanes_mask same_side(const sides& a, const sides& b, const sides& c) {
+    return hn::Or(hn::And(hn::And(a.ahead, b.ahead), c.ahead),
+                  hn::And(hn::And(a.behind, b.behind), c.behind));
+}
+lanes_mask opposite_sides(const sides& a, const sides& b) {
+    return hn::Or(hn::And(a.ahead, b.behind), hn::And(a.behind, b.ahead));
+}
+
+std::uint64_t bits_at(lanes_mask mask, std::size_t i) {
+    const lanes_tag d;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, mask, bits);
+    return static_cast<std::uint64_t>(bits[0] & ((1U << hn::Lanes(d)) - 1)) << i;
+}
+
+/// Two triangles on a common edge have no more in common unless they are coplanar.
+batch_verdict edge_pairs(const pair_batch<4>& batch, std::size_t count) {
+    batch_verdict verdict;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(lanes_tag())) {
+        const vec u = load(batch, 0, i);
+        const plane of_a(load(batch, 1, i) - u, load(batch, 2, i) - u);
+        const sides b = of_a.of(load(batch, 3, i) - u);
+        verdict.apart |= bits_at(hn::Or(b.ahead, b.behind), i);
+    }
+    return verdict;
+}
+
+/// Triangles p a1 a2 and p b1 b2. When either plane has the other triangle strictly on one side
+/// but for p, they meet in p alone. Otherwise each cuts the line of both planes in a segment that
+/// starts at p, and those overlap when they run the same way. Relative to p, with
+/// D1 = det(b1, b2, a1), D2 = det(b1, b2, a2) and E2 = det(a1, a2, b2): the point of the line on
+/// a1 a2 is (D1 a2 - D2 a1) / (D1 - D2) = alpha b1 + beta b2, where taking det(., b2, a1) gives
+/// alpha = E2 / (D1 - D2); D1 - D2 has the sign of D1. The point of the line on b1 b2 has positive
+/// coefficients, so the segments run the same way if and only if D1 and E2 have the same sign.
+batch_verdict corner_pairs(const pair_batch<5>& batch, std::size_t count) {
+    batch_verdict verdict;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(lanes_tag())) {
+        const vec p = load(batch, 0, i);
+        const vec a1 = load(batch, 1, i) - p;
+        const vec a2 = load(batch, 2, i) - p;
+        const vec b1 = load(batch, 3, i) - p;
+        const vec b2 = load(batch, 4, i) - p;
+        const plane of_a(a1, a2);
+        const plane of_b(b1, b2);
+        const sides e1 = of_a.of(b1);
+        const sides e2 = of_a.of(b2);
+        const sides d1 = of_b.of(a1);
+        const sides d2 = of_b.of(a2);
+        const lanes_mask both_cross = hn::And(opposite_sides(e1, e2), opposite_sides(d1, d2));
+        const lanes_mask same_way = same_side(d1, e2);
+        verdict.apart |= bits_at(
+            hn::Or(hn::Or(same_side(e1, e2), same_side(d1, d2)), hn::AndNot(same_way, both_cross)),
+            i);
+        verdict.pierce |= bits_at(hn::And(both_cross, same_way), i);
+    }
+    return verdict;
+}
+
+batch_verdict separate_pairs(const pair_batch<6>& batch, std::size_t count) {
+    batch_verdict verdict;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(lanes_tag())) {
+        const vec a0 = load(batch, 0, i);
+        const vec a1 = load(batch, 1, i);
+        const vec a2 = load(batch, 2, i);
+        const vec b0 = load(batch, 3, i);
+        const vec b1 = load(batch, 4, i);
+        const vec b2 = load(batch, 5, i);
+        const plane of_a(a1 - a0, a2 - a0);
+        const plane of_b(b1 - b0, b2 - b0);
+        verdict.apart |=
+            bits_at(hn::Or(same_side(of_a.of(b0 - a0), of_a.of(b1 - a0), of_a.of(b2 - a0)),
+                           same_side(of_b.of(a0 - b0), of_b.of(a1 - b0), of_b.of(a2 - b0))),
+                    i);
+    }
+    return verdict;
+}
+
+}  // namespace
+}  // namespace tf::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tf::detail {
+
+HWY_EXPORT(sort_candidates);
+HWY_EXPORT(edge_pairs);
+HWY_EXPORT(corner_pairs);
+HWY_EXPORT(separate_pairs);
+
+void sort_by_class(const candidate_block& block, const numbered_face* faces,
+                   candidate_classes& classes) {
+    HWY_DYNAMIC_DISPATCH(sort_candidates)(block, faces, classes);
+}
+batch_verdict filter_edge_pairs(const pair_batch<4>& batch, std::size_t count) {
+    return HWY_DYNAMIC_DISPATCH(edge_pairs)(batch, count);
+}
+batch_verdict filter_corner_pairs(const pair_batch<5>& batch, std::size_t count) {
+    return HWY_DYNAMIC_DISPATCH(corner_pairs)(batch, count);
+}
+batch_verdict filter_separate_pairs(const pair_batch<6>& batch, std::size_t count) {
+    return HWY_DYNAMIC_DISPATCH(separate_pairs)(batch, count);
+}
+
+}  // namespace tf::detail
+#endif

@@ -1,0 +1,77 @@
+#include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/union_find.hpp>
+#include <libmesh/intersect/regions.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace tf {
+namespace {
+
+constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+
+void check(mesh_view mesh, std::span<const face_pair> pairs) {
+    detail::check_faces("group_pairs", mesh.points.size(), mesh.faces);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        if (std::max(pairs[i].a, pairs[i].b) >= mesh.faces.size())
+            throw std::invalid_argument("tf::group_pairs: pair " + std::to_string(i) +
+                                        " has a face that is not in the mesh");
+}
+
+/// Numbers of the faces in `pairs`, ascending.
+std::vector<std::uint32_t> faces_of(std::span<const face_pair> pairs, std::size_t face_count) {
+    std::vector<bool> used(face_count, false);
+    for (const face_pair& pair : pairs) used[pair.a] = used[pair.b] = true;
+    std::vector<std::uint32_t> faces;
+    for (std::uint32_t i = 0; i < face_count; ++i)
+        if (used[i]) faces.push_back(i);
+    return faces;
+}
+
+void include(intersection_region& region, const point3& p) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        region.min[axis] = std::min(region.min[axis], p[axis]);
+        region.max[axis] = std::max(region.max[axis], p[axis]);
+    }
+}
+
+}  // namespace
+
+intersection_regions group_pairs(mesh_view mesh, std::span<const face_pair> pairs) {
+    check(mesh, pairs);
+    if (pairs.empty()) return {};
+    const std::vector<std::uint32_t> faces = faces_of(pairs, mesh.faces.size());
+    detail::union_find linked(mesh.faces.size());
+    for (const face_pair& pair : pairs) linked.join(pair.a, pair.b);
+    std::vector<std::uint32_t> face_at(mesh.points.size(), nobody);
+    for (const std::uint32_t f : faces)
+        for (const std::uint32_t corner : mesh.faces[f]) {
+            if (face_at[corner] == nobody) face_at[corner] = f;
+            linked.join(face_at[corner], f);
+        }
+
+    intersection_regions result;
+    std::vector<std::uint32_t> region_of_root(mesh.faces.size());
+    for (const std::uint32_t f : faces) {
+        const std::uint32_t root = linked.root(f);
+        if (root == f) {  // the lowest of its region
+            region_of_root[f] = static_cast<std::uint32_t>(result.regions.size());
+            const point3& corner = mesh.points[mesh.faces[f][0]];
+            result.regions.push_back({{}, corner, corner, 0});
+        }
+        intersection_region& region = result.regions[region_of_root[root]];
+        region.faces.push_back(f);
+        for (const std::uint32_t corner : mesh.faces[f]) include(region, mesh.points[corner]);
+    }
+    result.region_of_pair.reserve(pairs.size());
+    for (const face_pair& pair : pairs) {
+        result.region_of_pair.push_back(region_of_root[linked.root(pair.a)]);
+        ++result.regions[result.region_of_pair.back()].pairs;
+    }
+    return result;
+}
+
+}  // namespace tf

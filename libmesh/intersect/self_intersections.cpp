@@ -1,0 +1,184 @@
+#include <libmesh/intersect/detail/pair_sieve.hpp>
+#include <libmesh/intersect/self_intersections.hpp>
+#include <libtree/build.hpp>
+#include <libtree/parallel.hpp>
+#include <libtree/search_self.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace tf {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 14;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Lowest i in [0, count) that `bad` holds for, or `count`.
+template <class Bad>
+std::size_t first_bad(std::size_t count, const Bad& bad) {
+    std::vector<std::size_t> first(chunk_count(count, grain), count);
+    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        for (std::size_t i = begin; i < end && first[chunk] == count; ++i)
+            if (bad(i)) first[chunk] = i;
+    });
+    return first.empty() ? count : *std::min_element(first.begin(), first.end());
+}
+
+void check(mesh_view mesh, const self_intersection_options& options) {
+    const auto refuse = [](const char* what, std::size_t i, const char* why) {
+        throw std::invalid_argument(std::string("tf::self_intersections: ") + what + " " +
+                                    std::to_string(i) + " " + why);
+    };
+    const std::size_t bad_face = first_bad(mesh.faces.size(), [&](std::size_t i) {
+        const face& f = mesh.faces[i];
+        return std::max({f[0], f[1], f[2]}) >= mesh.points.size();
+    });
+    if (bad_face != mesh.faces.size()) refuse("face", bad_face, "has a corner that is no point");
+    const std::size_t bad_point = first_bad(mesh.points.size(), [&](std::size_t i) {
+        const point3& p = mesh.points[i];
+        return !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    });
+    if (bad_point != mesh.points.size()) refuse("point", bad_point, "is not finite");
+    const std::size_t labels = options.component_of_face.size();
+    if (labels != mesh.faces.size() && (labels != 0 || options.between || options.within))
+        throw std::invalid_argument("tf::self_intersections: " + std::to_string(labels) +
+                                    " components for " + std::to_string(mesh.faces.size()) +
+                                    " faces");
+}
+
+bool fits_filter(points_view points) {
+    return first_bad(points.size(), [&](std::size_t i) {
+               const point3& p = points[i];
+               return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <=
+                        detail::largest_filtered_coordinate);
+           }) == points.size();
+}
+
+tree<3> tree_of(mesh_view mesh) {
+    return build(mesh.faces, [points = mesh.points](const face& f) {
+        aabb<double, 3> box;
+        for (const std::uint32_t corner : f) box.include(points[corner]);
+        return box;
+    });
+}
+
+/// The faces in leaf order, so that candidates find theirs side by side.
+detail::buffer<detail::numbered_face> leaf_order(mesh_view mesh, const tree<3>& tree) {
+    detail::buffer<detail::numbered_face> faces(mesh.faces.size());
+    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t id = tree.ids()[i];
+            const face& f = mesh.faces[id];
+            faces[i] = {f[0], f[1], f[2], f[0], f[1], id};
+        }
+    });
+    return faces;
+}
+
+/// Says how far the search is, from whatever thread, and hears when to stop.
+class search_progress {
+  public:
+    search_progress(const progress_callback& callback, std::size_t chunks)
+        : callback_(callback), chunks_(chunks) {}
+
+    [[nodiscard]] bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+
+    void chunk_done() {
+        if (!callback_) return;
+        const std::lock_guard lock(mutex_);
+        const double done = static_cast<double>(++done_) / static_cast<double>(chunks_);
+        if (!cancelled() && !callback_(done)) cancelled_ = true;
+    }
+
+  private:
+    const progress_callback& callback_;
+    std::size_t chunks_;
+    std::size_t done_ = 0;
+    std::mutex mutex_;
+    std::atomic<bool> cancelled_{false};
+};
+
+void lower(std::atomic<std::size_t>& value, std::size_t to) {
+    std::size_t seen = value.load();
+    while (to < seen && !value.compare_exchange_weak(seen, to)) {
+    }
+}
+
+/// Drops all but one pair: the lowest of the first chunk that has any. What later chunks found
+/// before they heard of it depends on the threads.
+void keep_first(std::vector<detail::sieve_output>& found) {
+    const auto first = std::find_if(found.begin(), found.end(),
+                                    [](const auto& output) { return !output.pairs.empty(); });
+    if (first == found.end()) return;
+    const face_pair pair = *std::min_element(first->pairs.begin(), first->pairs.end());
+    first->pairs = {pair};
+    first->counts = {};
+    first->counts[static_cast<std::size_t>(pair.kind)] = 1;
+    std::fill(first + 1, found.end(), detail::sieve_output{});
+}
+
+void join(std::vector<detail::sieve_output>& found, std::size_t limit,
+          self_intersection_result& result) {
+    std::size_t total = 0;
+    for (const detail::sieve_output& output : found) total += output.pairs.size();
+    result.pairs.reserve(total);
+    for (detail::sieve_output& output : found) {
+        result.pairs.insert(result.pairs.end(), output.pairs.begin(), output.pairs.end());
+        output.pairs = {};
+        for (std::size_t k = 0; k < pair_kind_count; ++k) result.counts[k] += output.counts[k];
+        result.box_pairs += output.box_pairs;
+        result.exact_pairs += output.exact_pairs;
+        result.predicates += output.predicates;
+    }
+    const std::size_t kept = std::min(limit, total);
+    const auto end = result.pairs.begin() + static_cast<std::ptrdiff_t>(kept);
+    std::nth_element(result.pairs.begin(), end, result.pairs.end());
+    std::sort(result.pairs.begin(), end);
+    result.pairs.resize(kept);
+}
+
+}  // namespace
+
+self_intersection_result self_intersections(mesh_view mesh,
+                                            const self_intersection_options& options) {
+    check(mesh, options);
+    self_intersection_result result;
+    const auto tree_start = std::chrono::steady_clock::now();
+    const tree<3> tree = tree_of(mesh);
+    result.tree_seconds = seconds_since(tree_start);
+
+    const auto pair_start = std::chrono::steady_clock::now();
+    const detail::buffer<detail::numbered_face> faces = leaf_order(mesh, tree);
+    const detail::sieve_input input{mesh.points, faces.span(), &options, fits_filter(mesh.points)};
+    const self_search<3> search(tree);
+    std::vector<detail::sieve_output> found(search.chunks());
+    search_progress progress(options.progress, search.chunks());
+    std::atomic<std::size_t> last{search.chunks()};  // the first chunk that found enough
+    for_chunks(search.chunks(), 1, [&](std::size_t chunk, std::size_t, std::size_t) {
+        const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
+        const auto satisfied = [&] { return options.first_only && !found[chunk].pairs.empty(); };
+        detail::pair_sieve sieve(input, found[chunk]);
+        search.visit(chunk, [&](const candidate_block& block) {
+            sieve.add(block);
+            return !satisfied() && !not_needed();
+        });
+        if (satisfied()) lower(last, chunk);
+        progress.chunk_done();
+    });
+    if (options.first_only) keep_first(found);
+    join(found, options.limit, result);
+    result.cancelled = progress.cancelled();
+    result.pair_seconds = seconds_since(pair_start);
+    return result;
+}
+
+}  // namespace tf

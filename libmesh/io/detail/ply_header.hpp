@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// The text ahead of a PLY file's data.
+
+#include <libmesh/attributes.hpp>
+#include <libmesh/io/detail/source.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tf::detail {
+
+enum class ply_encoding : std::uint8_t { ascii, little_endian, big_endian };
+
+[[nodiscard]] std::string_view name_of(ply_encoding encoding);  ///< as in the file
+[[nodiscard]] std::string_view name_of(scalar_type type);       ///< as in the file: "uchar"
+
+struct ply_header {
+    ply_encoding encoding = ply_encoding::ascii;
+    /// With rows and columns as declared, and no values yet. The columns of points and of corners
+    /// have their roles.
+    std::vector<element> elements{};
+    std::vector<std::string> comments{};
+    std::vector<std::string> obj_info{};
+    const char* body = nullptr;  ///< first byte after the header
+};
+
+/// \throws io_error
+[[nodiscard]] ply_header read_ply_header(const source& in);
+
+}  // namespace tf::detail

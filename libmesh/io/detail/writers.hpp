@@ -1,0 +1,91 @@
+#pragma once
+/// \file
+/// The writer of each format, and what they share.
+
+#include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/io/detail/sink.hpp>
+#include <libmesh/io/write.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tf::detail {
+
+/// What a writer works on. The checks of `write_mesh` have been made.
+struct write_job {
+    const mesh_file& file;
+    const write_options& options;
+    write_result& result;
+    sink& out;
+
+    [[nodiscard]] bool single() const { return result.written_as == precision::single_; }
+    /// A coordinate in the precision of the job.
+    [[nodiscard]] double rounded(double x) const { return single() ? nearest_float(x) : x; }
+    /// As text: always the digits of the double. The shortest text of a float32 would be another
+    /// number to a reader of doubles, so the file would not hold what was computed and checked.
+    void coordinate(double x) const { out.number(rounded(x)); }
+    void point(const point3& p) const {
+        coordinate(p.x);
+        out.put(' ');
+        coordinate(p.y);
+        out.put(' ');
+        coordinate(p.z);
+    }
+};
+
+void write_stl_binary(const write_job& job);
+void write_stl_text(const write_job& job);
+void write_obj(const write_job& job);
+void write_ply(const write_job& job);
+void write_off(const write_job& job);
+void write_xyz(const write_job& job);
+void write_glb(const write_job& job);
+
+/// Calls f(first triangle, corners) for each face as stored, in order.
+template <class F>
+void for_each_stored_face(const mesh_file& file, F&& f) {
+    const auto& faces = file.mesh.faces;
+    const auto& stored = file.stored_face;
+    std::vector<std::uint32_t> corners;
+    for (std::size_t first = 0; first < faces.size();) {
+        corners.assign(faces[first].begin(), faces[first].end());
+        std::size_t next = first + 1;
+        if (!stored.empty())
+            for (; next < faces.size() && stored[next] == stored[first]; ++next)
+                corners.push_back(faces[next][2]);
+        f(first, std::span<const std::uint32_t>(corners));
+        first = next;
+    }
+}
+
+/// Faces as stored.
+[[nodiscard]] inline std::size_t stored_face_count(const mesh_file& file) {
+    return file.stored_face.empty() ? file.mesh.faces.size()
+                                    : file.stored_face.back() + std::size_t{1};
+}
+
+/// Row of the element "face" that a triangle belongs to.
+[[nodiscard]] inline std::size_t face_row(const mesh_file& file, std::size_t triangle) {
+    return file.stored_face.empty() ? triangle : file.stored_face[triangle];
+}
+
+/// Value `i` of a column as text.
+void put_number(sink& out, const column& c, std::size_t i);
+
+/// The columns of these names, all of them with one value a row; empty when one is missing.
+[[nodiscard]] std::vector<const column*> scalar_columns(const mesh_file& file,
+                                                        std::string_view element,
+                                                        std::span<const std::string_view> names);
+
+/// Columns red, green, blue, and alpha where there is one.
+[[nodiscard]] std::vector<const column*> colour_columns(const mesh_file& file,
+                                                        std::string_view element);
+
+/// A colour as a number from 0 to 1: whole numbers count 255ths, others are taken as they are.
+[[nodiscard]] inline double colour_value(const column& c, std::size_t row) {
+    const double value = number_at(c, row);
+    return c.type < scalar_type::float32 ? value / 255.0 : value;
+}
+
+}  // namespace tf::detail

@@ -1,0 +1,113 @@
+#include <libmesh/io/detail/byte_order.hpp>
+#include <libmesh/io/detail/detect.hpp>
+#include <libmesh/io/detail/readers.hpp>
+#include <libmesh/io/detail/text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace tf::detail {
+
+namespace {
+
+[[nodiscard]] std::string_view head_of(const source& in) {
+    return {in.begin(), std::min<std::size_t>(in.size(), 4096)};
+}
+
+/// The size decides, whatever the header says: many exporters start it with "solid".
+[[nodiscard]] bool is_binary_stl(const source& in) {
+    return in.size() >= 84 &&
+           in.size() ==
+               84 + std::size_t{50} * load<std::uint32_t, std::endian::little>(in.begin() + 80);
+}
+
+/// Text has no zero byte and few other control characters; bytes above 127 may be names in any
+/// character set.
+[[nodiscard]] bool is_text(std::string_view head) {
+    const auto control = [](char c) { return c >= 0 && c < ' ' && !is_space(c); };
+    return std::none_of(head.begin(), head.end(), [](char c) { return c == '\0'; }) &&
+           std::count_if(head.begin(), head.end(), control) * 20 <=
+               static_cast<std::ptrdiff_t>(head.size());
+}
+
+void refuse_unless_text(const source& in) {
+    const std::string_view head = head_of(in);
+    if (head.starts_with("\xfe\xff") || head.starts_with("\xff\xfe"))
+        in.fail_byte(in.begin(), "UTF-16 text; convert it to UTF-8 or ASCII");
+    if (!is_text(head)) in.fail("binary data where text should stand");
+}
+
+[[nodiscard]] bool is_off_word(std::string_view word) {
+    for (const std::string_view prefix : {"ST", "C", "N", "4", "n"})
+        if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
+    return word == "OFF";
+}
+
+[[nodiscard]] bool is_obj_word(std::string_view word) {
+    constexpr std::array<std::string_view, 12> words{"v", "vt", "vn", "vp", "f",      "l",
+                                                     "p", "g",  "o",  "s",  "usemtl", "mtllib"};
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+[[nodiscard]] std::optional<detected> by_magic(const source& in, std::string_view extension) {
+    text t(in);
+    if (t.starts_with("ply\n") || t.starts_with("ply\r") || t.starts_with("ply "))
+        return detected{file_kind::ply};
+    if (t.starts_with("glTF")) return detected{file_kind::scene, "glb"};
+    if (is_binary_stl(in)) return detected{file_kind::stl_binary};
+    if (t.starts_with("PK\x03\x04"))
+        return detected{file_kind::scene, extension == "zae" ? "zae" : "3mf"};
+    if (!t.text_done() && is_off_word(t.word())) return detected{file_kind::off};
+    return std::nullopt;
+}
+
+/// STL that is not binary by its size: text, or binary whose count is wrong.
+[[nodiscard]] detected stl_kind(const source& in) {
+    text t(in);
+    t.skip_spaces();
+    const bool worded =
+        starts_with_word(t.at, t.end, "solid") || starts_with_word(t.at, t.end, "facet");
+    return {worded && is_text(head_of(in)) ? file_kind::stl_text : file_kind::stl_binary};
+}
+
+[[nodiscard]] std::optional<file_kind> text_kind(std::string_view extension) {
+    if (extension == "obj") return file_kind::obj;
+    if (extension == "off") return file_kind::off;
+    constexpr std::array<std::string_view, 5> tables{"xyz", "txt", "pts", "asc", "csv"};
+    if (std::find(tables.begin(), tables.end(), extension) != tables.end()) return file_kind::xyz;
+    return std::nullopt;
+}
+
+/// For names that say nothing: what the first line looks like.
+[[nodiscard]] std::optional<detected> by_first_line(const source& in) {
+    text t(in);
+    if (t.text_done()) return std::nullopt;
+    if (starts_with_word(t.at, t.end, "solid")) return stl_kind(in);
+    if (!is_text(head_of(in))) return std::nullopt;
+    if (parse_number(t.at, t.end).end != nullptr) return detected{file_kind::xyz};
+    if (is_obj_word(t.word())) return detected{file_kind::obj};
+    return std::nullopt;
+}
+
+}  // namespace
+
+detected detect(const source& in, std::string_view format, std::string_view extension) {
+    if (in.size() == 0) in.fail("empty file");
+    const std::string_view wanted = format.empty() ? extension : format;
+    if (format.empty())
+        if (auto found = by_magic(in, extension)) return *std::move(found);
+    if (wanted == "ply") return {file_kind::ply};
+    if (wanted == "stl") return is_binary_stl(in) ? detected{file_kind::stl_binary} : stl_kind(in);
+    if (const auto kind = text_kind(wanted)) {
+        refuse_unless_text(in);
+        return {*kind};
+    }
+    if (!wanted.empty() && scene_format(wanted)) return {file_kind::scene, std::string(wanted)};
+    if (!format.empty()) in.fail("format '" + std::string(format) + "' is not read");
+    if (auto found = by_first_line(in)) return *std::move(found);
+    in.fail("not a format that is read");
+}
+
+}  // namespace tf::detail

@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// Reading a mesh or point file, whatever its format.
+
+#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/mesh_file.hpp>
+#include <libtree/export.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace tf {
+
+/// Reads the file at `path`; "-" is standard input. `format` is an extension without its dot
+/// ("stl", "obj", "ply", "off", "glb", ...); when empty the content decides, then the extension.
+///
+/// Coordinates come back as stored: float32 widened, decimal text rounded once to the nearest
+/// double. NaN and infinity are kept for the caller to report (`validate`).
+///
+/// \throws io_error naming path, line or byte, and reason
+[[nodiscard]] TREEFORM_API mesh_file read_mesh(const std::filesystem::path& path,
+                                               std::string_view format = {});
+
+/// The same for bytes in memory; `name` stands for the path in errors.
+[[nodiscard]] TREEFORM_API mesh_file read_mesh(std::span<const std::byte> bytes,
+                                               std::string_view name, std::string_view format);
+
+}  // namespace tf

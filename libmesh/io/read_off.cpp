@@ -1,0 +1,228 @@
+#include <libmesh/io/detail/face_sink.hpp>
+#include <libmesh/io/detail/readers.hpp>
+#include <libmesh/io/detail/reserve.hpp>
+#include <libmesh/io/detail/text.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace tf::detail {
+
+namespace {
+
+/// What the first word, [ST][C][N][4][n]OFF, says about a vertex.
+struct off_kind {
+    bool texture = false;
+    bool colour = false;
+    bool normal = false;
+    bool weight = false;     ///< a fourth, homogeneous coordinate
+    bool dimension = false;  ///< the dimension stands in the file
+};
+
+[[nodiscard]] bool take(std::string_view& word, std::string_view prefix) {
+    if (!word.starts_with(prefix)) return false;
+    word.remove_prefix(prefix.size());
+    return true;
+}
+
+/// Numbers after the ones that a row must have, as many in each row.
+struct extra_numbers {
+    std::size_t width = 0;
+    std::size_t widest = 0;
+    std::size_t rows = 0;
+    bool even = true;   ///< every row so far has `width` of them
+    bool whole = true;  ///< none was written with a point or an exponent
+    std::vector<double> values{};
+    std::vector<std::uint64_t> begin{};  ///< [rows + 1] once there are values
+
+    void end_row() {
+        const std::uint64_t size = values.size();
+        // Most files have none of them, and then need no table of where they begin.
+        if (size > 0) begin.resize(rows + 1, 0);
+        const std::size_t count = size > 0 ? size - begin.back() : 0;
+        if (rows == 0) width = count;
+        widest = std::max(widest, count);
+        even = even && count == width;
+        if (size > 0) begin.push_back(size);
+        ++rows;
+    }
+};
+
+class off_reader {
+  public:
+    explicit off_reader(const source& in) : text_(in), faces_(file_) { file_.format = "off"; }
+
+    mesh_file read() {
+        read_kind();
+        read_counts();
+        for (std::size_t v = 0; v < vertices_; ++v) read_vertex();
+        for (std::size_t f = 0; f < face_count_; ++f) read_face();
+        store_vertex_extras();
+        if (faces_extra_.even)
+            store_columns("face", faces_extra_, colour_names(faces_extra_.width));
+        else
+            store_list();
+        if (!text_.text_done())
+            file_.warnings.push_back({"trailing-bytes", "there is more after the last face"});
+        if (file_.mesh.faces.size() > std::numeric_limits<std::uint32_t>::max())
+            text_.file.fail("more triangles than 32-bit numbers can name");
+        file_.stored_as = fits_single(file_.mesh.points) ? precision::single_ : precision::double_;
+        return std::move(file_);
+    }
+
+  private:
+    void read_kind() {
+        if (text_.text_done()) text_.fail("no counts: cut off?");
+        const char* const start = text_.at;
+        std::string_view word = text_.word();
+        if (!word.ends_with("OFF") && (is_digit(*start) || *start == '-')) {
+            text_.at = start;  // the first word may be left out
+            return;
+        }
+        kind_.texture = take(word, "ST");
+        kind_.colour = take(word, "C");
+        kind_.normal = take(word, "N");
+        kind_.weight = take(word, "4");
+        kind_.dimension = take(word, "n");
+        if (word != "OFF") text_.fail(quoted(start, text_.end) + " where 'OFF' should stand");
+        if (text_.text_done()) text_.fail("no counts: cut off?");
+        if (text_.starts_with("BINARY")) text_.fail("binary OFF is not read");
+        if (kind_.dimension && text_.integer("the dimension") != 3)
+            text_.fail("only points of three dimensions are read");
+    }
+
+    [[nodiscard]] std::size_t read_count(std::string_view what) {
+        if (text_.text_done()) text_.fail("the file ends in the counts");
+        const std::int64_t count = text_.integer(what);
+        if (count < 0) text_.fail("negative count");
+        return static_cast<std::size_t>(count);
+    }
+
+    /// The counts must be such as the bytes behind them can hold: a digit and a separator for each
+    /// number; four numbers for the smallest face.
+    void read_counts() {
+        vertices_ = read_count("the number of vertices");
+        face_count_ = read_count("the number of faces");
+        if (!text_.line_done()) (void)text_.integer("the number of edges");
+        const auto left = static_cast<std::size_t>(text_.end - text_.at);
+        const std::size_t numbers = 3U + (kind_.weight ? 1U : 0U) + (kind_.normal ? 3U : 0U);
+        if (vertices_ > (left + 1) / (2 * numbers) || face_count_ > (left + 1) / 8)
+            text_.fail("counts larger than the file can hold");
+        if (vertices_ > std::numeric_limits<std::uint32_t>::max())
+            text_.fail("more vertices than 32-bit numbers can name");
+        reserve_large(file_.mesh.points, vertices_);
+        reserve_large(file_.mesh.faces, face_count_);
+    }
+
+    [[nodiscard]] double next_number(std::string_view what) {
+        if (text_.text_done()) text_.fail("the file ends in the vertices");
+        return text_.number(what);
+    }
+
+    void read_vertex() {
+        point3 p;
+        for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = next_number("a coordinate");
+        if (kind_.weight && next_number("a weight") != 1.0)
+            text_.fail("a weight other than 1: the point would have to be rounded");
+        if (kind_.normal)
+            for (int i = 0; i < 3; ++i) normals_.values.push_back(next_number("a normal"));
+        if (kind_.normal) normals_.end_row();
+        read_extras(vertices_extra_);
+        const std::size_t least = (kind_.colour ? 3U : 0U) + (kind_.texture ? 2U : 0U);
+        if (vertices_extra_.width < least || (least == 0 && vertices_extra_.width > 0) ||
+            !vertices_extra_.even)
+            text_.fail("a vertex with other numbers than the first word of the file says");
+        file_.mesh.points.push_back(p);
+        text_.file.release_before(text_.at);
+    }
+
+    void read_extras(extra_numbers& extras) {
+        while (!text_.line_done()) {
+            const char* const start = text_.at;
+            extras.values.push_back(text_.number("a number"));
+            for (const char* c = start; c < text_.at; ++c)
+                extras.whole = extras.whole && (is_digit(*c) || *c == '-' || *c == '+');
+        }
+        extras.end_row();
+    }
+
+    void read_face() {
+        if (text_.text_done()) text_.fail("the file ends in the faces");
+        const std::int64_t corners = text_.integer("the number of corners");
+        if (corners < 3) text_.fail("face with " + std::to_string(corners) + " corners");
+        faces_.begin();
+        for (std::int64_t i = 0; i < corners; ++i) {
+            if (text_.text_done()) text_.fail("the file ends in a face");
+            const std::int64_t vertex = text_.integer("a vertex index");
+            if (vertex < 0 || static_cast<std::size_t>(vertex) >= vertices_)
+                text_.fail("vertex index " + std::to_string(vertex) + " is out of range");
+            faces_.add(static_cast<std::uint32_t>(vertex));
+        }
+        faces_.finish();
+        read_extras(faces_extra_);
+        text_.file.release_before(text_.at);
+    }
+
+    [[nodiscard]] static std::vector<std::string> colour_names(std::size_t width) {
+        if (width == 1) return {"colour_index"};
+        std::vector<std::string> names{"red", "green", "blue", "alpha"};
+        for (std::size_t i = names.size(); i < width; ++i)
+            names.push_back("number_" + std::to_string(i + 1));
+        names.resize(width);
+        return names;
+    }
+
+    void store_vertex_extras() {
+        if (kind_.normal) store_columns("vertex", normals_, {"nx", "ny", "nz"});
+        const std::size_t texture = kind_.texture ? 2 : 0;
+        if (vertices_extra_.width < texture) return;  // a file without vertices
+        std::vector<std::string> names = colour_names(vertices_extra_.width - texture);
+        if (kind_.texture) names.insert(names.end(), {"s", "t"});
+        store_columns("vertex", vertices_extra_, names);
+    }
+
+    /// One column for each number of a row; small whole numbers as bytes, as colours are.
+    void store_columns(std::string_view name, const extra_numbers& extras,
+                       const std::vector<std::string>& names) {
+        if (extras.rows == 0 || names.empty()) return;
+        const std::size_t width = names.size();
+        bool bytes = extras.whole && width > 1;
+        for (const double x : extras.values) bytes = bytes && x >= 0 && x <= 255;
+        element& e = obtain_element(file_.attributes, name, extras.rows);
+        std::vector<double> values(extras.rows);
+        for (std::size_t c = 0; c < width; ++c) {
+            for (std::size_t row = 0; row < extras.rows; ++row)
+                values[row] = extras.values[row * width + c];
+            if (bytes) {
+                const std::vector<std::uint8_t> small(values.begin(), values.end());
+                e.columns.push_back(make_column<std::uint8_t>(names[c], small));
+            } else {
+                e.columns.push_back(make_column<double>(names[c], values));
+            }
+        }
+    }
+
+    void store_list() {
+        column c = make_column<double>("off_colour", faces_extra_.values);
+        c.list_length = faces_extra_.widest < 256 ? scalar_type::uint8 : scalar_type::uint32;
+        c.list_begin = std::move(faces_extra_.begin);
+        obtain_element(file_.attributes, "face", faces_extra_.rows).columns.push_back(std::move(c));
+    }
+
+    text text_;
+    off_kind kind_{};
+    mesh_file file_{};
+    face_sink faces_;
+    std::size_t vertices_ = 0;
+    std::size_t face_count_ = 0;
+    extra_numbers normals_{};
+    extra_numbers vertices_extra_{};
+    extra_numbers faces_extra_{};
+};
+
+}  // namespace
+
+mesh_file read_off(const source& in) { return off_reader(in).read(); }
+
+}  // namespace tf::detail

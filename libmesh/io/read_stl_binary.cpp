@@ -1,0 +1,105 @@
+#include <libmesh/io/detail/byte_order.hpp>
+#include <libmesh/io/detail/readers.hpp>
+#include <libmesh/io/detail/reserve.hpp>
+
+#include <array>
+#include <limits>
+#include <string>
+
+namespace tf::detail {
+
+namespace {
+
+constexpr std::size_t header_bytes = 84;
+constexpr std::size_t record_bytes = 50;
+constexpr std::size_t block = 128;  // facets converted at a time; their points stay in cache
+
+template <class T>
+T little(const char* at) {
+    return load<T, std::endian::little>(at);
+}
+
+/// Checked before anything is allocated.
+std::uint32_t facet_count(const source& in) {
+    if (in.size() < header_bytes)
+        in.fail("shorter than the 84 bytes ahead of a binary STL, and not the text of one");
+    const auto stated = little<std::uint32_t>(in.begin() + 80);
+    const std::size_t body = in.size() - header_bytes;
+    const std::size_t whole = body / record_bytes;
+    if (whole < stated)
+        in.fail_byte(in.begin() + 80, "header says " + std::to_string(stated) +
+                                          " triangles, file holds " + std::to_string(whole));
+    if (body != stated * record_bytes)
+        in.fail_byte(in.begin() + header_bytes + stated * record_bytes,
+                     "trailing " + std::to_string(body - stated * record_bytes) +
+                         " bytes after the stated triangles");
+    if (stated > std::numeric_limits<std::uint32_t>::max() / 3)
+        in.fail("more corners than 32-bit numbers can name");
+    return stated;
+}
+
+/// The 16 bits after each facet, kept only when one of them is not zero.
+class facet_bits {
+  public:
+    void add(const std::array<std::uint16_t, block>& bits, std::size_t count, std::uint32_t any) {
+        if (any != 0 && !used_) {
+            used_ = true;
+            bits_.assign(seen_, 0);
+        }
+        if (used_) bits_.insert(bits_.end(), bits.begin(), bits.begin() + static_cast<long>(count));
+        seen_ += count;
+    }
+    void store(mesh_file& file) const {
+        if (used_)
+            obtain_element(file.attributes, "face", file.stored_faces)
+                .columns.push_back(make_column<std::uint16_t>("stl_attribute", bits_));
+    }
+
+  private:
+    bool used_ = false;
+    std::size_t seen_ = 0;
+    std::vector<std::uint16_t> bits_{};
+};
+
+}  // namespace
+
+mesh_file read_stl_binary(const source& in) {
+    const std::uint32_t count = facet_count(in);
+    mesh_file file{.stored_faces = count,
+                   .indexed = false,
+                   .stored_as = precision::single_,
+                   .format = "stl-binary"};
+    file.attributes.header.assign(in.begin(), 80);
+    reserve_large(file.mesh.points, std::size_t{count} * 3);
+    reserve_large(file.mesh.faces, count);
+    facet_bits bits;
+    std::array<point3, 3 * block> corners;
+    std::array<std::uint16_t, block> attribute{};
+    const char* at = in.begin() + header_bytes;
+    for (std::uint32_t done = 0; done < count;) {
+        const auto size = static_cast<std::uint32_t>(std::min<std::size_t>(block, count - done));
+        std::uint32_t any = 0;
+        for (std::size_t i = 0; i < size; ++i, at += record_bytes) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const char* const xyz = at + 12 + 12 * c;
+                corners[3 * i + c] = {little<float>(xyz), little<float>(xyz + 4),
+                                      little<float>(xyz + 8)};
+            }
+            attribute[i] = little<std::uint16_t>(at + 48);
+            any |= attribute[i];
+        }
+        file.mesh.points.insert(file.mesh.points.end(), corners.begin(),
+                                corners.begin() + 3 * size);
+        for (std::uint32_t i = 0; i < size; ++i) {
+            const std::uint32_t first = 3 * (done + i);
+            file.mesh.faces.push_back({first, first + 1, first + 2});
+        }
+        bits.add(attribute, size, any);
+        done += size;
+        in.release_before(at);
+    }
+    bits.store(file);
+    return file;
+}
+
+}  // namespace tf::detail

@@ -1,0 +1,165 @@
+#include <libmesh/io/detail/source.hpp>
+#include <libmesh/io/io_error.hpp>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <system_error>
+#include <utility>
+
+namespace tf::detail {
+
+namespace {
+
+constexpr std::size_t release_step = std::size_t{8} << 20;
+
+[[noreturn]] void fail_system(const std::string& name, int error) {
+    throw io_error(name + ": " + std::generic_category().message(error));
+}
+
+/// Closes a descriptor that is ours; standard input is not.
+class descriptor {
+  public:
+    explicit descriptor(int fd) : fd_(fd) {}
+    descriptor(const descriptor&) = delete;
+    descriptor& operator=(const descriptor&) = delete;
+    ~descriptor() {
+        if (fd_ > STDIN_FILENO) ::close(fd_);
+    }
+    [[nodiscard]] int get() const { return fd_; }
+
+  private:
+    int fd_;
+};
+
+struct heap_bytes {
+    std::unique_ptr<char, decltype(&std::free)> data{nullptr, &std::free};
+    std::size_t size = 0;
+};
+
+/// Grows by realloc, which moves large blocks by their pages and needs no second copy.
+heap_bytes read_to_end(int fd, const std::string& name) {
+    heap_bytes bytes;
+    std::size_t capacity = 0;
+    for (;;) {
+        if (bytes.size == capacity) {
+            capacity = capacity == 0 ? std::size_t{1} << 16 : capacity + capacity / 2;
+            void* larger = std::realloc(bytes.data.get(), capacity);
+            if (larger == nullptr) throw std::bad_alloc();
+            (void)bytes.data.release();
+            bytes.data.reset(static_cast<char*>(larger));
+        }
+        const ssize_t got = ::read(fd, bytes.data.get() + bytes.size, capacity - bytes.size);
+        if (got == 0) return bytes;
+        if (got > 0)
+            bytes.size += static_cast<std::size_t>(got);
+        else if (errno != EINTR)
+            fail_system(name, errno);
+    }
+}
+
+}  // namespace
+
+source source::open(const std::filesystem::path& path) {
+    source s;
+    s.name_ = path == "-" ? std::string("stdin") : path.string();
+    const descriptor file(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    struct stat status {};
+    if (file.get() < 0 || ::fstat(file.get(), &status) != 0) fail_system(s.name_, errno);
+    if (S_ISDIR(status.st_mode)) fail_system(s.name_, EISDIR);
+    // Files of the proc kind say that they are empty; only reading tells.
+    if (S_ISREG(status.st_mode) && status.st_size > 0 && path != "-") {
+        s.size_ = static_cast<std::size_t>(status.st_size);
+        void* map = ::mmap(nullptr, s.size_, PROT_READ, MAP_PRIVATE, file.get(), 0);
+        if (map != MAP_FAILED) {
+            ::madvise(map, s.size_, MADV_SEQUENTIAL);
+            s.begin_ = static_cast<const char*>(map);
+            s.owner_ = owner::map;
+            s.rewind();
+            return s;
+        }
+    }
+    heap_bytes bytes = read_to_end(file.get(), s.name_);
+    s.size_ = bytes.size;
+    s.begin_ = bytes.data.release();
+    s.owner_ = owner::heap;
+    s.rewind();
+    return s;
+}
+
+source::source(std::span<const std::byte> bytes, std::string_view name)
+    : begin_(reinterpret_cast<const char*>(bytes.data())), size_(bytes.size()), name_(name) {
+    rewind();
+}
+
+source::source(source&& other) noexcept
+    : begin_(std::exchange(other.begin_, nullptr)),
+      size_(std::exchange(other.size_, 0)),
+      name_(std::move(other.name_)),
+      owner_(std::exchange(other.owner_, owner::caller)),
+      released_(other.released_),
+      release_at_(other.release_at_) {}
+
+source::~source() {
+    if (owner_ == owner::map) ::munmap(const_cast<char*>(begin_), size_);
+    if (owner_ == owner::heap) std::free(const_cast<char*>(begin_));
+}
+
+void source::release(const char* at) const {
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    const std::size_t bytes = static_cast<std::size_t>(at - released_) / page * page;
+    if (bytes == 0) return;
+    ::madvise(const_cast<char*>(released_), bytes, MADV_DONTNEED);
+    released_ += bytes;
+    plan_release();
+}
+
+void source::rewind() const {
+    released_ = begin_;
+    plan_release();
+}
+
+void source::plan_release() const {
+    const bool worth =
+        owner_ == owner::map && static_cast<std::size_t>(end() - released_) > release_step;
+    release_at_ = worth ? released_ + release_step : end();
+}
+
+std::size_t source::count_newlines() const {
+    std::size_t count = 0;
+    for (const char* at = begin_; at < end();) {
+        const auto left = static_cast<std::size_t>(end() - at);
+        const char* const stop = at + std::min(left, std::size_t{1} << 16);
+        count += static_cast<std::size_t>(std::count(at, stop, '\n'));
+        at = stop;
+        release_before(at);
+    }
+    rewind();
+    return count;
+}
+
+void source::fail_line(const char* at, std::string_view reason) const {
+    std::size_t line = 1;
+    for (const char* p = begin_; p < at; ++p)
+        // A carriage return ends a line unless a line feed does so right after it.
+        line += *p == '\n' || (*p == '\r' && (p + 1 == end() || p[1] != '\n')) ? 1U : 0U;
+    throw io_error(name_ + ':' + std::to_string(line) + ": " + std::string(reason));
+}
+
+void source::fail_byte(const char* at, std::string_view reason) const {
+    throw io_error(name_ + ": byte " + std::to_string(at - begin_) + ": " + std::string(reason));
+}
+
+void source::fail(std::string_view reason) const {
+    throw io_error(name_ + ": " + std::string(reason));
+}
+
+}  // namespace tf::detail

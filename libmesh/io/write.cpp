@@ -1,0 +1,204 @@
+#include <libmesh/io/detail/number.hpp>
+#include <libmesh/io/detail/writers.hpp>
+#include <libmesh/io/write.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace tf {
+
+namespace detail {
+
+void put_number(sink& out, const column& c, std::size_t i) {
+    const double value = number_at(c, i);
+    if (c.type == scalar_type::float64)
+        out.number(value);
+    else if (c.type == scalar_type::float32)
+        out.number(static_cast<float>(value));
+    else
+        out.number(static_cast<std::int64_t>(value));
+}
+
+std::vector<const column*> scalar_columns(const mesh_file& file, std::string_view element_name,
+                                          std::span<const std::string_view> names) {
+    const element* e = find_element(file.attributes, element_name);
+    std::vector<const column*> found;
+    for (const std::string_view name : names) {
+        const column* c = e == nullptr ? nullptr : find_column(*e, name);
+        if (c == nullptr || c->list_length || c->role != column_role::data) return {};
+        found.push_back(c);
+    }
+    return found;
+}
+
+std::vector<const column*> colour_columns(const mesh_file& file, std::string_view element_name) {
+    constexpr std::string_view names[] = {"red", "green", "blue", "alpha"};
+    auto found = scalar_columns(file, element_name, names);
+    return found.empty() ? scalar_columns(file, element_name, std::span(names).first(3)) : found;
+}
+
+}  // namespace detail
+
+namespace {
+
+using writer = void (*)(const detail::write_job&);
+
+struct known_format {
+    std::string_view extension;
+    std::string_view binary_name;  ///< empty when there is text only
+    std::string_view text_name;    ///< empty when there is no text
+    writer binary;
+    writer text;
+    bool single_only;  ///< the binary kind holds float32 only
+};
+
+constexpr known_format formats[] = {
+    {"stl", "stl-binary", "stl-ascii", detail::write_stl_binary, detail::write_stl_text, true},
+    {"obj", "", "obj", nullptr, detail::write_obj, false},
+    {"ply", "ply-binary-le", "ply-ascii", detail::write_ply, detail::write_ply, false},
+    {"off", "", "off", nullptr, detail::write_off, false},
+    {"xyz", "", "xyz", nullptr, detail::write_xyz, false},
+    {"glb", "glb", "", detail::write_glb, nullptr, true},
+};
+
+[[nodiscard]] const known_format& find_format(const std::filesystem::path& path,
+                                              const write_options& options) {
+    std::string wanted = options.format.empty() ? path.extension().string() : options.format;
+    if (wanted.starts_with('.')) wanted.erase(0, 1);
+    for (char& c : wanted) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    for (const known_format& f : formats)
+        if (f.extension == wanted) return f;
+    throw io_error(path.string() + ": format '" + wanted + "' cannot be written");
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+    throw std::invalid_argument("write_mesh: " + what);
+}
+
+void check_faces(const mesh_file& file) {
+    const auto& faces = file.mesh.faces;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (const std::uint32_t corner : faces[f])
+            if (corner >= file.mesh.points.size())
+                refuse("a corner of face " + std::to_string(f) + " is no point");
+    const auto& stored = file.stored_face;
+    if (stored.empty()) return;
+    if (stored.size() != faces.size()) refuse("stored_face has another size than faces");
+    if (stored[0] != 0) refuse("stored_face does not start with face 0");
+    for (std::size_t f = 1; f < faces.size(); ++f) {
+        if (stored[f] == stored[f - 1]) {
+            if (faces[f][0] != faces[f - 1][0] || faces[f][1] != faces[f - 1][2])
+                refuse("the triangles of stored face " + std::to_string(stored[f]) + " are no fan");
+        } else if (stored[f] != stored[f - 1] + 1) {
+            refuse("stored_face skips a face before triangle " + std::to_string(f));
+        }
+    }
+}
+
+void check_columns(const element& e) {
+    for (const column& c : e.columns) {
+        if (c.name.empty() || std::any_of(c.name.begin(), c.name.end(), detail::is_space))
+            refuse("column name '" + c.name + "' is empty or has blanks");
+        if (c.role != column_role::data) continue;
+        const std::size_t values = value_count(c);
+        const bool fits = c.list_length
+                              ? c.list_begin.size() == e.rows + 1 && c.list_begin.back() == values
+                              : values == e.rows;
+        if (!fits) refuse("column " + c.name + " does not fit element " + e.name);
+    }
+}
+
+void check_attributes(const mesh_file& file) {
+    for (const element& e : file.attributes.elements) {
+        if (e.name == "vertex" && e.rows != file.mesh.points.size())
+            refuse("element vertex has another number of rows than there are points");
+        if (e.name == "face" && e.rows != detail::stored_face_count(file))
+            refuse("element face has another number of rows than there are stored faces");
+        check_columns(e);
+    }
+}
+
+/// Largest change by rounding to float32.
+///
+/// \throws io_error when a finite coordinate becomes infinite
+[[nodiscard]] double largest_move(std::span<const point3> points, const std::string& name) {
+    // Numbers from here on round away from the largest float: half a last place above it.
+    constexpr double beyond = 0x1.ffffffp127;
+    double largest = 0.0;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double x = points[v][axis];
+            if (!std::isfinite(x)) continue;
+            if (std::abs(x) >= beyond)
+                throw io_error(name + ": vertex " + std::to_string(v) +
+                               " is beyond the range of float32");
+            largest = std::max(largest, std::abs(detail::nearest_float(x) - x));
+        }
+    }
+    return largest;
+}
+
+class writing {
+  public:
+    writing(const std::filesystem::path& path, const mesh_file& file, const write_options& options)
+        : file_(file),
+          options_(options),
+          name_(path.string()),
+          format_(find_format(path, options)) {
+        check_faces(file);
+        check_attributes(file);
+        const bool text = format_.binary == nullptr || (options.ascii && format_.text != nullptr);
+        writer_ = text ? format_.text : format_.binary;
+        result_.format = text ? format_.text_name : format_.binary_name;
+        result_.written_as = !text && format_.single_only
+                                 ? precision::single_
+                                 : options.precision.value_or(file.stored_as);
+        // A node's transform has made doubles of float32 numbers; those are worth keeping.
+        if (!options.precision && result_.written_as == precision::single_ &&
+            !(!text && format_.single_only) && !fits_single(file.mesh.points))
+            result_.written_as = precision::double_;
+        if (result_.written_as == precision::single_)
+            result_.largest_move = largest_move(file.mesh.points, name_);
+        if (file.mesh.faces.empty() && !file.mesh.points.empty() &&
+            (format_.extension == "stl" || format_.extension == "glb"))
+            throw io_error(name_ + ": " + std::string(format_.extension) +
+                           " holds no points without faces");
+    }
+
+    write_result run(detail::sink& out) {
+        writer_({.file = file_, .options = options_, .result = result_, .out = out});
+        out.flush();
+        return std::move(result_);
+    }
+
+  private:
+    const mesh_file& file_;
+    const write_options& options_;
+    std::string name_;
+    const known_format& format_;
+    writer writer_ = nullptr;
+    write_result result_{};
+};
+
+}  // namespace
+
+write_result write_mesh(const std::filesystem::path& path, const mesh_file& file,
+                        const write_options& options) {
+    writing job(path, file, options);
+    detail::output_file target(path);
+    detail::sink out(target.descriptor(), target.name());
+    write_result result = job.run(out);
+    target.commit();
+    return result;
+}
+
+std::string write_mesh_to_memory(const mesh_file& file, const write_options& options) {
+    std::string bytes;
+    detail::sink out(bytes);
+    (void)writing("memory", file, options).run(out);
+    return bytes;
+}
+
+}  // namespace tf

@@ -1,0 +1,54 @@
+#pragma once
+/// \file
+/// Writing a mesh or point file.
+
+#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/mesh_file.hpp>
+#include <libtree/export.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tf {
+
+struct write_options {
+    /// Extension without its dot: stl, obj, ply, off, xyz, glb. Empty: that of the path.
+    std::string format{};
+    /// Text where the format has both. For PLY, binary is little endian unless the file was read
+    /// from a big endian one.
+    bool ascii = false;
+    /// Type of the coordinates; none: as they were stored. Binary STL and GLB hold float32 only.
+    std::optional<tf::precision> precision{};
+};
+
+struct write_result {
+    std::string format{};  ///< "stl-binary", "ply-ascii", "obj", ...
+    tf::precision written_as = precision::double_;
+    double largest_move = 0.0;  ///< largest change of a coordinate by rounding to `written_as`
+    std::vector<io_warning> warnings{};
+};
+
+/// Writes `file` to `path`; "-" is standard output, which needs `options.format`.
+///
+/// A file appears whole or not at all: it is written beside its place and then renamed. Numbers in
+/// text are the shortest that read back as the same double, also when that is a float32 value.
+/// What the format can hold of `file.attributes` is written too: PLY takes all of it in its order,
+/// OFF normals, colours and texture coordinates, OBJ parts and vertex colours, STL its header, the
+/// names of solids and the column "stl_attribute", XYZ further columns, GLB one primitive for each
+/// colour of faces (columns red, green, blue and alpha, if any, of the element "face"). Polygons
+/// are written as such where the format has them.
+///
+/// \throws io_error when the format cannot hold the file or the file cannot be written
+/// \throws std::invalid_argument when a corner is no point, or an element "vertex" or "face" has
+///         another number of rows than there are points or stored faces
+/// \same   bytes for the same file and options
+TREEFORM_API write_result write_mesh(const std::filesystem::path& path, const mesh_file& file,
+                                     const write_options& options = {});
+
+/// The same to memory.
+[[nodiscard]] TREEFORM_API std::string write_mesh_to_memory(const mesh_file& file,
+                                                            const write_options& options);
+
+}  // namespace tf

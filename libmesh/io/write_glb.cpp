@@ -1,0 +1,198 @@
+#include <libmesh/io/detail/writers.hpp>
+#include <libmesh/io/io_error.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace tf::detail {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+using colour = std::array<double, 4>;
+
+constexpr std::size_t most_colours = 256;
+
+/// Triangles of one colour.
+struct primitive {
+    colour rgba{0.8, 0.8, 0.8, 1.0};
+    std::vector<std::uint32_t> triangles{};
+};
+
+/// glTF's factors are linear; colours in files are not. Rounded to what an eye can tell, so that
+/// the text does not depend on the last bit of std::pow.
+[[nodiscard]] double linear(double srgb) {
+    const double x = std::clamp(srgb, 0.0, 1.0);
+    const double y = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    return std::round(y * 1e4) / 1e4;
+}
+
+/// By first appearance.
+[[nodiscard]] std::vector<primitive> by_colour(const write_job& job) {
+    const mesh_file& file = job.file;
+    const auto columns = colour_columns(file, "face");
+    std::vector<primitive> primitives;
+    std::map<colour, std::size_t> number;
+    for (std::uint32_t f = 0; f < file.mesh.faces.size(); ++f) {
+        primitive one;
+        for (std::size_t c = 0; c < columns.size(); ++c)
+            one.rgba[c] = colour_value(*columns[c], face_row(file, f));
+        const auto [at, added] = number.emplace(one.rgba, primitives.size());
+        if (added) primitives.push_back(one);
+        if (primitives.size() > most_colours) {
+            job.result.warnings.push_back(
+                {"colours-dropped", "more than 256 different colours of faces; none was written"});
+            primitives.assign(1, {});
+            for (std::uint32_t all = 0; all < file.mesh.faces.size(); ++all)
+                primitives[0].triangles.push_back(all);
+            return primitives;
+        }
+        primitives[at->second].triangles.push_back(f);
+    }
+    return primitives;
+}
+
+[[nodiscard]] double largest_move(std::span<const point3> points, const point3& offset) {
+    double largest = 0.0;
+    for (const point3& p : points)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double local = nearest_float(p[axis] - offset[axis]);
+            largest = std::max(largest, std::abs(local + offset[axis] - p[axis]));
+        }
+    return largest;
+}
+
+struct box {
+    point3 min;
+    point3 max;
+};
+
+[[nodiscard]] box box_of(std::span<const point3> points) {
+    box b{points[0], points[0]};
+    for (const point3& p : points) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (!std::isfinite(p[axis])) throw io_error("GLB holds finite coordinates only");
+            b.min[axis] = std::min(b.min[axis], p[axis]);
+            b.max[axis] = std::max(b.max[axis], p[axis]);
+        }
+    }
+    return b;
+}
+
+/// Where the positions' origin is put: zero, or the middle of the box where that loses less. It is
+/// a float32 value, since readers take it for one.
+[[nodiscard]] point3 choose_offset(const write_job& job, const box& b) {
+    const auto& points = job.file.mesh.points;
+    point3 middle;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        middle[axis] = nearest_float(b.min[axis] / 2 + b.max[axis] / 2);
+    const double moved = largest_move(points, middle);
+    if (moved >= job.result.largest_move) return {};
+    job.result.largest_move = moved;
+    return middle;
+}
+
+[[nodiscard]] json describe(const std::vector<primitive>& primitives, const write_job& job,
+                            const box& b, const point3& offset, std::size_t position_bytes,
+                            std::size_t index_bytes) {
+    json root;
+    root["asset"] = {{"version", "2.0"}, {"generator", "treeform"}};
+    root["scene"] = 0;
+    root["scenes"] = json::array({{{"nodes", {0}}}});
+    json node = {{"mesh", 0}};
+    if (offset != point3{}) node["translation"] = {offset.x, offset.y, offset.z};
+    root["nodes"] = json::array({node});
+    const auto local = [&](const point3& p) {
+        json xyz = json::array();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            xyz.push_back(nearest_float(p[axis] - offset[axis]));
+        return xyz;
+    };
+    root["buffers"] = json::array({{{"byteLength", position_bytes + index_bytes}}});
+    root["bufferViews"] = json::array(
+        {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", position_bytes}, {"target", 34962}},
+         {{"buffer", 0},
+          {"byteOffset", position_bytes},
+          {"byteLength", index_bytes},
+          {"target", 34963}}});
+    json accessors = json::array({{{"bufferView", 0},
+                                   {"componentType", 5126},
+                                   {"count", job.file.mesh.points.size()},
+                                   {"type", "VEC3"},
+                                   {"min", local(b.min)},
+                                   {"max", local(b.max)}}});
+    json shapes = json::array();
+    json materials = json::array();
+    std::size_t first = 0;
+    for (const primitive& p : primitives) {
+        shapes.push_back({{"attributes", {{"POSITION", 0}}},
+                          {"indices", accessors.size()},
+                          {"material", materials.size()}});
+        accessors.push_back({{"bufferView", 1},
+                             {"byteOffset", first},
+                             {"componentType", 5125},
+                             {"count", 3 * p.triangles.size()},
+                             {"type", "SCALAR"}});
+        first += 12 * p.triangles.size();
+        json material = {{"doubleSided", true}};
+        material["pbrMetallicRoughness"] = {
+            {"baseColorFactor",
+             {linear(p.rgba[0]), linear(p.rgba[1]), linear(p.rgba[2]), p.rgba[3]}},
+            {"metallicFactor", 0.0}};
+        if (p.rgba[3] < 1.0) material["alphaMode"] = "BLEND";
+        materials.push_back(std::move(material));
+    }
+    root["accessors"] = std::move(accessors);
+    root["materials"] = std::move(materials);
+    root["meshes"] = json::array({{{"primitives", std::move(shapes)}}});
+    return root;
+}
+
+}  // namespace
+
+void write_glb(const write_job& job) {
+    const auto& mesh = job.file.mesh;
+    const std::size_t position_bytes = 12 * mesh.points.size();
+    const std::size_t index_bytes = 12 * mesh.faces.size();
+    json root = {{"asset", {{"version", "2.0"}, {"generator", "treeform"}}}};
+    std::vector<primitive> primitives;
+    point3 offset;
+    if (!mesh.faces.empty()) {
+        const box b = box_of(mesh.points);
+        offset = choose_offset(job, b);
+        primitives = by_colour(job);
+        root = describe(primitives, job, b, offset, position_bytes, index_bytes);
+    }
+    std::string text = root.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::size_t binary = position_bytes + index_bytes;
+    const std::size_t total = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
+    if (total > std::numeric_limits<std::uint32_t>::max())
+        throw io_error("GLB cannot be larger than 4 GiB");
+    const auto word = [&](std::size_t value) {
+        job.out.raw<std::endian::little>(static_cast<std::uint32_t>(value));
+    };
+    job.out.put("glTF");
+    word(2);
+    word(total);
+    word(text.size());
+    job.out.put("JSON");
+    job.out.put(text);
+    if (binary == 0) return;
+    word(binary);
+    job.out.put(std::string_view("BIN\0", 4));
+    for (const point3& p : mesh.points)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            job.out.raw<std::endian::little>(static_cast<float>(p[axis] - offset[axis]));
+    for (const primitive& p : primitives)
+        for (const std::uint32_t f : p.triangles)
+            for (const std::uint32_t corner : mesh.faces[f])
+                job.out.raw<std::endian::little>(corner);
+}
+
+}  // namespace tf::detail

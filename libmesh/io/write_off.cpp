@@ -1,0 +1,90 @@
+#include <libmesh/io/detail/writers.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace tf::detail {
+
+namespace {
+
+/// True for the whole numbers that are written with neither point nor exponent, as far as colours
+/// and their like go; std::to_chars gives an exponent where that is shorter.
+[[nodiscard]] bool is_whole(double value) {
+    return value == std::floor(value) && std::abs(value) < 1e5;
+}
+
+/// Values of a row. A point in the number says that it is not a whole one, which matters for
+/// colours: 1 is a 255th and 1.0 is full.
+void put_values(sink& out, const std::vector<const column*>& columns, std::size_t row) {
+    for (const column* c : columns) {
+        out.put(' ');
+        put_number(out, *c, row);
+        if (c->type >= scalar_type::float32 && is_whole(number_at(*c, row))) out.put(".0");
+    }
+}
+
+struct vertex_columns {
+    std::vector<const column*> normal;
+    std::vector<const column*> colour;
+    std::vector<const column*> texture;
+
+    explicit vertex_columns(const mesh_file& file) : colour(colour_columns(file, "vertex")) {
+        constexpr std::string_view normals[] = {"nx", "ny", "nz"};
+        constexpr std::string_view textures[] = {"s", "t"};
+        normal = scalar_columns(file, "vertex", normals);
+        texture = scalar_columns(file, "vertex", textures);
+    }
+    [[nodiscard]] std::string word() const {
+        std::string word = texture.empty() ? "" : "ST";
+        if (!colour.empty()) word += 'C';
+        if (!normal.empty()) word += 'N';
+        return word + "OFF\n";
+    }
+};
+
+/// The list that `read_off` makes of colours that differ in kind from face to face.
+void put_list(sink& out, const column* list, std::size_t row) {
+    if (list == nullptr || !list->list_length) return;
+    for (std::uint64_t i = list->list_begin[row]; i < list->list_begin[row + 1]; ++i) {
+        out.put(' ');
+        out.number(number_at(*list, i));
+    }
+}
+
+}  // namespace
+
+void write_off(const write_job& job) {
+    const mesh_file& file = job.file;
+    const vertex_columns columns(file);
+    sink& out = job.out;
+    out.put(columns.word());
+    out.number(file.mesh.points.size());
+    out.put(' ');
+    out.number(stored_face_count(file));
+    out.put(" 0\n");
+    for (std::size_t v = 0; v < file.mesh.points.size(); ++v) {
+        job.point(file.mesh.points[v]);
+        put_values(out, columns.normal, v);
+        put_values(out, columns.colour, v);
+        put_values(out, columns.texture, v);
+        out.put('\n');
+    }
+    const element* face_element = find_element(file.attributes, "face");
+    const column* list =
+        face_element == nullptr ? nullptr : find_column(*face_element, "off_colour");
+    constexpr std::string_view index_name[] = {"colour_index"};
+    auto colours = colour_columns(file, "face");
+    if (colours.empty()) colours = scalar_columns(file, "face", index_name);
+    for_each_stored_face(file, [&](std::size_t first, std::span<const std::uint32_t> corners) {
+        out.number(corners.size());
+        for (const std::uint32_t corner : corners) {
+            out.put(' ');
+            out.number(corner);
+        }
+        put_values(out, colours, face_row(file, first));
+        if (colours.empty()) put_list(out, list, face_row(file, first));
+        out.put('\n');
+    });
+}
+
+}  // namespace tf::detail

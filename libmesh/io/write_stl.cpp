@@ -1,0 +1,106 @@
+#include <libmesh/io/detail/writers.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace tf::detail {
+
+namespace {
+
+using vector3 = std::array<float, 3>;
+
+/// The corners of a triangle as they are written.
+using corners = std::array<point3, 3>;
+
+[[nodiscard]] corners written(const write_job& job, const face& f) {
+    corners abc;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const point3& p = job.file.mesh.points[f[c]];
+        abc[c] = {job.rounded(p.x), job.rounded(p.y), job.rounded(p.z)};
+    }
+    return abc;
+}
+
+/// The unit normal of a triangle; zero where there is none.
+[[nodiscard]] vector3 normal(const corners& abc) {
+    const auto& [a, b, c] = abc;
+    const point3 u{b.x - a.x, b.y - a.y, b.z - a.z};
+    const point3 v{c.x - a.x, c.y - a.y, c.z - a.z};
+    const point3 n{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+    const double length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+    if (!(length > 0.0) || !std::isfinite(length)) return {};
+    // + 0.0f turns -0 into 0.
+    return {static_cast<float>(n.x / length) + 0.0F, static_cast<float>(n.y / length) + 0.0F,
+            static_cast<float>(n.z / length) + 0.0F};
+}
+
+void put_vector(sink& out, const vector3& v) {
+    for (const float x : v) out.raw<std::endian::little>(x);
+}
+
+void text_facet(const write_job& job, const face& f) {
+    sink& out = job.out;
+    out.put("facet normal");
+    for (const float x : normal(written(job, f))) {
+        out.put(' ');
+        out.number(x);
+    }
+    out.put("\n outer loop\n");
+    for (const std::uint32_t corner : f) {
+        out.put("  vertex ");
+        job.point(job.file.mesh.points[corner]);
+        out.put('\n');
+    }
+    out.put(" endloop\nendfacet\n");
+}
+
+}  // namespace
+
+void write_stl_binary(const write_job& job) {
+    const mesh_file& file = job.file;
+    std::string header = file.attributes.header.size() == 80 ? file.attributes.header : "treeform";
+    header.resize(80, ' ');
+    job.out.put(header);
+    job.out.raw<std::endian::little>(static_cast<std::uint32_t>(file.mesh.faces.size()));
+    constexpr std::string_view names[] = {"stl_attribute"};
+    const auto bits = scalar_columns(file, "face", names);
+    for (std::size_t f = 0; f < file.mesh.faces.size(); ++f) {
+        const face& corners = file.mesh.faces[f];
+        put_vector(job.out, normal(written(job, corners)));
+        for (const std::uint32_t corner : corners) {
+            const point3& p = file.mesh.points[corner];
+            put_vector(job.out,
+                       {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+        }
+        const double value = bits.empty() ? 0.0 : number_at(*bits[0], face_row(file, f));
+        const bool fits = value >= 0.0 && value <= 65535.0;
+        job.out.raw<std::endian::little>(static_cast<std::uint16_t>(fits ? value : 0.0));
+    }
+}
+
+void write_stl_text(const write_job& job) {
+    const mesh_file& file = job.file;
+    const auto& parts = file.attributes.parts;
+    std::size_t next_part = 0;
+    std::string name;
+    const auto open = [&] {
+        if (next_part < parts.size()) name = parts[next_part++].object;
+        job.out.put(name.empty() ? "solid" : "solid " + name);
+        job.out.put('\n');
+    };
+    const auto close = [&] {
+        job.out.put(name.empty() ? "endsolid" : "endsolid " + name);
+        job.out.put('\n');
+    };
+    open();
+    for (std::size_t f = 0; f < file.mesh.faces.size(); ++f) {
+        while (next_part < parts.size() && parts[next_part].first_face <= face_row(file, f)) {
+            close();
+            open();
+        }
+        text_facet(job, file.mesh.faces[f]);
+    }
+    close();
+}
+
+}  // namespace tf::detail

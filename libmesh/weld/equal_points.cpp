@@ -1,0 +1,233 @@
+#include <libmesh/detail/check_faces.hpp>
+#include <libmesh/weld/equal_points.hpp>
+#include <libtree/detail/buffer.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+
+namespace tf {
+namespace {
+
+constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t grain = std::size_t{1} << 17;
+
+/// Equal coordinates have equal bits once -0 is made +0, on which no processor mode has a say: one
+/// that flushes denormals would take distinct ones for equal.
+std::uint64_t bits_of(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    return bits << 1 == 0 ? 0 : bits;
+}
+
+bool same(const point3& a, const point3& b) {
+    return bits_of(a.x) == bits_of(b.x) && bits_of(a.y) == bits_of(b.y) &&
+           bits_of(a.z) == bits_of(b.z);
+}
+
+bool has_nan(const point3& p) { return p.x != p.x || p.y != p.y || p.z != p.z; }
+
+/// A product by an odd number carries low bits up, the shift carries high ones down: coordinates
+/// that were floats differ in their high bits only. Each step is a bijection of what came before.
+std::uint32_t hash_of(const point3& p) {
+    std::uint64_t h = 0x243f6a8885a308d3;
+    for (const double x : {p.x, p.y, p.z}) {
+        h = (h + bits_of(x)) * 0x9e3779b97f4a7c15;
+        h ^= h >> 32;
+    }
+    return static_cast<std::uint32_t>((h * 0xd1342543de82ef95) >> 32);
+}
+
+struct entry {
+    std::uint32_t hash;
+    std::uint32_t point;
+};
+
+/// The points sorted by the leading bits of their hash, those of one bucket ascending.
+class buckets {
+  public:
+    /// `hashes` is [V].
+    explicit buckets(std::span<const std::uint32_t> hashes)
+        : bits_(bits_for(hashes.size())), entries_(hashes.size()) {
+        // At most 65 chunks: the counts are a table of chunks x buckets.
+        const std::size_t large = std::max(grain, hashes.size() / 64);
+        const std::size_t chunks = chunk_count(hashes.size(), large);
+        std::vector<std::size_t> next(chunks * count(), 0);
+        for_chunks(hashes.size(), large, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            std::size_t* const size = next.data() + c * count();
+            for (std::size_t i = begin; i < end; ++i) ++size[bucket_of(hashes[i])];
+        });
+        begin_.reserve(count() + 1);
+        std::size_t total = 0;
+        for (std::size_t b = 0; b < count(); ++b) {
+            begin_.push_back(total);
+            for (std::size_t c = 0; c < chunks; ++c) {
+                const std::size_t size = next[c * count() + b];
+                next[c * count() + b] = total;
+                total += size;
+            }
+        }
+        begin_.push_back(total);
+        for_chunks(hashes.size(), large, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            std::size_t* const at = next.data() + c * count();
+            for (std::size_t i = begin; i < end; ++i)
+                entries_[at[bucket_of(hashes[i])]++] = {hashes[i], static_cast<std::uint32_t>(i)};
+        });
+    }
+
+    [[nodiscard]] std::size_t count() const { return std::size_t{1} << bits_; }
+    [[nodiscard]] std::span<const entry> operator[](std::size_t b) const {
+        return entries_.span().subspan(begin_[b], begin_[b + 1] - begin_[b]);
+    }
+
+  private:
+    /// 2^12 points a bucket, whose lines of memory then stay in the second cache; at most 2^12
+    /// buckets, or the scatter would leave too many lines half-written.
+    static int bits_for(std::size_t points) {
+        return std::clamp(static_cast<int>(std::bit_width(points)) - 12, 0, 12);
+    }
+    [[nodiscard]] std::size_t bucket_of(std::uint32_t hash) const {
+        return static_cast<std::size_t>(std::uint64_t{hash} << bits_ >> 32);
+    }
+
+    int bits_;
+    detail::buffer<entry> entries_;
+    std::vector<std::size_t> begin_;
+};
+
+/// Distinct points by hash: open addressing, at most half full, grown as they come, so that many
+/// equal points need little memory.
+class distinct_points {
+  public:
+    explicit distinct_points(points_view points) : points_(points) {}
+
+    void clear() {
+        slots_.assign(std::min<std::size_t>(slots_.size(), largest_kept), empty);
+        used_ = 0;
+    }
+
+    /// The first point given that equals this one: itself if none does.
+    std::uint32_t first_like(const entry& e) {
+        if (2 * (used_ + 1) > slots_.size()) grow();
+        for (std::size_t at = e.hash & mask();; at = (at + 1) & mask()) {
+            entry& slot = slots_[at];
+            if (slot.point == nobody) {
+                slot = e;
+                ++used_;
+                return e.point;
+            }
+            if (slot.hash == e.hash && same(points_[slot.point], points_[e.point]))
+                return slot.point;
+        }
+    }
+
+  private:
+    static constexpr entry empty{0, nobody};
+    static constexpr std::size_t smallest = 64;
+    static constexpr std::size_t largest_kept = std::size_t{1} << 15;
+
+    [[nodiscard]] std::size_t mask() const { return slots_.size() - 1; }
+
+    void grow() {
+        std::vector<entry> old(std::max(2 * slots_.size(), smallest), empty);
+        old.swap(slots_);
+        for (const entry& e : old) {
+            if (e.point == nobody) continue;
+            std::size_t at = e.hash & mask();
+            while (slots_[at].point != nobody) at = (at + 1) & mask();
+            slots_[at] = e;
+        }
+    }
+
+    points_view points_;
+    std::vector<entry> slots_;
+    std::size_t used_ = 0;
+};
+
+/// Puts the first point like it in the place of each point's hash.
+void find_firsts(points_view points, std::vector<std::uint32_t>& hash_then_first) {
+    constexpr std::size_t ahead = 16;      // entries whose memory is under way
+    constexpr std::size_t per_chunk = 16;  // buckets that share a table
+    const buckets parts(hash_then_first);
+    for_chunks(parts.count(), per_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+        distinct_points distinct(points);
+        for (std::size_t b = begin; b < end; ++b) {
+            const std::span<const entry> bucket = parts[b];
+            distinct.clear();
+            for (std::size_t i = 0; i < bucket.size(); ++i) {
+                if (i + ahead < bucket.size()) {
+                    __builtin_prefetch(&points[bucket[i + ahead].point]);
+                    __builtin_prefetch(&hash_then_first[bucket[i + ahead].point], 1);
+                }
+                const entry& e = bucket[i];
+                hash_then_first[e.point] =
+                    has_nan(points[e.point]) ? e.point : distinct.first_like(e);
+            }
+        }
+    });
+}
+
+/// Numbers the points that are their own first, and gives every point the number of its first.
+void number(equal_points& result) {
+    std::vector<std::uint32_t>& first = result.new_of_old;
+    std::vector<std::uint32_t> next(chunk_count(first.size(), grain), 0);
+    for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t i = begin; i < end; ++i) next[c] += first[i] == i ? 1 : 0;
+    });
+    std::uint32_t total = 0;
+    for (std::uint32_t& n : next) {
+        const std::uint32_t count = n;
+        n = total;
+        total += count;
+    }
+    result.first_of_new.resize(total);
+    detail::buffer<std::uint32_t> number_of(first.size());
+    for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::uint32_t n = next[c];
+        for (std::size_t i = begin; i < end; ++i) {
+            if (first[i] != i) continue;
+            result.first_of_new[n] = static_cast<std::uint32_t>(i);
+            number_of[i] = n++;
+        }
+    });
+    for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) first[i] = number_of[first[i]];
+    });
+}
+
+}  // namespace
+
+equal_points find_equal_points(points_view points) {
+    if (points.size() > nobody)
+        throw std::invalid_argument("tf::find_equal_points: more than 2^32 - 1 points");
+    equal_points result;
+    result.new_of_old.resize(points.size());
+    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) result.new_of_old[i] = hash_of(points[i]);
+    });
+    find_firsts(points, result.new_of_old);
+    number(result);
+    return result;
+}
+
+mesh join_equal_points(mesh_view mesh) {
+    detail::check_faces("join_equal_points", mesh.points.size(), mesh.faces);
+    const equal_points joined = find_equal_points(mesh.points);
+    tf::mesh result;
+    result.points.resize(joined.first_of_new.size());
+    for_chunks(result.points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
+            result.points[i] = mesh.points[joined.first_of_new[i]];
+    });
+    result.faces.resize(mesh.faces.size());
+    for_chunks(result.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+                result.faces[i][k] = joined.new_of_old[mesh.faces[i][k]];
+    });
+    return result;
+}
+
+}  // namespace tf

@@ -1,0 +1,242 @@
+#include <libtree/detail/build_records.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace tf::detail {
+namespace {
+
+// Work is cut by these sizes, never by the thread count. A node above `shared_split` records is
+// halved by all threads together; below `subtree` records one thread takes the node to its leaves.
+constexpr std::size_t shared_split = std::size_t{1} << 16;
+constexpr std::size_t subtree = std::size_t{1} << 14;
+constexpr std::size_t split_chunk = std::size_t{1} << 12;
+
+center_range range_shared(const split_record* records, std::size_t count) {
+    std::vector<center_range> ranges(chunk_count(count, split_chunk));
+    for_chunks(count, split_chunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        ranges[chunk] = range_of(records + begin, end - begin);
+    });
+    center_range all = ranges[0];
+    for (const center_range& range : ranges) all.include(range);
+    return all;
+}
+
+/// `split` by all threads: count the three classes of every chunk, then move each record to its
+/// place. What falls between the brackets, a few per cent, is split by this thread.
+void split_shared(split_record* from, split_record* to, std::size_t count, std::size_t left,
+                  const split_axis& axis) {
+    constexpr std::size_t sample_size = 1024;
+    constexpr std::size_t spread = 52;  // 3.2 standard deviations of a median of 1024
+    std::array<float, sample_size> sample;
+    for (std::size_t i = 0; i < sample_size; ++i)
+        sample[i] = from[i * count / sample_size].center[axis.axis];
+    std::sort(sample.begin(), sample.end());
+    const std::size_t rank = left * sample_size / count;
+    const float lo = sample[rank > spread ? rank - spread : 0];
+    const float hi = sample[std::min(rank + spread, sample_size - 1)];
+
+    struct classes {
+        std::size_t below = 0, between = 0, above = 0;
+    };
+    std::vector<classes> at(chunk_count(count, split_chunk));
+    for_chunks(count, split_chunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        classes n;
+        for (std::size_t i = begin; i < end; ++i) {
+            n.below += from[i].center[axis.axis] < lo;
+            n.above += from[i].center[axis.axis] > hi;
+        }
+        n.between = end - begin - n.below - n.above;
+        at[chunk] = n;
+    });
+    classes total;
+    for (classes& n : at) {
+        const classes first = total;
+        total = {total.below + n.below, total.between + n.between, total.above + n.above};
+        n = first;
+    }
+    for_chunks(count, split_chunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        std::array<split_record, split_chunk> part;  // so that no write hits another chunk's places
+        const std::size_t size = end - begin;
+        const auto [below, between] = scatter(from + begin, part.data(), size, axis.axis, lo, hi);
+        std::copy_n(part.data(), below, to + at[chunk].below);
+        std::copy_n(from + begin, between, to + total.below + at[chunk].between);
+        std::copy_n(part.data() + (below + between), size - below - between,
+                    to + total.below + total.between + at[chunk].above);
+    });
+    // The class that holds the cut is split from a copy in `from`, where all has been read.
+    std::size_t begin = 0, size = total.below;
+    if (left >= total.below + total.between) {
+        begin = total.below + total.between;
+        size = total.above;
+    } else if (left >= total.below) {
+        begin = total.below;
+        size = total.between;
+    }
+    if (left == begin) return;
+    std::copy_n(to + begin, size, from + begin);
+    split(from + begin, to + begin, size, left - begin, axis);
+}
+
+/// The memory of the nodes, which hold nothing yet, as a second array of records: each leaf block
+/// has room for more than the 8 records it gets.
+template <std::size_t D>
+split_record* scratch_of(tree<D>& tree) {
+    static_assert(sizeof(wide_node<D>) >= tf::tree<D>::width * sizeof(split_record));
+    return ::new (static_cast<void*>(tree.level_data(0)))
+        split_record[std::max<std::size_t>(tree.size(), 1)];
+}
+
+/// Sorts the records into leaf order, from one array to the other at each level; they end up in
+/// `memory.records`.
+template <std::size_t D>
+void order_by_splits(const split_shape& shape, tree<D>& tree, build_memory<D>& memory) {
+    split_record* even = memory.records.data();
+    split_record* odd = scratch_of(tree);
+    if (shape.depth % 2 != 0) std::swap(even, odd);
+    unsigned d = 0;
+    for (; d < shape.depth && (shape.size >> d) > shared_split; ++d) {
+        split_record* const from = d % 2 == 0 ? even : odd;
+        split_record* const to = d % 2 == 0 ? odd : even;
+        for (std::size_t node = 0; node < (std::size_t{1} << d); ++node) {
+            const std::size_t begin = shape.begin(node, d);
+            const std::size_t count = shape.begin(node + 1, d) - begin;
+            const std::size_t left = shape.begin(2 * node + 1, d + 1) - begin;
+            split_shared(from + begin, to + begin, count, left,
+                         widest_axis(range_shared(from + begin, count)));
+        }
+    }
+    // Below, nodes are independent: halve to the grain of a task, then a task a node.
+    for (; d < shape.depth && (shape.size >> d) > subtree; ++d)
+        for_chunks(std::size_t{1} << d, 1, [&](std::size_t node, std::size_t, std::size_t) {
+            const std::size_t begin = shape.begin(node, d);
+            const std::size_t count = shape.begin(node + 1, d) - begin;
+            split_record* const from = (d % 2 == 0 ? even : odd) + begin;
+            split_record* const to = (d % 2 == 0 ? odd : even) + begin;
+            split(from, to, count, shape.begin(2 * node + 1, d + 1) - begin,
+                  widest_axis(range_of(from, count)));
+        });
+    for_chunks(std::size_t{1} << d, 1, [&](std::size_t node, std::size_t, std::size_t) {
+        split_subtree(even, odd, shape, d, node);
+    });
+}
+
+void select_subtree(split_record* records, const split_shape& shape, const select_records& select,
+                    unsigned d, std::size_t node) {
+    if (d == shape.depth) return;
+    const std::size_t begin = shape.begin(node, d);
+    const std::size_t end = shape.begin(node + 1, d);
+    const split_axis axis = widest_axis(range_of(records + begin, end - begin));
+    select(records + begin, records + shape.begin(2 * node + 1, d + 1), records + end, axis.axis);
+    select_subtree(records, shape, select, d + 1, 2 * node);
+    select_subtree(records, shape, select, d + 1, 2 * node + 1);
+}
+
+/// The same with a selection of the caller's, in place: serial down to nodes of a task's grain.
+template <std::size_t D>
+void order_by_selection(const split_shape& shape, build_memory<D>& memory,
+                        const select_records& select) {
+    split_record* const records = memory.records.data();
+    unsigned d = 0;
+    for (; d < shape.depth && (shape.size >> d) > subtree; ++d)
+        for_chunks(std::size_t{1} << d, 1, [&](std::size_t node, std::size_t, std::size_t) {
+            const std::size_t begin = shape.begin(node, d);
+            const std::size_t end = shape.begin(node + 1, d);
+            const split_axis axis = widest_axis(range_of(records + begin, end - begin));
+            select(records + begin, records + shape.begin(2 * node + 1, d + 1), records + end,
+                   axis.axis);
+        });
+    for_chunks(std::size_t{1} << d, 1, [&](std::size_t node, std::size_t, std::size_t) {
+        select_subtree(records, shape, select, d, node);
+    });
+}
+
+template <std::size_t D>
+void clear(wide_node<D>& node) {
+    for (std::size_t k = 0; k < D; ++k) {
+        std::fill_n(node.min[k], tree<D>::width, std::numeric_limits<float>::infinity());
+        std::fill_n(node.max[k], tree<D>::width, -std::numeric_limits<float>::infinity());
+    }
+}
+
+template <std::size_t D>
+void fill_leaves(tree<D>& tree, const split_record* order, const float_box<D>* boxes) {
+    constexpr std::size_t ahead = 24;  // boxes come from anywhere in memory: ask for them early
+    wide_node<D>* const leaves = tree.level_data(tree.levels() - 1);
+    std::uint32_t* const ids = tree.ids_data();
+    for_chunks(tree.nodes_in_level(tree.levels() - 1), 1024,
+               [&](std::size_t first, std::size_t last, std::size_t) {
+                   for (std::size_t block = first; block < last; ++block) {
+                       wide_node<D>& leaf = leaves[block];
+                       clear(leaf);
+                       const std::size_t begin = tree.leaf_begin(block);
+                       const std::size_t end = tree.leaf_begin(block + 1);
+                       for (std::size_t i = begin; i < end; ++i) {
+                           if (i + ahead < tree.size())
+                               __builtin_prefetch(&boxes[order[i + ahead].id]);
+                           const std::uint32_t id = order[i].id;
+                           ids[i] = id;
+                           for (std::size_t k = 0; k < D; ++k) {
+                               leaf.min[k][i - begin] = boxes[id].min[k];
+                               leaf.max[k][i - begin] = boxes[id].max[k];
+                           }
+                       }
+                   }
+               });
+}
+
+/// Boxes of the inner levels, each from the level below.
+template <std::size_t D>
+void fill_inner(tree<D>& tree) {
+    for (unsigned level = tree.levels() - 1; level-- > 0;) {
+        wide_node<D>* const nodes = tree.level_data(level);
+        const wide_node<D>* const below = tree.level_data(level + 1);
+        const std::size_t arity = level == 0 ? tree.root_arity() : tree.width;
+        for_chunks(tree.nodes_in_level(level), 256,
+                   [&](std::size_t first, std::size_t last, std::size_t) {
+                       for (std::size_t n = first; n < last; ++n) {
+                           clear(nodes[n]);
+                           for (std::size_t c = 0; c < arity; ++c)
+                               for (std::size_t k = 0; k < D; ++k) {
+                                   const wide_node<D>& child = below[n * arity + c];
+                                   nodes[n].min[k][c] =
+                                       *std::min_element(child.min[k], child.min[k] + tree.width);
+                                   nodes[n].max[k][c] =
+                                       *std::max_element(child.max[k], child.max[k] + tree.width);
+                               }
+                       }
+                   });
+    }
+}
+
+}  // namespace
+
+template <std::size_t D>
+split_record* records_of(tree<D>& tree, build_memory<D>& memory, const select_records* select) {
+    memory.records.resize(tree.size());
+    const bool starts_in_scratch = select == nullptr && tree.depth() % 2 != 0;
+    return starts_in_scratch ? scratch_of(tree) : memory.records.data();
+}
+
+template <std::size_t D>
+void build_from_records(tree<D>& tree, build_memory<D>& memory, const select_records* select) {
+    const split_shape shape{tree.size(), tree.depth()};
+    if (select == nullptr)
+        order_by_splits(shape, tree, memory);
+    else
+        order_by_selection(shape, memory, *select);
+    fill_leaves(tree, memory.records.data(), memory.boxes.data());
+    fill_inner(tree);
+}
+
+template split_record* records_of(tree<2>&, build_memory<2>&, const select_records*);
+template split_record* records_of(tree<3>&, build_memory<3>&, const select_records*);
+template void build_from_records(tree<2>&, build_memory<2>&, const select_records*);
+template void build_from_records(tree<3>&, build_memory<3>&, const select_records*);
+
+}  // namespace tf::detail

@@ -1,0 +1,48 @@
+# What `cmake --install` writes: headers under include/treeform/, the two libraries, and what makes
+# them found by find_package(treeform CONFIG) and by pkg-config. The folder can be moved afterwards.
+include(CMakePackageConfigHelpers)
+
+# A shared library carries its own dependencies; who links a static one has to find them too.
+get_target_property(treeform_kind treeform_mesh TYPE)
+set(treeform_dependencies "")
+set(treeform_pc_private "")
+if(treeform_kind STREQUAL "STATIC_LIBRARY")
+    set(treeform_packages Threads hwy)
+    set(treeform_pc_packages libhwy)
+    if(NOT TREEFORM_PLAIN_THREADS)
+        list(APPEND treeform_packages TBB)
+        list(APPEND treeform_pc_packages tbb)
+    endif()
+    if(TREEFORM_WITH_ASSIMP)
+        list(APPEND treeform_pc_packages assimp)
+    endif()
+    foreach(package IN LISTS treeform_packages)
+        string(APPEND treeform_dependencies "find_dependency(${package})\n")
+    endforeach()
+    list(JOIN treeform_pc_packages ", " treeform_pc_packages)
+    # "Requires", not "Requires.private": this installation has no shared library, so that the
+    # dependencies are needed without --static too.
+    set(treeform_pc_private "Requires: ${treeform_pc_packages}\nLibs.private: -pthread -lstdc++")
+endif()
+
+set(treeform_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/treeform)
+install(TARGETS treeform_tree treeform_mesh
+    EXPORT treeformTargets
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/treeform)
+install(EXPORT treeformTargets NAMESPACE treeform:: DESTINATION ${treeform_config_dir})
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/treeformConfig.cmake.in
+    ${PROJECT_BINARY_DIR}/treeformConfig.cmake
+    INSTALL_DESTINATION ${treeform_config_dir}
+    NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/treeformConfigVersion.cmake
+    COMPATIBILITY SameMajorVersion)
+install(FILES
+    ${PROJECT_BINARY_DIR}/treeformConfig.cmake
+    ${PROJECT_BINARY_DIR}/treeformConfigVersion.cmake
+    DESTINATION ${treeform_config_dir})
+
+file(RELATIVE_PATH treeform_pc_prefix
+    /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/treeform.pc.in ${PROJECT_BINARY_DIR}/treeform.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/treeform.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

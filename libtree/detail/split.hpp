@@ -1,0 +1,102 @@
+#pragma once
+/// \file
+/// Halving a set of primitives by the position of their centres: the inner loop of the build.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace tf::detail {
+
+/// Centre of a primitive's box in the frame of the tree, and the primitive. Coordinates are finite;
+/// in the plane the third is 0, which no split chooses. Sixteen bytes: one vector register.
+struct split_record {
+    float center[3];
+    std::uint32_t id;
+};
+
+/// The perfect binary hierarchy over `size` primitives: node i at depth d holds the places
+/// [i*size >> d, (i+1)*size >> d).
+struct split_shape {
+    std::size_t size;
+    unsigned depth;
+
+    [[nodiscard]] std::size_t begin(std::size_t node, unsigned d) const {
+        return (node * size) >> d;
+    }
+};
+
+/// The box of some centres.
+struct center_range {
+    float min[3];
+    float max[3];
+
+    void include(const center_range& other) {
+        for (int k = 0; k < 3; ++k) {
+            min[k] = other.min[k] < min[k] ? other.min[k] : min[k];
+            max[k] = other.max[k] > max[k] ? other.max[k] : max[k];
+        }
+    }
+};
+
+/// \pre count > 0
+[[nodiscard]] center_range range_of(const split_record* records, std::size_t count);
+
+/// An axis and the range of the centres on it.
+struct split_axis {
+    int axis;
+    float min, max;
+};
+
+/// The axis along which the centres spread most; the first of equal ones.
+[[nodiscard]] inline split_axis widest_axis(const center_range& range) {
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+        if (range.max[k] - range.min[k] > range.max[axis] - range.min[axis]) axis = k;
+    return {axis, range.min[axis], range.max[axis]};
+}
+
+/// How many records lie below a bracket of keys, and how many in it.
+struct bracket_counts {
+    std::size_t below, between;
+};
+
+/// Moves the records below `lo` on `axis` to the front of `to`, those above `hi` to its back, last
+/// first, and the few between to the front of `from`, whose records have been read by then. Without
+/// a branch: each record is written to all three places, and two of them are written again.
+///
+/// \pre `to` has room for `count` records
+inline bracket_counts scatter(split_record* from, split_record* to, std::size_t count, int axis,
+                              float lo, float hi) {
+    split_record* below_end = to;
+    split_record* above_begin = to + count;
+    split_record* between_end = from;
+    for (std::size_t i = 0; i < count; ++i) {
+        const split_record record = from[i];
+        const float key = record.center[axis];
+        const std::size_t is_below = key < lo;
+        const std::size_t is_above = key > hi;
+        *below_end = record;
+        *(above_begin - 1) = record;
+        *between_end = record;
+        below_end += is_below;
+        above_begin -= is_above;
+        between_end += 1 - (is_below + is_above);
+    }
+    return {static_cast<std::size_t>(below_end - to), static_cast<std::size_t>(between_end - from)};
+}
+
+/// Moves `count` records from `from` to `to` so that none of the first `left` lies behind any of
+/// the others along `axis`, up to a thousandth of its range in sets of a few. `from` is
+/// overwritten. Which of several records with equal keys go
+/// left depends on their order in `from` alone.
+///
+/// \cost O(count) expected, whatever the order of the records
+void split(split_record* from, split_record* to, std::size_t count, std::size_t left,
+           const split_axis& axis);
+
+/// Splits node `node` at depth `d` down to the leaf blocks, each time along the widest axis. The
+/// records of depth d lie in `even` or `odd`, by the parity of d; both arrays hold the whole tree.
+void split_subtree(split_record* even, split_record* odd, const split_shape& shape, unsigned d,
+                   std::size_t node);
+
+}  // namespace tf::detail

@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// The one door to threads.
+///
+/// Work is cut by the data, never by the number of threads, so what a loop computes is the same
+/// on any number of them: a body writes only to slots of its own chunk, and the caller joins the
+/// slots in order.
+
+#include <libtree/detail/function_ref.hpp>
+#include <libtree/export.hpp>
+
+#include <cstddef>
+#include <memory>
+
+namespace tf {
+
+/// Runs `body(begin, end, chunk)` once for each piece [begin, end) of [0, count) of `grain`
+/// elements (the last may be shorter), in any order, on the threads at hand. `chunk` counts the
+/// pieces from 0. Returns when all are done; an exception of a body is passed on to the caller.
+///
+/// \pre  grain > 0
+/// \cost a few microseconds a call beyond the first chunk; loops of one chunk run in place
+TREEFORM_API void for_chunks(
+    std::size_t count, std::size_t grain,
+    detail::function_ref<void(std::size_t begin, std::size_t end, std::size_t chunk)> body);
+
+/// Number of chunks that `for_chunks(count, grain, ...)` runs.
+[[nodiscard]] constexpr std::size_t chunk_count(std::size_t count, std::size_t grain) {
+    return count / grain + (count % grain != 0 ? 1 : 0);
+}
+
+/// Threads a loop may use now.
+[[nodiscard]] TREEFORM_API unsigned thread_count();
+
+/// While it lives, loops of the whole process use at most `threads` threads; 0 asks for all.
+/// Nested scopes only lower the number.
+class TREEFORM_API thread_scope {
+  public:
+    explicit thread_scope(unsigned threads);
+    ~thread_scope();
+    thread_scope(const thread_scope&) = delete;
+    thread_scope& operator=(const thread_scope&) = delete;
+
+  private:
+    struct state;
+    std::unique_ptr<state> state_;
+};
+
+}  // namespace tf

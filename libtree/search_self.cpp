@@ -1,0 +1,283 @@
+#include <libtree/parallel.hpp>
+#include <libtree/search_self.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libtree/search_self.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#ifndef TREEFORM_SEARCH_SELF_ONCE
+#define TREEFORM_SEARCH_SELF_ONCE
+namespace tf::detail {
+namespace {
+
+using block_visitor = function_ref<bool(const candidate_block&)>;
+
+/// The positions of the bits of a mask of eight, ascending, the rest 0.
+struct mask_bits {
+    std::array<std::uint8_t, 8> positions;
+    std::uint8_t count;
+};
+constexpr auto bits_of_mask = [] {
+    std::array<mask_bits, 256> table{};
+    for (unsigned mask = 0; mask < 256; ++mask)
+        for (unsigned bit = 0; bit < 8; ++bit)
+            if ((mask >> bit & 1U) != 0)
+                table[mask].positions[table[mask].count++] = static_cast<std::uint8_t>(bit);
+    return table;
+}();
+
+/// Gathers candidates into blocks and hands on the full ones.
+class candidate_sink {
+  public:
+    explicit candidate_sink(block_visitor visit) : visit_(visit) {}
+
+    /// Adds the pairs of `first` with `second` + each bit of `mask`.
+    void add(std::uint32_t first, std::uint32_t second, unsigned mask) {
+        // All eight are written and the count moves on by those that are real.
+        for (unsigned i = 0; i < 8; ++i) {
+            first_[count_ + i] = first;
+            second_[count_ + i] = second + bits_of_mask[mask].positions[i];
+        }
+        count_ += bits_of_mask[mask].count;
+        if (count_ > max_candidates - 8) flush();
+    }
+
+    void flush() {
+        if (count_ != 0 && !stopped_)
+            stopped_ = !visit_({{first_.data(), count_}, {second_.data(), count_}});
+        count_ = 0;
+    }
+
+    [[nodiscard]] bool stopped() const { return stopped_; }
+
+  private:
+    block_visitor visit_;
+    std::size_t count_ = 0;
+    bool stopped_ = false;
+    std::array<std::uint32_t, max_candidates + 8> first_;
+    std::array<std::uint32_t, max_candidates + 8> second_;
+};
+
+}  // namespace
+}  // namespace tf::detail
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace tf::detail::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Which boxes of `node` overlap box `slot` of `other`, a bit each.
+template <std::size_t D>
+unsigned overlap_mask(const wide_node<D>& node, const wide_node<D>& other, std::size_t slot) {
+    const hn::CappedTag<float, 8> d;
+    const std::size_t lanes = hn::Lanes(d);
+    unsigned mask = 0;
+    for (std::size_t i = 0; i < 8; i += lanes) {
+        auto overlap = hn::Le(hn::Load(d, node.min[0] + i), hn::Set(d, other.max[0][slot]));
+        overlap =
+            hn::And(overlap, hn::Ge(hn::Load(d, node.max[0] + i), hn::Set(d, other.min[0][slot])));
+        for (std::size_t k = 1; k < D; ++k) {
+            overlap = hn::And(overlap,
+                              hn::Le(hn::Load(d, node.min[k] + i), hn::Set(d, other.max[k][slot])));
+            overlap = hn::And(overlap,
+                              hn::Ge(hn::Load(d, node.max[k] + i), hn::Set(d, other.min[k][slot])));
+        }
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(d, overlap, bits);
+        mask |= (bits[0] & ((1U << lanes) - 1)) << i;
+    }
+    return mask;
+}
+
+template <std::size_t D>
+struct self_traversal {
+    const tree<D>& t;
+    candidate_sink& sink;
+
+    /// All pairs between the primitives below two nodes of `level`; the box of b is box `slot` of
+    /// its parent, and overlaps that of a.
+    void pair(unsigned level, std::size_t a, std::size_t b, const wide_node<D>& parent_of_b,
+              std::size_t slot) {
+        const wide_node<D>& node_a = t.level(level)[a];
+        const wide_node<D>& node_b = t.level(level)[b];
+        for (unsigned as = overlap_mask(node_a, parent_of_b, slot); as != 0; as &= as - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(as));
+            const unsigned bs = overlap_mask(node_b, node_a, i);
+            if (t.is_leaf_level(level))
+                emit(t.leaf_begin(a) + i, t.leaf_begin(b), bs);
+            else
+                for (unsigned rest = bs; rest != 0; rest &= rest - 1) {
+                    const auto j = static_cast<std::size_t>(std::countr_zero(rest));
+                    pair(level + 1, child(level, a, i), child(level, b, j), node_b, j);
+                    if (sink.stopped()) return;
+                }
+        }
+    }
+
+    /// All pairs among the primitives below one node.
+    void self(unsigned level, std::size_t a) {
+        const wide_node<D>& node = t.level(level)[a];
+        const std::size_t count = t.is_leaf_level(level) ? t.leaf_begin(a + 1) - t.leaf_begin(a)
+                                  : level == 0           ? t.root_arity()
+                                                         : t.width;
+        for (std::size_t i = 0; i < count; ++i) {
+            const unsigned later = overlap_mask(node, node, i) & ~((2U << i) - 1);
+            if (t.is_leaf_level(level)) {
+                emit(t.leaf_begin(a) + i, t.leaf_begin(a), later);
+            } else {
+                self(level + 1, child(level, a, i));
+                for (unsigned rest = later; rest != 0; rest &= rest - 1) {
+                    const auto j = static_cast<std::size_t>(std::countr_zero(rest));
+                    pair(level + 1, child(level, a, i), child(level, a, j), node, j);
+                    if (sink.stopped()) return;
+                }
+            }
+        }
+    }
+
+    void visit(unsigned level, node_pair pair_of_nodes) {
+        const auto [a, b] = pair_of_nodes;
+        if (a == b) return self(level, a);
+        const std::size_t arity = level == 1 ? t.root_arity() : t.width;
+        pair(level, a, b, t.level(level - 1)[b / arity], b % arity);
+    }
+
+    void emit(std::size_t first, std::size_t second, unsigned mask) {
+        if (mask != 0)
+            sink.add(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(second), mask);
+    }
+
+    [[nodiscard]] std::size_t child(unsigned level, std::size_t node, std::size_t i) const {
+        return node * (level == 0 ? t.root_arity() : t.width) + i;
+    }
+};
+
+/// The overlapping node pairs of the level below, in the order the serial search meets them.
+template <std::size_t D>
+void descend(const tree<D>& t, unsigned level, std::span<const node_pair> pairs,
+             std::vector<node_pair>& below) {
+    const std::size_t arity = level == 0 ? t.root_arity() : t.width;
+    const auto push = [&](std::size_t a, std::size_t b) {
+        below.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
+    };
+    for (const auto [a, b] : pairs) {
+        const wide_node<D>& node_a = t.level(level)[a];
+        const wide_node<D>& node_b = t.level(level)[b];
+        for (std::size_t i = 0; i < arity; ++i) {
+            unsigned bs = overlap_mask(node_b, node_a, i);
+            if (a == b) {
+                push(a * arity + i, a * arity + i);
+                bs &= ~((2U << i) - 1);
+            }
+            for (; bs != 0; bs &= bs - 1)
+                push(a * arity + i, b * arity + static_cast<std::size_t>(std::countr_zero(bs)));
+        }
+    }
+}
+
+template <std::size_t D>
+void search_items(const tree<D>& t, unsigned level, std::span<const node_pair> items,
+                  block_visitor visit) {
+    candidate_sink sink(visit);
+    self_traversal<D> traversal{t, sink};
+    for (const node_pair item : items) {
+        traversal.visit(level, item);
+        if (sink.stopped()) return;
+    }
+    sink.flush();
+}
+
+void descend_2(const tree<2>& t, unsigned level, std::span<const node_pair> pairs,
+               std::vector<node_pair>& below) {
+    descend(t, level, pairs, below);
+}
+void descend_3(const tree<3>& t, unsigned level, std::span<const node_pair> pairs,
+               std::vector<node_pair>& below) {
+    descend(t, level, pairs, below);
+}
+void search_items_2(const tree<2>& t, unsigned level, std::span<const node_pair> items,
+                    block_visitor visit) {
+    search_items(t, level, items, visit);
+}
+void search_items_3(const tree<3>& t, unsigned level, std::span<const node_pair> items,
+                    block_visitor visit) {
+    search_items(t, level, items, visit);
+}
+
+}  // namespace
+}  // namespace tf::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tf {
+namespace detail {
+namespace {
+
+HWY_EXPORT(descend_2);
+HWY_EXPORT(descend_3);
+HWY_EXPORT(search_items_2);
+HWY_EXPORT(search_items_3);
+
+void descend(const tree<2>& t, unsigned level, std::span<const node_pair> pairs,
+             std::vector<node_pair>& below) {
+    HWY_DYNAMIC_DISPATCH(descend_2)(t, level, pairs, below);
+}
+void descend(const tree<3>& t, unsigned level, std::span<const node_pair> pairs,
+             std::vector<node_pair>& below) {
+    HWY_DYNAMIC_DISPATCH(descend_3)(t, level, pairs, below);
+}
+void search_items(const tree<2>& t, unsigned level, std::span<const node_pair> items,
+                  block_visitor visit) {
+    HWY_DYNAMIC_DISPATCH(search_items_2)(t, level, items, visit);
+}
+void search_items(const tree<3>& t, unsigned level, std::span<const node_pair> items,
+                  block_visitor visit) {
+    HWY_DYNAMIC_DISPATCH(search_items_3)(t, level, items, visit);
+}
+
+// Where the search is cut: at the first level with enough pairs of nodes, in pieces of a few. Both
+// are constants, so that results depend on the tree alone.
+constexpr std::size_t enough_items = 2048;
+constexpr std::size_t items_per_chunk = 16;
+
+}  // namespace
+}  // namespace detail
+
+template <std::size_t D>
+self_search<D>::self_search(const tree<D>& tree) : tree_(&tree) {
+    if (tree.empty()) return;
+    items_ = {{0, 0}};
+    while (!tree.is_leaf_level(level_) && items_.size() < detail::enough_items) {
+        std::vector<detail::node_pair> below;
+        detail::descend(tree, level_, items_, below);
+        items_ = std::move(below);
+        ++level_;
+    }
+}
+
+template <std::size_t D>
+std::size_t self_search<D>::chunks() const {
+    return chunk_count(items_.size(), detail::items_per_chunk);
+}
+
+template <std::size_t D>
+void self_search<D>::visit(std::size_t chunk,
+                           detail::function_ref<bool(const candidate_block&)> visit) const {
+    const std::size_t begin = chunk * detail::items_per_chunk;
+    const std::size_t count = std::min(detail::items_per_chunk, items_.size() - begin);
+    detail::search_items(*tree_, level_, std::span(items_).subspan(begin, count), visit);
+}
+
+template class self_search<2>;
+template class self_search<3>;
+
+}  // namespace tf
+#endif

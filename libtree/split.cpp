@@ -1,0 +1,235 @@
+#include <libtree/detail/split.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libtree/split.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace tf::detail::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Smallest and largest of each of the four words of a record; the id rides along, unused.
+void word_ranges(const split_record* records, std::size_t count, float* lo, float* hi) {
+#if HWY_TARGET == HWY_SCALAR
+    for (int k = 0; k < 3; ++k) lo[k] = hi[k] = records[0].center[k];
+    for (std::size_t i = 1; i < count; ++i)
+        for (int k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], records[i].center[k]);
+            hi[k] = std::max(hi[k], records[i].center[k]);
+        }
+#else
+    const hn::FixedTag<float, 4> d;
+    auto min0 = hn::LoadU(d, records[0].center), max0 = min0;
+    auto min1 = min0, max1 = max0;  // two chains, since one waits for its own last result
+    std::size_t i = 1;
+    for (; i + 1 < count; i += 2) {
+        const auto a = hn::LoadU(d, records[i].center);
+        const auto b = hn::LoadU(d, records[i + 1].center);
+        min0 = hn::Min(min0, a);
+        max0 = hn::Max(max0, a);
+        min1 = hn::Min(min1, b);
+        max1 = hn::Max(max1, b);
+    }
+    if (i < count) {
+        const auto a = hn::LoadU(d, records[i].center);
+        min0 = hn::Min(min0, a);
+        max0 = hn::Max(max0, a);
+    }
+    hn::StoreU(hn::Min(min0, min1), d, lo);
+    hn::StoreU(hn::Max(max0, max1), d, hi);
+#endif
+}
+
+center_range range_of_records(const split_record* records, std::size_t count) {
+    float lo[4], hi[4];
+    word_ranges(records, count, lo, hi);
+    return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
+}
+
+/// rank[i] = number of keys less than keys[i]. Both arrays are padded to whole vectors; all keys
+/// differ and the padding is not less than any.
+template <class Key>
+void rank_by_counting(const Key* keys, std::size_t count, Key* rank) {
+    const hn::CappedTag<Key, 32 / sizeof(Key)> d;
+    const std::size_t lanes = hn::Lanes(d);
+    for (std::size_t i = 0; i < count; i += 2 * lanes) {
+        const auto key0 = hn::Load(d, keys + i);
+        const auto key1 = hn::Load(d, keys + i + lanes);
+        auto less0 = hn::Zero(d);
+        auto less1 = hn::Zero(d);
+        for (std::size_t j = 0; j < count; ++j) {
+            const auto other = hn::Set(d, keys[j]);
+            less0 = hn::Sub(less0, hn::VecFromMask(d, hn::Lt(other, key0)));
+            less1 = hn::Sub(less1, hn::VecFromMask(d, hn::Lt(other, key1)));
+        }
+        hn::Store(less0, d, rank + i);
+        hn::Store(less1, d, rank + i + lanes);
+    }
+}
+
+constexpr std::size_t max_ranked = 64;
+constexpr std::size_t padding = 32;  // two vectors of 16-bit keys
+
+/// Splits up to `max_ranked` records by sorting them on ten bits of their key within the range of
+/// the axis; the position in `from` fills the low six bits, so that no two keys are equal. Records
+/// less than a thousandth of the range apart may so end up on the wrong side of the cut; their
+/// boxes hold them wherever they are.
+void split_by_rank(const split_record* from, split_record* to, std::size_t count,
+                   const split_axis& axis) {
+    alignas(64) std::int16_t keys[max_ranked + padding];
+    alignas(64) std::int16_t rank[max_ranked + padding];
+    // Halved, so that the range of two extreme floats is finite.
+    const float base = 0.5F * axis.min;
+    const float range = 0.5F * axis.max - base;
+    const float scale = range > 1e-30F ? 1023.0F / range : 0.0F;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float place = (0.5F * from[i].center[axis.axis] - base) * scale;
+        const auto cell = static_cast<std::int32_t>(std::min(std::max(place, 0.0F), 1023.0F));
+        keys[i] = static_cast<std::int16_t>(cell * 64 + static_cast<std::int32_t>(i) - 32768);
+    }
+    std::fill_n(keys + count, padding, std::numeric_limits<std::int16_t>::max());
+    rank_by_counting(keys, count, rank);
+    for (std::size_t i = 0; i < count; ++i) to[rank[i]] = from[i];
+}
+
+struct bracket {
+    float lo, hi;
+};
+
+/// Two keys between which the key of rank `left` of `count` lies in all likelihood: the order
+/// statistics of a sample, 1.6 standard deviations to either side.
+/// \source Floyd and Rivest, Expected Time Bounds for Selection, CACM 18 (1975)
+bracket bracket_of(const split_record* records, std::size_t count, std::size_t left, int axis) {
+    constexpr std::size_t max_sample = 128;
+    alignas(64) std::int32_t keys[max_sample + padding];
+    alignas(64) std::int32_t rank[max_sample + padding];
+    const std::size_t sample = count <= 256 ? 32 : count <= 4096 ? 64 : 128;
+    for (std::size_t i = 0; i < sample; ++i) {
+        const auto bits = std::bit_cast<std::int32_t>(records[i * count / sample].center[axis]);
+        const std::int32_t ordered = bits ^ ((bits >> 31) & 0x7FFFFFFF);
+        keys[i] =
+            (ordered & ~127) | static_cast<std::int32_t>(i);  // unique; the place matters more
+    }
+    std::fill_n(keys + sample, padding, std::numeric_limits<std::int32_t>::max());
+    rank_by_counting(keys, sample, rank);
+
+    const double share = static_cast<double>(left) / static_cast<double>(count);
+    const double s = static_cast<double>(sample);
+    const double spread = 1.6 * std::sqrt(share * (1.0 - share) * s) + 1.0;
+    const auto lowest = static_cast<std::int32_t>(std::max(0.0, share * s - spread));
+    const auto highest = static_cast<std::int32_t>(std::min(s - 1.0, share * s + spread));
+    bracket result{};
+    for (std::size_t i = 0; i < sample; ++i) {
+        const float key = records[i * count / sample].center[axis];
+        if (rank[i] == lowest) result.lo = key;
+        if (rank[i] == highest) result.hi = key;
+    }
+    if (result.lo > result.hi) std::swap(result.lo, result.hi);
+    return result;
+}
+
+void select_in_place(split_record* records, std::size_t count, std::size_t left, int axis) {
+    if (left > 0 && left < count)
+        std::nth_element(records, records + left, records + count,
+                         [axis](const split_record& a, const split_record& b) {
+                             return a.center[axis] < b.center[axis];
+                         });
+}
+
+void split_any(split_record* from, split_record* to, std::size_t count, std::size_t left,
+               const split_axis& axis) {
+    for (;;) {
+        if (count <= max_ranked) return split_by_rank(from, to, count, axis);
+        const auto [lo, hi] = bracket_of(from, count, left, axis.axis);
+        const auto [below, between] = scatter(from, to, count, axis.axis, lo, hi);
+        const std::size_t above = count - below - between;
+        // `to` has a gap of `between` places behind `below`, where the cut should fall.
+        const bool found = below <= left && left <= below + between;
+        if (!found || between > count - count / 4) {  // bad luck, or many equal keys
+            std::copy_n(from, between, to + below);
+            if (left < below) return select_in_place(to, below, left, axis.axis);
+            if (left > below + between)
+                return select_in_place(to + below + between, above, left - below - between,
+                                       axis.axis);
+            return select_in_place(to + below, between, left - below, axis.axis);
+        }
+        to += below;
+        left -= below;
+        count = between;
+    }
+}
+
+struct split_buffers {
+    split_record* even;
+    split_record* odd;
+};
+
+/// `range` holds the centres of the node's records. In small nodes it is passed down, cut where
+/// the node was cut, instead of being found anew: on the other axes it is then wider than need be.
+void split_subtree_of(const split_buffers& buffers, const split_shape& shape, unsigned d,
+                      std::size_t node, const center_range& range) {
+    const std::size_t begin = shape.begin(node, d);
+    const std::size_t middle = shape.begin(2 * node + 1, d + 1);
+    const std::size_t end = shape.begin(node + 1, d);
+    split_record* const from = (d % 2 == 0 ? buffers.even : buffers.odd) + begin;
+    split_record* const to = (d % 2 == 0 ? buffers.odd : buffers.even) + begin;
+    const split_axis axis = widest_axis(range);
+    split_any(from, to, end - begin, middle - begin, axis);
+    if (d + 1 == shape.depth) return;
+    center_range left = range, right = range;
+    if (end - begin > max_ranked) {
+        left = range_of_records(to, middle - begin);
+        right = range_of_records(to + (middle - begin), end - middle);
+    } else {
+        // Ranked records are sorted, up to the rounding of their keys; ranges need not be exact.
+        left.max[axis.axis] = right.min[axis.axis] = to[middle - begin].center[axis.axis];
+    }
+    split_subtree_of(buffers, shape, d + 1, 2 * node, left);
+    split_subtree_of(buffers, shape, d + 1, 2 * node + 1, right);
+}
+
+void split_to_leaves(split_record* even, split_record* odd, const split_shape& shape, unsigned d,
+                     std::size_t node) {
+    if (d == shape.depth) return;
+    const split_record* const from = d % 2 == 0 ? even : odd;
+    const std::size_t begin = shape.begin(node, d);
+    split_subtree_of({even, odd}, shape, d, node,
+                     range_of_records(from + begin, shape.begin(node + 1, d) - begin));
+}
+
+}  // namespace
+}  // namespace tf::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tf::detail {
+
+HWY_EXPORT(range_of_records);
+HWY_EXPORT(split_any);
+HWY_EXPORT(split_to_leaves);
+
+center_range range_of(const split_record* records, std::size_t count) {
+    return HWY_DYNAMIC_DISPATCH(range_of_records)(records, count);
+}
+
+void split(split_record* from, split_record* to, std::size_t count, std::size_t left,
+           const split_axis& axis) {
+    HWY_DYNAMIC_DISPATCH(split_any)(from, to, count, left, axis);
+}
+
+void split_subtree(split_record* even, split_record* odd, const split_shape& shape, unsigned d,
+                   std::size_t node) {
+    HWY_DYNAMIC_DISPATCH(split_to_leaves)(even, odd, shape, d, node);
+}
+
+}  // namespace tf::detail
+#endif

@@ -1,0 +1,128 @@
+#pragma once
+/// \file
+/// The invariants of a tree as a function.
+
+#include <libtree/aabb.hpp>
+#include <libtree/detail/frame.hpp>
+#include <libtree/nary_tree.hpp>
+#include <libtree/tree.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tf {
+namespace detail {
+
+/// Whether `ids` holds each of 0 ... N-1 once.
+[[nodiscard]] inline bool is_permutation(std::span<const std::uint32_t> ids) {
+    std::vector<bool> seen(ids.size(), false);
+    for (const std::uint32_t id : ids) {
+        if (id >= ids.size() || seen[id]) return false;
+        seen[id] = true;
+    }
+    return true;
+}
+
+/// Whether slot `slot` of `node` holds, in the frame of the tree, all of `box`.
+template <class T, std::size_t D>
+[[nodiscard]] bool slot_holds(const wide_node<D>& node, std::size_t slot, const aabb<T, D>& box,
+                              const tree_frame<D>& frame) {
+    // The exact image of the box lies within one rounding of what is computed here; a slot that
+    // holds the computed one without any slack was not rounded outward.
+    for (std::size_t k = 0; k < D; ++k) {
+        const double lo = (static_cast<double>(box.min[k]) - frame.origin[k]) * frame.scale;
+        const double hi = (static_cast<double>(box.max[k]) - frame.origin[k]) * frame.scale;
+        if (!(static_cast<double>(node.min[k][slot]) < lo)) return false;
+        if (!(static_cast<double>(node.max[k][slot]) > hi)) return false;
+    }
+    return true;
+}
+
+}  // namespace detail
+
+/// What is wrong with `tree` as a tree over `boxes`, or nothing: the ids are a permutation, every
+/// leaf slot holds the box of its primitive, every inner slot the boxes below it, and no other
+/// slot is in use.
+template <std::size_t D, class T>
+[[nodiscard]] std::optional<std::string> why_malformed(const tree<D>& tree,
+                                                       std::span<const aabb<T, D>> boxes) {
+    const auto at = [](const char* what, unsigned level, std::size_t node, std::size_t slot) {
+        return std::string(what) + " at level " + std::to_string(level) + ", node " +
+               std::to_string(node) + ", slot " + std::to_string(slot);
+    };
+    if (tree.size() != boxes.size() || tree.ids().size() != boxes.size()) return "wrong size";
+    if (!detail::is_permutation(tree.ids())) return "ids are no permutation";
+    const auto is_clear = [](const wide_node<D>& node, std::size_t slot) {
+        for (std::size_t k = 0; k < D; ++k)
+            if (!(node.min[k][slot] > node.max[k][slot])) return false;
+        return true;
+    };
+    for (unsigned level = 0; level < tree.levels(); ++level)
+        for (std::size_t n = 0; n < tree.nodes_in_level(level); ++n) {
+            const wide_node<D>& node = tree.level(level)[n];
+            const bool leaf = tree.is_leaf_level(level);
+            const std::size_t begin = leaf ? tree.leaf_begin(n) : 0;
+            const std::size_t used = leaf         ? tree.leaf_begin(n + 1) - begin
+                                     : level == 0 ? tree.root_arity()
+                                                  : tree.width;
+            if (used > tree.width) return at("too many children", level, n, used);
+            for (std::size_t slot = 0; slot < tree.width; ++slot) {
+                if (slot >= used) {
+                    if (!is_clear(node, slot)) return at("slot should be empty", level, n, slot);
+                } else if (leaf) {
+                    const aabb<T, D>& box = boxes[tree.ids()[begin + slot]];
+                    if (!detail::slot_holds(node, slot, box, tree.frame()))
+                        return at("box is cut off", level, n, slot);
+                } else {
+                    const wide_node<D>& child = tree.level(level + 1)[n * used + slot];
+                    for (std::size_t k = 0; k < D; ++k)
+                        if (node.min[k][slot] !=
+                                *std::min_element(child.min[k], child.min[k] + tree.width) ||
+                            node.max[k][slot] !=
+                                *std::max_element(child.max[k], child.max[k] + tree.width))
+                            return at("box is not that of the children", level, n, slot);
+                }
+            }
+        }
+    return std::nullopt;
+}
+
+/// The same for the paper's tree: every primitive in one leaf, boxes exact, leaves small enough.
+template <class T, std::size_t D>
+[[nodiscard]] std::optional<std::string> why_malformed(const nary_tree<T, D>& tree,
+                                                       std::span<const aabb<T, D>> boxes) {
+    if (tree.ids.size() != boxes.size()) return "wrong size";
+    if (!detail::is_permutation(tree.ids)) return "ids are no permutation";
+    if (boxes.empty()) return std::nullopt;
+    std::size_t next = 0;  // leaves hold consecutive ranges
+    std::vector<std::size_t> stack{0};
+    while (!stack.empty()) {
+        const std::size_t n = stack.back();
+        const nary_node<T, D>& node = tree.nodes[n];
+        stack.pop_back();
+        aabb<T, D> box;
+        if (node.axis < 0) {
+            if (node.offset != next) return "leaf " + std::to_string(n) + " is out of order";
+            if (node.size > tree.config.leaf_size)
+                return "leaf " + std::to_string(n) + " is too large";
+            for (std::size_t i = 0; i < node.size; ++i) box.include(boxes[tree.ids[next + i]]);
+            next += node.size;
+        } else {
+            if (node.offset != tree.config.inner_size * n + 1)
+                return "children of node " + std::to_string(n) + " are misplaced";
+            for (std::size_t c = node.size; c-- > 0;) {
+                box.include(tree.nodes[node.offset + c].box);
+                stack.push_back(node.offset + c);
+            }
+        }
+        if (!(box == node.box)) return "box of node " + std::to_string(n) + " is wrong";
+    }
+    return next == boxes.size() ? std::nullopt : std::optional<std::string>("a leaf is missing");
+}
+
+}  // namespace tf

@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// The kinds of files that are read and written.
+
+#include <string>
+
+namespace tf::bench {
+
+struct file_kind {
+    std::string name;
+    std::string extension;
+    std::string assimp_id;  ///< of assimp's exporter
+    bool ascii = false;
+};
+
+}  // namespace tf::bench

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# run.sh [--quick] [--out DIR] [ID ...]: measures treeform beside its peers.
+#
+# Sets itself up on a bare Debian 12 (as root or with sudo), builds Release with default flags in
+# build/bench, runs the workloads named by id (all when none is), prints a table, and writes
+# DIR/bench.csv and DIR/machine.txt (default: build/bench/results). --quick ends within three
+# minutes, once built. Close other programs first.
+#
+#   TREEFORM_MODELS_DIR=DIR    real models; without it the bunny of a Debian package serves for all
+#   TREEFORM_BENCH_CACHE=DIR   for the larger models made of them (default: a folder of your own in
+#                              TMPDIR; about 1.5 GB, may be removed at any time)
+set -euo pipefail
+here=$(pwd)
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+out=build/bench/results
+options=()
+while (($#)); do
+    case $1 in
+        --out)
+            [[ $# -ge 2 ]] || { echo "run.sh: --out needs a folder" >&2; exit 2; }
+            out=$2
+            [[ $out == /* ]] || out=$here/$out
+            shift
+            ;;
+        -h | --help)
+            sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' tests/bench/run.sh
+            exit 0
+            ;;
+        *) options+=("$1") ;;
+    esac
+    shift
+done
+
+tools/install_packages.sh g++ cmake ninja-build doctest-dev libbenchmark-dev libcgal-dev \
+    libgmp-dev libmpfr-dev libassimp-dev libtbb-dev libhwy-dev libcli11-dev libfmt-dev
+
+if command -v ccache >/dev/null; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+cmake -G Ninja -S . -B build/bench -DCMAKE_BUILD_TYPE=Release -DTREEFORM_BUILD_BENCH=ON \
+    -DTREEFORM_BUILD_TOOLS=OFF >/dev/null
+cmake --build build/bench --target treeform_bench
+
+models=${TREEFORM_MODELS_DIR-}
+[[ -z $models || $models == /* ]] || models=$here/$models
+[[ -n $models ]] || data/fetch_real.sh || echo "no real models (no network?)" >&2
+read -r load _ </proc/loadavg
+awk -v load="$load" 'BEGIN { exit load < 0.7 }' &&
+    echo "load average $load: other programs run; figures, those of two threads above all, suffer" >&2
+exec build/bench/tests/bench/bench ${models:+--models "$models"} \
+    --cache "${TREEFORM_BENCH_CACHE:-${TMPDIR:-/tmp}/treeform-bench-$(id -u)}" --out "$out" \
+    "${options[@]}"

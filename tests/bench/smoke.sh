@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# smoke.sh BENCH: runs every workload on tiny models and checks that bench.csv is well formed. How
+# long anything took is not looked at.
+set -euo pipefail
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+"$1" --tiny --cache "$scratch/cache" --out "$scratch/out"
+[[ -s $scratch/out/machine.txt ]]
+
+awk -F, '
+    function bad(why) { printf "bench.csv, line %d: %s: %s\n", NR, why, $0; failed = 1 }
+    NR == 1 && $0 != "id,case,size,threads,who,value,unit,peak_mb,error" { bad("not the header") }
+    NR == 1 { next }
+    NF != 9 { bad("not nine fields") }
+    $3 !~ /^[1-9][0-9]*$/ || $4 !~ /^[1-9][0-9]*$/ { bad("size or threads is not a number") }
+    $6 !~ /^[0-9.]+(e[-+]?[0-9]+)?$/ { bad("value is not a number") }
+    $2 == "" || $5 == "" || $7 == "" { bad("empty field") }
+    $8 !~ /^([0-9.]+)?$/ { bad("peak_mb is not a number") }
+    $5 == "treeform" && $9 != "" && $9 != 0 { bad("treeform is wrong") }
+    { ids[$1] = 1 }
+    END {
+        split("B1 B5 B8 B9", wanted, " ")
+        for (i in wanted) if (!(wanted[i] in ids)) { print "no row of " wanted[i]; failed = 1 }
+        exit failed
+    }' "$scratch/out/bench.csv"

@@ -1,0 +1,81 @@
+"""The command line: help, version, everything it refuses."""
+
+from support import *
+
+
+class Usage(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.part = write(self.path("part.obj"), CROSSING)
+
+    def refused(self, *arguments):
+        run = self.run_tool(*arguments, status=2)
+        self.assertEqual(run.text, "")
+        self.assertTrue(run.err.startswith("tf-selfintersect: error: "), msg=run.err)
+        return run.err
+
+    def test_help_fits_80_columns_and_names_what_is_accepted(self):
+        run = self.run_tool("--help", status=0)
+        self.assertTrue(run.text.startswith("Usage: tf-selfintersect [OPTIONS] INPUT..."))
+        self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
+        for group in ("What counts:", "What to give back:", "Common options:", "Exit status:"):
+            self.assertIn(group, run.text)
+        self.assertNotIn("--repair", run.text)
+        self.assertEqual(self.run_tool("-h").text, run.text)
+
+    def test_version_names_tool_and_build(self):
+        self.assertRegex(self.run_tool("--version", status=0).text,
+                         r"^tf-selfintersect \(treeform\) \d+\.\d+\.\d+\nbuilt with ")
+
+    def test_what_is_not_an_option_is_refused(self):
+        self.assertIn("--nonsense", self.refused(self.part, "--nonsense"))
+        self.refused()
+        self.refused(self.part, "--repair")
+
+    def test_options_of_other_tools_are_refused_with_a_reason(self):
+        self.assertIn("changes no mesh", self.refused(self.part, "--in-place"))
+
+    def test_an_option_that_would_do_nothing_is_refused(self):
+        for options in (["--ascii"], ["--binary"], ["--precision", "float"], ["-n"],
+                        ["--output-format", "ply"]):
+            self.assertIn("need -o", self.refused(self.part, *options))
+
+    def test_contradictions_are_refused(self):
+        self.refused(self.part, "-o", "m.ply", "--ascii", "--binary")
+        self.refused(self.part, "-q", "-v")
+        self.refused(self.part, "-o", "m.ply", "--output-dir", ".")
+        self.refused(self.part, "-o", "-", "--output-format", "ply", "-r", "-")
+        self.refused(self.part, "-r", "x", "--pairs", "x")
+        self.refused("-", "-")
+        self.refused(self.part, "-o", "-")
+
+    def test_an_input_is_never_an_output(self):
+        before = self.read_bytes("part.obj")
+        self.assertIn("is an input", self.refused(self.part, "-r", self.part, "-f"))
+        self.assertIn("is an input", self.refused("part.obj", "--curves", self.part, "-f"))
+        self.assertEqual(self.read_bytes("part.obj"), before)
+
+    def test_one_output_for_several_inputs_is_refused(self):
+        other = write(self.path("other.obj"), CLEAN)
+        for option, name in (("-o", "m.ply"), ("--pairs", "p.csv"), ("--html", "h.html")):
+            self.refused(self.part, other, option, name)
+
+    def test_formats_that_are_not_written_are_refused(self):
+        self.assertIn("ply glb", self.refused(self.part, "-o", "m.stl"))
+        self.refused(self.part, "-o", "m.ply", "--output-format", "stl")
+
+    def test_values_are_checked(self):
+        for options in (["-j", "0"], ["-j", "x"], ["--memory", "lots"], ["--memory", "0"],
+                        ["--timeout", "0"], ["--timeout", "-1"], ["--units", "furlong"],
+                        ["--limit", "1.5"]):
+            self.refused(self.part, *options)
+
+    def test_a_value_may_follow_an_equals_sign_and_inputs_a_double_dash(self):
+        self.run_tool("--limit=3", "--", self.part, status=1)
+
+    def test_an_unknown_format_is_an_input_error(self):
+        self.run_tool(self.part, "--format", "docx", status=3)
+
+
+if __name__ == "__main__":
+    main()

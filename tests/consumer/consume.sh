@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# consume.sh STEP [static|shared]: one step of the install tests. CMakeLists.txt beside it says in
+# what order they run and sets the upper-case variables.
+set -euo pipefail
+project=$SOURCE/tests/consumer/project
+installed=$WORK/${2-static}
+
+# Installs a build tree, then moves the installation, since a package must not know where it lies.
+install_and_move() { # build tree, kind
+    rm -rf "$WORK/first_place" "${WORK:?}/$2"
+    cmake --install "$1" --prefix "$WORK/first_place" >/dev/null
+    mv "$WORK/first_place" "$WORK/$2"
+    test -x "$WORK/$2/bin/tf-selfintersect"
+}
+
+configure() { # build tree, source, options
+    cmake -S "$2" -B "$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$CXX" \
+        "${@:3}" >/dev/null
+}
+
+install_static() { install_and_move "$BUILD" static; }
+
+install_shared() { install_and_move "$OTHER_BUILDS/shared_library" shared; }
+
+find_package() {
+    rm -rf "$WORK/find_$1"
+    configure "$WORK/find_$1" "$project" -DCMAKE_PREFIX_PATH="$installed"
+    cmake --build "$WORK/find_$1"
+    "$WORK/find_$1/consumer"
+}
+
+pkg_config() {
+    local flags
+    export PKG_CONFIG_PATH=$installed/$LIBDIR/pkgconfig
+    pkg-config --exact-version="$(pkg-config --modversion treeform)" treeform
+    flags=$(pkg-config --cflags --libs treeform)
+    # shellcheck disable=SC2086 # the flags are words
+    "$CXX" -std=c++20 -Wall -Wextra -Wpedantic -Werror "$project"/*.cpp -o "$WORK/pkg_$1" $flags \
+        -Wl,-rpath,"$installed/$LIBDIR"
+    "$WORK/pkg_$1"
+}
+
+run_tool() {
+    "$installed/bin/tf-selfintersect" "$SOURCE/data/cube.stl"
+    local status=0
+    "$installed/bin/tf-selfintersect" "$SOURCE/data/two_spheres.stl" || status=$?
+    test $status -eq 1
+    # Moved or not, the shared tool takes the library beside it.
+    [[ $1 == static ]] ||
+        ldd "$installed/bin/tf-selfintersect" | grep -q "libtreeform_mesh.* => $WORK/"
+}
+
+# Every header without "detail/" in its path is installed, and what the installed ones include is.
+check_headers() {
+    local include=$installed/include/treeform header status=0
+    while read -r header; do
+        [[ -f $include/$header ]] || { echo "not installed: $header"; status=1; }
+    done < <(cd "$SOURCE" && find libtree libmesh -name '*.hpp' -not -path '*/detail/*')
+    while read -r header; do
+        [[ -f $include/$header ]] || { echo "included, not installed: $header"; status=1; }
+    done < <(grep -rhoE '#include <lib(tree|mesh)/[^>]+' "$include" | sed 's/.*<//' | sort -u)
+    return $status
+}
+
+subdirectory() {
+    local folder=$OTHER_BUILDS/as_subdirectory
+    configure "$folder" "$project" -DTREEFORM_SUBDIRECTORY="$SOURCE" \
+        -DTREEFORM_WERROR="$WERROR"
+    cmake --build "$folder"
+    "$folder/consumer"
+}
+
+"$@"

@@ -1,0 +1,12 @@
+#include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/weld/equal_points.hpp>
+#include <libtree/build.hpp>
+#include <libtree/tree.hpp>
+#include <libtree/version.hpp>
+
+std::size_t crossings_of_other_source() {
+    const tf::mesh soup{
+        .points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 0}, {1, 1, -1}, {1, 1, 1}},
+        .faces = {{0, 1, 2}, {3, 4, 5}}};
+    return tf::self_intersections(tf::join_equal_points(soup)).pairs.size();
+}

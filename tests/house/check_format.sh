@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# check_format.sh SOURCE CLANG_FORMAT: every C++ file of ours is as clang-format leaves it.
+set -euo pipefail
+cd "$1"
+mapfile -t files < <(find libtree libmesh tools tests data \( -name '*.hpp' -o -name '*.cpp' \) |
+    sort)
+"$2" --dry-run -Werror "${files[@]}"

@@ -1,0 +1,86 @@
+#include <libmesh/intersect/curves.hpp>
+#include <libmesh/intersect/self_intersections.hpp>
+#include <libtree/parallel.hpp>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace {
+
+using tf::point3;
+using segment = std::array<point3, 2>;
+
+std::vector<tf::curve_segment> curves_of(const tf::mesh& mesh) {
+    return tf::intersection_curves(mesh, tf::self_intersections(mesh).pairs);
+}
+
+segment ordered(segment s) {
+    const auto key = [](const point3& p) { return std::array{p.x, p.y, p.z}; };
+    if (key(s[1]) < key(s[0])) std::swap(s[0], s[1]);
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("curves: two faces that cross meet in one segment") {
+    const tf::mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {2, 1, 1}},
+                        {{0, 1, 2}, {3, 4, 5}}};
+    const auto curves = curves_of(mesh);
+    REQUIRE(curves.size() == 1);
+    CHECK(ordered(curves[0].ends) == segment{{{1, 1, 0}, {1.5, 1, 0}}});
+    CHECK(curves[0].pair == 0);
+}
+
+TEST_CASE("curves: a contact in a point is a segment without length") {
+    const tf::mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}, {1, 1, 1}, {2, 1, 1}},
+                        {{0, 1, 2}, {3, 4, 5}}};
+    const auto curves = curves_of(mesh);
+    REQUIRE(curves.size() == 1);
+    CHECK(curves[0].ends == segment{{{1, 1, 0}, {1, 1, 0}}});
+}
+
+TEST_CASE("curves: an overlap is outlined by a closed line") {
+    const tf::mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}, {5, 1, 0}, {1, 5, 0}},
+                        {{0, 1, 2}, {3, 4, 5}}};
+    const auto curves = curves_of(mesh);
+    REQUIRE(curves.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(curves[i].ends[1] == curves[(i + 1) % 3].ends[0]);
+    std::vector<double> xs;
+    for (const auto& c : curves) xs.push_back(c.ends[0].x);
+    std::sort(xs.begin(), xs.end());
+    CHECK(xs == std::vector<double>{1, 1, 3});
+}
+
+TEST_CASE("curves: no pairs, no segments") {
+    const tf::mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}};
+    CHECK(curves_of(mesh).empty());
+}
+
+TEST_CASE("curves: follow the order of the pairs on any number of threads") {
+    tf::mesh mesh;
+    constexpr std::uint32_t count = 120;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double s = i / double{count};
+        const auto first = static_cast<std::uint32_t>(mesh.points.size());
+        mesh.points.insert(mesh.points.end(), {{-1, s, -1}, {2, s, -1}, {0.5, s, 2}});
+        mesh.points.insert(mesh.points.end(), {{s, -1, -1}, {s, 2, -1}, {s, 0.5, 2}});
+        mesh.faces.push_back({first, first + 1, first + 2});
+        mesh.faces.push_back({first + 3, first + 4, first + 5});
+    }
+    const auto pairs = tf::self_intersections(mesh).pairs;
+    CHECK(pairs.size() == count * count);
+    const auto curves = tf::intersection_curves(mesh, pairs);
+    CHECK(std::is_sorted(curves.begin(), curves.end(),
+                         [](const auto& a, const auto& b) { return a.pair < b.pair; }));
+    for (const auto& c : curves)
+        for (const point3& p : c.ends)
+            REQUIRE((std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)));
+    for (const unsigned threads : {1U, 2U, 8U}) {
+        const tf::thread_scope scope(threads);
+        CHECK(tf::intersection_curves(mesh, pairs) == curves);
+    }
+}

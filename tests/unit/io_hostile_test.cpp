@@ -1,0 +1,144 @@
+// Broken input of any kind: an io_error, never a crash, a hang or memory out of proportion. What a
+// sanitizer would see is the point of these tests; run them in the asan preset too.
+
+#include <libmesh/io/read.hpp>
+#include <libmesh/io/write.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+struct sample {
+    std::string name;
+    std::string bytes;
+};
+
+/// A small file with polygons, colours and parts in every format and encoding that we write.
+std::vector<sample> samples() {
+    const std::string ply =
+        "ply\nformat ascii 1.0\ncomment c\nelement vertex 5\nproperty double x\nproperty float y\n"
+        "property int z\nproperty list uchar short tags\nelement face 2\nproperty list uchar int "
+        "vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "element edge 1\nproperty int v\nend_header\n0.1 0 0 0\n1 0 0 2 -1 5\n1 1 0 0\n0 1 0 0\n"
+        "-1 0.5 3 0\n3 0 1 2 255 0 0\n4 0 2 3 4 1 2 3\n7\n";
+    tf::mesh_file file = tf::read_mesh(std::as_bytes(std::span(ply)), "a.ply", {});
+    std::vector<sample> all{
+        {"a.ply", ply},
+        {"a.obj",
+         "# c\no a\nv 0 0 0 1 1 1\nv 1e0 +0 0 1 1 1\nv 0 1. 0 1 1 1\nvt 0 0\nvn 0 0 1\n"
+         "g b\nusemtl c\nf 1/1/1 2//1 \\\n3\nf -1 -2 -3 1\nl 1 2\n"},
+        {"a.xyz", "3\n1,2,3\n4, 5, 6\n7,8,nan\n"},
+        {"b.xyz", "x y z\n1 2 3 4\n5 6 7 8\n"},
+        {"a.off",
+         "STCNOFF # c\n3 1 0\n0 0 0 0 0 1 255 0 0 0.5 1\n1 0 0 0 0 1 1 2 3 0 0\n"
+         "0 1 0 0 0 1 1 2 3 0 0\n3 0 1 2 1 0 0.5\n"}};
+    for (const char* const format : {"ply", "stl", "obj", "off", "xyz"})
+        for (const bool ascii : {false, true})
+            all.push_back({std::string("a.") + format,
+                           tf::write_mesh_to_memory(file, {.format = format, .ascii = ascii})});
+    file.format = "ply-binary-be";
+    all.push_back({"a.ply", tf::write_mesh_to_memory(file, {.format = "ply"})});
+    return all;
+}
+
+/// True when the bytes are a mesh whose corners are points, false when they are refused.
+bool reads(const std::string& bytes, const std::string& name) {
+    try {
+        const auto file = tf::read_mesh(std::as_bytes(std::span(bytes)), name, {});
+        for (const tf::face& f : file.mesh.faces)
+            for (const std::uint32_t corner : f) REQUIRE(corner < file.mesh.points.size());
+        REQUIRE(file.mesh.points.size() <= bytes.size());
+        // Whatever is accepted can be written, its attributes too.
+        (void)tf::write_mesh_to_memory(file, {.format = "ply"});
+        return true;
+    } catch (const tf::io_error& e) {
+        REQUIRE(std::string_view(e.what()).starts_with(name));
+        return false;
+    }
+}
+
+/// The bytes in a block of their own size, so that a sanitizer sees one byte too many.
+bool reads_exactly(const std::string& bytes, const std::string& name) {
+    std::vector<std::byte> block(bytes.size());
+    if (!bytes.empty()) std::memcpy(block.data(), bytes.data(), bytes.size());
+    try {
+        (void)tf::read_mesh(block, name, {});
+        return true;
+    } catch (const tf::io_error&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("hostile: a file cut after any byte is read or refused") {
+    for (const sample& s : samples()) {
+        CAPTURE(s.name);
+        CHECK(reads(s.bytes, s.name));
+        for (std::size_t size = 0; size < s.bytes.size(); ++size) {
+            const std::string cut = s.bytes.substr(0, size);
+            const bool read = reads(cut, s.name);
+            CHECK(reads_exactly(cut, s.name) == read);
+            // Binary STL says how long it is, and so does binary PLY.
+            if (s.bytes.starts_with("ply\nformat bin") || s.bytes.starts_with("treeform"))
+                CHECK_FALSE(read);
+        }
+    }
+}
+
+TEST_CASE("hostile: files with changed, doubled and lost bytes are read or refused") {
+    const auto all = samples();
+    std::mt19937 random(1);
+    const auto pick = [&](std::size_t count) { return random() % count; };
+    constexpr std::string_view likely = "0123456789 -+.eE/\\#\n\r\t,nif\xff\x7f\x80";
+    std::size_t accepted = 0;
+    for (int round = 0; round < 30'000; ++round) {
+        const sample& s = all[pick(all.size())];
+        std::string bytes = s.bytes;
+        for (std::size_t change = 0; change <= pick(4); ++change) {
+            const std::size_t at = pick(bytes.size());
+            switch (pick(4)) {
+                case 0:
+                    bytes[at] = static_cast<char>(random());
+                    break;
+                case 1:
+                    bytes[at] = likely[pick(likely.size())];
+                    break;
+                case 2:
+                    bytes.erase(at, 1 + pick(8));
+                    break;
+                default:
+                    bytes.insert(at, s.bytes.substr(pick(s.bytes.size()), 1 + pick(8)));
+            }
+            if (bytes.empty()) bytes = "x";
+        }
+        accepted += reads(bytes, s.name) ? 1U : 0U;
+    }
+    CHECK(accepted > 1000);  // else the changes are too wild to reach deep
+}
+
+TEST_CASE("hostile: counts that the bytes cannot hold are refused before room is made for them") {
+    const std::string vertex =
+        "element vertex 4294967295\nproperty float x\nproperty float y\nproperty float z\n";
+    for (const std::string encoding : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+        const std::string head = "ply\nformat " + encoding + " 1.0\n";
+        CHECK_FALSE(reads(head + vertex + "end_header\n0 0 0\n", "a.ply"));
+        CHECK_FALSE(reads(head + "element vertex 99999999999999999999\nproperty float x\n"
+                                 "property float y\nproperty float z\nend_header\n",
+                          "a.ply"));
+        CHECK_FALSE(reads(head + "element vertex 0\nproperty float x\nproperty float y\nproperty "
+                                 "float z\nelement face 1\nproperty list int int vertex_indices\n"
+                                 "end_header\n\xff\xff\xff\x7f",
+                          "a.ply"));
+    }
+    CHECK_FALSE(reads("OFF\n400000000000 4 0\n0 0 0\n", "a.off"));
+    CHECK_FALSE(reads("OFF\n1 1 0\n0 0 0\n2000000000 0 0 0\n", "a.off"));
+    std::string stl(84 + 50, '\0');
+    stl.replace(80, 4, "\xff\xff\xff\xff");
+    CHECK_FALSE(reads(stl, "a.stl"));
+}

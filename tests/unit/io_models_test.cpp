@@ -1,0 +1,161 @@
+// Every STL, OBJ, PLY, OFF and XYZ file of TREEFORM_MODELS_DIR against its row of TRUTH.csv.
+
+#include <libmesh/io/read.hpp>
+#include <libmesh/io/write.hpp>
+
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace {
+
+using row = std::map<std::string, std::string>;
+
+std::vector<std::string> split_csv(const std::string& line) {
+    std::vector<std::string> cells(1);
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"')
+            quoted = !quoted;
+        else if (c == ',' && !quoted)
+            cells.emplace_back();
+        else if (c != '\r')
+            cells.back() += c;
+    }
+    return cells;
+}
+
+/// One row a file: what a reader of doubles sees.
+std::vector<row> truth() {
+    std::ifstream in(std::filesystem::path(TREEFORM_MODELS_DIR) / "TRUTH.csv");
+    std::vector<row> rows;
+    std::vector<std::string> names;
+    for (std::string line; std::getline(in, line);) {
+        if (line.empty() || line[0] == '#') continue;
+        const auto cells = split_csv(line);
+        if (names.empty()) {
+            names = cells;
+            continue;
+        }
+        row r;
+        for (std::size_t i = 0; i < names.size() && i < cells.size(); ++i) r[names[i]] = cells[i];
+        if (r["precision"] != "f32") rows.push_back(std::move(r));
+    }
+    return rows;
+}
+
+bool same_bits(const std::vector<tf::point3>& a, const std::vector<tf::point3>& b) {
+    if (a.size() != b.size()) return false;
+    for (std::size_t v = 0; v < a.size(); ++v)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (std::bit_cast<std::uint64_t>(a[v][axis]) !=
+                    std::bit_cast<std::uint64_t>(b[v][axis]) &&
+                !(a[v][axis] != a[v][axis] && b[v][axis] != b[v][axis]))
+                return false;
+    return true;
+}
+
+tf::mesh_file reread(const std::string& bytes, const char* name) {
+    return tf::read_mesh(std::as_bytes(std::span(bytes)), name, {});
+}
+
+}  // namespace
+
+TEST_CASE("models: counts are those of the truth, and malformed files are refused with a reason") {
+    const auto rows = std::string(TREEFORM_MODELS_DIR).empty() ? std::vector<row>() : truth();
+    if (rows.empty()) {
+        MESSAGE("no TREEFORM_MODELS_DIR: skipped");
+        return;
+    }
+    for (row r : rows) {
+        const auto path = std::filesystem::path(TREEFORM_MODELS_DIR) / r["file"];
+        CAPTURE(path.string());
+        if (r["status"] == "malformed") {
+            try {
+                (void)tf::read_mesh(path);
+                FAIL("read without complaint; wrong is: " << r["note"]);
+            } catch (const tf::io_error& e) {
+                const std::string what = e.what();
+                CHECK(what.starts_with(path.string() + ":"));
+                CHECK(what.size() > path.string().size() + 8);
+            }
+            continue;
+        }
+        const tf::mesh_file file = tf::read_mesh(path);
+        CHECK(file.format == r["format"]);
+        CHECK(file.mesh.points.size() == std::stoull(r["vertices_stored"]));
+        CHECK(file.stored_faces == std::stoull(r["faces_stored"]));
+        CHECK(file.mesh.faces.size() == std::stoull(r["triangles"]));
+        CHECK((file.stored_as == tf::precision::single_) == (r["precision"] == "exact"));
+        CHECK(file.indexed == !file.format.starts_with("stl"));
+        std::size_t nonfinite = 0;
+        for (const auto& p : file.mesh.points)
+            nonfinite += std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) ? 0U : 1U;
+        CHECK(nonfinite == std::stoull(r["nonfinite_vertices"]));
+    }
+}
+
+TEST_CASE("models: what was read comes back bit for bit from every format that can hold it") {
+    const auto rows = std::string(TREEFORM_MODELS_DIR).empty() ? std::vector<row>() : truth();
+    if (rows.empty()) {
+        MESSAGE("no TREEFORM_MODELS_DIR: skipped");
+        return;
+    }
+    for (row r : rows) {
+        if (r["status"] == "malformed") continue;
+        const auto path = std::filesystem::path(TREEFORM_MODELS_DIR) / r["file"];
+        const tf::mesh_file file = tf::read_mesh(path);
+        for (const char* const format : {"ply", "off", "obj"}) {
+            for (const bool ascii : {false, true}) {
+                CAPTURE(path.string());
+                CAPTURE(format);
+                CAPTURE(ascii);
+                const auto again = reread(
+                    tf::write_mesh_to_memory(file, {.format = format, .ascii = ascii}), format);
+                CHECK(same_bits(again.mesh.points, file.mesh.points));
+                CHECK(again.mesh.faces == file.mesh.faces);
+                CHECK(again.stored_face == file.stored_face);
+                CHECK(again.stored_as == file.stored_as);
+                if (file.format.starts_with("ply") && std::string(format) == "ply")
+                    CHECK(again.attributes.comments == file.attributes.comments);
+            }
+        }
+        if (file.stored_as == tf::precision::single_ && !file.mesh.faces.empty()) {
+            const auto stl = reread(tf::write_mesh_to_memory(file, {.format = "stl"}), "a.stl");
+            REQUIRE(stl.mesh.faces.size() == file.mesh.faces.size());
+            std::vector<tf::point3> corners;
+            for (const tf::face& f : file.mesh.faces)
+                for (const std::uint32_t corner : f) corners.push_back(file.mesh.points[corner]);
+            CHECK(same_bits(stl.mesh.points, corners));
+        }
+    }
+}
+
+TEST_CASE("models: scenes come with a part for each node that shows triangles") {
+    const auto folder = std::filesystem::path(TREEFORM_MODELS_DIR) / "scene";
+    if (std::string(TREEFORM_MODELS_DIR).empty() ||
+        !std::filesystem::exists(folder / "nested.glb")) {
+        MESSAGE("no scenes: skipped");
+        return;
+    }
+    try {
+        const tf::mesh_file menger = tf::read_mesh(folder / "mengerSponge3.glb");
+        CHECK(menger.mesh.faces.size() == 21598);
+        CHECK(menger.attributes.parts.size() == 1);
+        CHECK(tf::read_mesh(folder / "cube_gears.3mf").attributes.parts.size() == 17);
+        const tf::mesh_file nested = tf::read_mesh(folder / "nested.glb");
+        CHECK(nested.mesh.faces.size() == 12 * nested.attributes.parts.size());
+        CHECK(nested.stored_as == tf::precision::single_);
+        CHECK(nested.warnings.back().code == "precision");
+    } catch (const tf::io_error& e) {
+        // A build without assimp says so.
+        CHECK(std::string(e.what()).find("needs a build with assimp") != std::string::npos);
+    }
+}

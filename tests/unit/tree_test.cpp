@@ -1,0 +1,280 @@
+#include "support/random.hpp"
+#include <libtree/build.hpp>
+#include <libtree/nary_tree.hpp>
+#include <libtree/parallel.hpp>
+#include <libtree/search_self.hpp>
+#include <libtree/validate.hpp>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <list>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+template <std::size_t D>
+using boxes = std::vector<tf::aabb<double, D>>;
+
+constexpr auto itself = [](const auto& box) { return box; };
+
+template <std::size_t D>
+tf::aabb<double, D> box_at(const std::array<double, D>& corner, double size) {
+    tf::aabb<double, D> box;
+    box.include(corner);
+    auto other = corner;
+    for (double& x : other) x += size;
+    box.include(other);
+    return box;
+}
+
+/// Named families of boxes that trees find hard in different ways.
+template <std::size_t D>
+boxes<D> family(const std::string& name, std::size_t count, std::uint64_t seed) {
+    test::random random(seed);
+    boxes<D> result(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        std::array<double, D> corner{};
+        double size = 0.02;
+        for (double& x : corner) x = random.unit();
+        if (name == "grid")  // many equal keys on every axis
+            for (double& x : corner) x = std::floor(x * 8.0) / 8.0;
+        if (name == "equal") corner.fill(0.25);
+        if (name == "line") std::fill(corner.begin() + 1, corner.end(), 3.0);
+        if (name == "far") corner[0] += 1e6, size = 1e-3;
+        if (name == "tiny")
+            for (double& x : corner) x *= 1e-300, size = 2e-302;
+        if (name == "huge")
+            for (double& x : corner) x = (x - 0.5) * 1.6e308, size = 1e306;
+        if (name == "mixed")
+            for (double& x : corner) x *= std::ldexp(1.0, static_cast<int>(i % 80) - 40);
+        result[i] = box_at<D>(corner, size);
+    }
+    if (name == "stray" && count > 0) result[0] = box_at<D>({1e30}, 1.0);
+    return result;
+}
+
+const std::vector<std::string> families{"random", "grid", "equal", "line", "far",
+                                        "tiny",   "huge", "mixed", "stray"};
+const std::vector<std::size_t> sizes{0, 1, 2, 7, 8, 9, 16, 17, 63, 64, 65, 129, 1000, 4097};
+
+using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+template <std::size_t D>
+pairs overlapping_by_brute_force(const boxes<D>& of) {
+    pairs result;
+    for (std::uint32_t a = 0; a < of.size(); ++a)
+        for (std::uint32_t b = a + 1; b < of.size(); ++b)
+            if (overlaps(of[a], of[b])) result.emplace_back(a, b);
+    return result;
+}
+
+template <std::size_t D>
+pairs overlapping_by_tree(const tf::tree<D>& tree, const boxes<D>& of) {
+    pairs result;
+    for (const pairs& chunk :
+         tf::search_self<pairs>(tree, [&](pairs&found, std::uint32_t a, std::uint32_t b) {
+             if (overlaps(of[a], of[b])) found.emplace_back(std::min(a, b), std::max(a, b));
+             return false;
+         }))
+        result.insert(result.end(), chunk.begin(), chunk.end());
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+template <std::size_t D, class Build>
+void check_family_by_family(const Build& make_tree) {
+    for (const std::string& name : families)
+        for (const std::size_t count : sizes) {
+            CAPTURE(name);
+            CAPTURE(count);
+            const boxes<D> of = family<D>(name, count, count);
+            const auto tree = make_tree(of);
+            const auto defect = tf::why_malformed(tree, std::span(of));
+            REQUIRE_MESSAGE(!defect, defect.value_or(""));
+        }
+}
+
+}  // namespace
+
+TEST_CASE("build: every tree is well formed, whatever the boxes, in 3D") {
+    check_family_by_family<3>([](const boxes<3>& of) { return tf::build(of, itself); });
+}
+TEST_CASE("build: every tree is well formed, whatever the boxes, in 2D") {
+    check_family_by_family<2>([](const boxes<2>& of) { return tf::build(of, itself); });
+}
+TEST_CASE("build: a strategy of the caller's gives well-formed trees too") {
+    check_family_by_family<3>(
+        [](const boxes<3>& of) { return tf::build(tf::strategy::nth_element{}, of, itself); });
+}
+TEST_CASE("build: the paper's layout is well formed at every arity and leaf size") {
+    for (const unsigned arity : {2U, 3U, 4U, 16U})
+        for (const unsigned leaf : {1U, 4U, 7U})
+            check_family_by_family<2>([&](const boxes<2>& of) {
+                return tf::build(of, itself, {.inner_size = arity, .leaf_size = leaf});
+            });
+}
+
+TEST_CASE("build: the tree is large enough to be cut by all threads and still well formed") {
+    for (const char* name : {"random", "grid", "equal", "line"}) {
+        CAPTURE(name);
+        const boxes<3> of = family<3>(name, 200'000, 5);
+        const auto defect = tf::why_malformed(tf::build(of, itself), std::span(of));
+        REQUIRE_MESSAGE(!defect, defect.value_or(""));
+    }
+}
+
+TEST_CASE("build: the same tree on 1, 2 and 8 threads") {
+    for (const char* name : {"random", "grid"}) {
+        const boxes<3> of = family<3>(name, 150'000, 6);
+        const auto ids_on = [&](unsigned threads) {
+            const tf::thread_scope scope(threads);
+            const auto tree = tf::build(of, itself);
+            return std::vector<std::uint32_t>(tree.ids().begin(), tree.ids().end());
+        };
+        const auto serial = ids_on(1);
+        CHECK(ids_on(2) == serial);
+        CHECK(ids_on(8) == serial);
+    }
+}
+
+TEST_CASE("build: a rebuild gives the tree of a fresh build") {
+    tf::builder<3> builder;
+    tf::tree<3> tree;
+    for (const std::size_t count : {5000UL, 100UL, 20000UL, 0UL}) {
+        const boxes<3> of = family<3>("random", count, count);
+        builder.rebuild(tree, of, itself);
+        const auto fresh = tf::build(of, itself);
+        CHECK(std::ranges::equal(tree.ids(), fresh.ids()));
+        CHECK(!tf::why_malformed(tree, std::span(of)));
+    }
+}
+
+TEST_CASE("build: any range and any box maker, also one that can only be read once") {
+    const boxes<2> of = family<2>("random", 300, 1);
+    const std::list<tf::aabb<double, 2>> list(of.begin(), of.end());
+    CHECK(std::ranges::equal(tf::build(list, itself).ids(), tf::build(of, itself).ids()));
+
+    const std::vector<float> numbers{3.0F, 1.0F, 2.0F};
+    const auto as_box = [](float x) {
+        tf::aabb<float, 2> box;
+        box.include(std::array{x, x});
+        return box;
+    };
+    CHECK(tf::build(numbers, as_box).size() == 3);
+
+    struct numbers_of_text {  // a view of the standard library is no range for Clang 14
+        std::istream_iterator<float> first;
+        [[nodiscard]] auto begin() const { return first; }
+        [[nodiscard]] auto end() const { return std::istream_iterator<float>(); }
+    };
+    std::istringstream text("3 1 2");
+    CHECK(std::ranges::equal(
+        tf::build(numbers_of_text{std::istream_iterator<float>(text)}, as_box).ids(),
+        tf::build(numbers, as_box).ids()));
+}
+
+TEST_CASE("build: refuses a box that is empty or not finite and names the element") {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double bad : {infinity, -infinity, nan}) {
+        boxes<3> of = family<3>("random", 30'000, 2);
+        of[20'001].max[1] = bad;
+        of[29'000].min[2] = bad;
+        CHECK_THROWS_WITH_AS((void)tf::build(of, itself),
+                             "tf::build: the box of element 20001 is empty or not finite",
+                             std::invalid_argument);
+    }
+    boxes<3> empty_box(1);
+    CHECK_THROWS_AS((void)tf::build(empty_box, itself), std::invalid_argument);
+}
+
+TEST_CASE("build: refuses an arity or a leaf size that makes no tree") {
+    const boxes<2> of = family<2>("random", 10, 2);
+    CHECK_THROWS_AS((void)tf::build(of, itself, {.inner_size = 1}), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::build(of, itself, {.inner_size = 17}), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::build(of, itself, {.leaf_size = 0}), std::invalid_argument);
+}
+
+TEST_CASE("search_self: finds the pairs that brute force finds") {
+    for (const std::string& name : families)
+        for (const std::size_t count : {0UL, 1UL, 2UL, 9UL, 70UL, 600UL, 2000UL}) {
+            CAPTURE(name);
+            CAPTURE(count);
+            const boxes<3> of3 = family<3>(name, count, count + 1);
+            REQUIRE(overlapping_by_tree(tf::build(of3, itself), of3) ==
+                    overlapping_by_brute_force(of3));
+            const boxes<2> of2 = family<2>(name, count, count + 2);
+            REQUIRE(overlapping_by_tree(tf::build(of2, itself), of2) ==
+                    overlapping_by_brute_force(of2));
+        }
+}
+
+TEST_CASE("search_self: boxes that only touch are a pair, boxes one ulp apart are none") {
+    const double next = std::nextafter(1.0, 2.0);
+    boxes<3> of{box_at<3>({0, 0, 0}, 1.0), box_at<3>({1, 0, 0}, 1.0), box_at<3>({next, 5, 0}, 1.0),
+                box_at<3>({0, 5, 0}, 1.0)};
+    CHECK(overlapping_by_tree(tf::build(of, itself), of) == pairs{{0, 1}});
+}
+
+TEST_CASE("search_self: no pair comes twice") {
+    const boxes<3> of = family<3>("grid", 3000, 3);
+    const tf::tree<3> tree = tf::build(of, itself);
+    const tf::self_search<3> search(tree);
+    pairs all;
+    for (std::size_t chunk = 0; chunk < search.chunks(); ++chunk)
+        search.visit(chunk, [&](const tf::candidate_block& block) {
+            for (std::size_t i = 0; i < block.first.size(); ++i) {
+                REQUIRE(block.first[i] < block.second[i]);
+                all.emplace_back(block.first[i], block.second[i]);
+            }
+            return true;
+        });
+    std::sort(all.begin(), all.end());
+    CHECK(std::adjacent_find(all.begin(), all.end()) == all.end());
+}
+
+TEST_CASE("search_self: stops at the pair that one thread would stop at") {
+    const boxes<3> of = family<3>("random", 50'000, 4);
+    const tf::tree<3> tree = tf::build(of, itself);
+    const auto first_pair_on = [&](unsigned threads) {
+        const tf::thread_scope scope(threads);
+        const auto states =
+            tf::search_self<pairs>(tree, [](pairs& found, std::uint32_t a, std::uint32_t b) {
+                found.emplace_back(a, b);
+                return a % 7 == 3 && b % 11 == 5;
+            });
+        REQUIRE(!states.empty());
+        return states;
+    };
+    const auto serial = first_pair_on(1);
+    CHECK(first_pair_on(2) == serial);
+    CHECK(first_pair_on(8) == serial);
+}
+
+TEST_CASE("tree: boxes far from the origin are not blown up by their float form") {
+    // Parts of size 1e-3 at 1e6, where a float has steps of 0.06: about the origin of the file
+    // every box would meet hundreds of others.
+    const boxes<3> of = family<3>("far", 20'000, 7);
+    const auto count = [](const tf::tree<3>& tree) {
+        std::size_t candidates = 0;
+        const tf::self_search<3> search(tree);
+        for (std::size_t chunk = 0; chunk < search.chunks(); ++chunk)
+            search.visit(chunk, [&](const tf::candidate_block& block) {
+                candidates += block.first.size();
+                return true;
+            });
+        return candidates;
+    };
+    boxes<3> near = of;
+    for (auto& box : near) box.min[0] -= 1e6, box.max[0] -= 1e6;
+    CHECK(count(tf::build(of, itself)) <= count(tf::build(near, itself)) + 20);
+}

@@ -1,0 +1,118 @@
+#include "tools/common/command_line.hpp"
+
+#include "tools/common/exit_status.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+namespace tools {
+
+struct command_line::parser {
+    CLI::App app;
+};
+
+command_line::command_line(std::string name, std::string usage, std::string purpose)
+    : name_(std::move(name)),
+      usage_(std::move(usage)),
+      purpose_(std::move(purpose)),
+      parser_(std::make_unique<parser>()) {
+    parser_->app.set_help_flag("-h,--help", "");
+}
+
+command_line::~command_line() = default;
+
+std::string command_line::names_of(const option_text& text) const {
+    std::string names;
+    for (const char c : text.names)
+        if (c != ' ') names += c;
+    return text.aliases.empty() ? names : names + "," + text.aliases;
+}
+
+void command_line::mention(option_text text) {
+    if (groups_.empty()) groups_.emplace_back();
+    groups_.back().options.push_back(std::move(text));
+}
+
+void command_line::group(std::string title) { groups_.push_back({.title = std::move(title)}); }
+
+void command_line::flag(bool& target, option_text text) {
+    parser_->app.add_flag(names_of(text), target);
+    mention(std::move(text));
+}
+
+void command_line::repeatable_flag(int& target, option_text text) {
+    parser_->app.add_flag(names_of(text), target);
+    mention(std::move(text));
+}
+
+void command_line::option(std::string& target, option_text text) {
+    option(std::move(text), [&target](std::string_view value) { target = value; });
+}
+
+void command_line::option(option_text text, std::function<void(std::string_view)> accept) {
+    parser_->app.add_option_function<std::string>(
+        names_of(text), [accept = std::move(accept)](const std::string& value) { accept(value); });
+    mention(std::move(text));
+}
+
+void command_line::output(std::filesystem::path& target, option_text text) {
+    outputs_.push_back(&target);
+    option(std::move(text), [&target, names = text.names](std::string_view value) {
+        if (value.empty()) throw failure(bad_usage, "usage", names + ": expected a file name");
+        target = value;
+    });
+}
+
+void command_line::refuse(std::string names, bool has_value, std::string why) {
+    const auto complain = [names, why = std::move(why)] {
+        throw failure(bad_usage, "usage", names + " " + why);
+    };
+    if (has_value)
+        parser_->app.add_option_function<std::string>(
+            names, [complain](const std::string&) { complain(); });
+    else
+        parser_->app.add_flag_function(names, [complain](std::int64_t) { complain(); });
+}
+
+void command_line::inputs(std::vector<std::string>& target, std::string text) {
+    parser_->app.add_option("INPUT", target)->required();
+    inputs_text_ = std::move(text);
+}
+
+void command_line::epilogue(std::string text) { epilogue_ = std::move(text); }
+
+void command_line::version_text(std::string text) {
+    parser_->app.set_version_flag("--version", std::move(text));
+}
+
+command_line::outcome command_line::parse(int argc, const char* const* argv) {
+    try {
+        parser_->app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        std::fputs(help().c_str(), stdout);
+        return outcome::help_shown;
+    } catch (const CLI::CallForVersion& version) {
+        std::puts(version.what());
+        return outcome::help_shown;
+    } catch (const CLI::ParseError& error) {
+        throw failure(bad_usage, "usage", std::string(error.what()) + " (see --help)");
+    }
+    return outcome::run;
+}
+
+std::string command_line::help() const {
+    std::string text = "Usage: " + name_ + " " + usage_ + "\n\n" + purpose_ + "\n\n";
+    text += lay_out(option_group{.options = {{.names = "INPUT...", .text = inputs_text_}}});
+    for (const option_group& group : groups_) text += lay_out(group);
+    return text + "\n" + epilogue_;
+}
+
+std::vector<std::filesystem::path> command_line::outputs() const {
+    std::vector<std::filesystem::path> given;
+    for (const auto* path : outputs_)
+        if (!path->empty()) given.push_back(*path);
+    return given;
+}
+
+}  // namespace tools

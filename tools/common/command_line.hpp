@@ -1,0 +1,66 @@
+#pragma once
+/// \file
+/// The command line of a tool: what it accepts, and how --help describes it.
+
+#include "tools/common/help_text.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tools {
+
+class command_line {
+  public:
+    /// `usage` is what follows the name: "[OPTIONS] INPUT..."; `purpose` one or two lines.
+    command_line(std::string name, std::string usage, std::string purpose);
+    ~command_line();
+    command_line(const command_line&) = delete;
+    command_line& operator=(const command_line&) = delete;
+
+    /// Options that follow are listed under `title`.
+    void group(std::string title);
+    void flag(bool& target, option_text text);
+    /// A flag that counts how often it is given.
+    void repeatable_flag(int& target, option_text text);
+    void option(std::string& target, option_text text);
+    /// `accept` parses the value; what it throws ends the run.
+    void option(option_text text, std::function<void(std::string_view)> accept);
+    /// The value is the name of a file to write; "-" is standard output.
+    void output(std::filesystem::path& target, option_text text);
+    /// An option of other tools of the family that makes no sense here, and why.
+    void refuse(std::string names, bool has_value, std::string why);
+    void inputs(std::vector<std::string>& target, std::string text);
+    /// An entry of the help without an option behind it.
+    void mention(option_text text);
+    /// Text at the end of the help.
+    void epilogue(std::string text);
+    void version_text(std::string text);
+
+    enum class outcome { run, help_shown };
+    /// \throws failure (bad_usage) for anything that is not as described
+    outcome parse(int argc, const char* const* argv);
+
+    [[nodiscard]] std::string help() const;
+    [[nodiscard]] const std::string& name() const { return name_; }
+    /// Files that options ask to write, where given.
+    [[nodiscard]] std::vector<std::filesystem::path> outputs() const;
+
+  private:
+    struct parser;
+    std::string names_of(const option_text& text) const;
+
+    std::string name_;
+    std::string usage_;
+    std::string purpose_;
+    std::string inputs_text_;
+    std::string epilogue_;
+    std::vector<option_group> groups_;
+    std::vector<const std::filesystem::path*> outputs_;
+    std::unique_ptr<parser> parser_;
+};
+
+}  // namespace tools

@@ -1,0 +1,191 @@
+#include "tools/common/common_options.hpp"
+
+#include "tools/common/exit_status.hpp"
+#include "tools/common/parse_value.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& text) { throw failure(bad_usage, "usage", text); }
+
+std::string one_of(std::string_view option, std::string_view value,
+                   const std::vector<std::string>& words) {
+    if (std::find(words.begin(), words.end(), value) != words.end()) return std::string(value);
+    std::string list;
+    for (const auto& word : words) list += (list.empty() ? "" : ", ") + word;
+    refuse(std::string(option) + " " + std::string(value) + ": expected one of " + list);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+bool offers(const common_options& o, const std::string& format) {
+    return std::find(o.mesh_formats.begin(), o.mesh_formats.end(), format) != o.mesh_formats.end();
+}
+
+void add_output_options(command_line& line, common_options& o, const common_features& features) {
+    if (features.output_formats.empty()) return;
+    line.option({"--output-dir", "DIR", "one result per INPUT, named STEM+SUFFIX.EXT"},
+                [&o](std::string_view value) { o.output_dir = value; });
+    line.option(o.suffix, {"--suffix", "TEXT", "SUFFIX for --output-dir", o.suffix});
+    if (!features.changes_meshes)
+        line.refuse("--in-place", false,
+                    "makes no sense here: this tool changes no mesh, -o writes a marked copy");
+}
+
+void add_format_options(command_line& line, common_options& o, const common_features& features) {
+    line.option(o.format, {"--format", "EXT", "format of the inputs", "content, then extension"});
+    if (features.output_formats.empty()) return;
+    line.option({"--output-format", "EXT", joined(features.output_formats), "extension of -o"},
+                [&o, formats = features.output_formats](std::string_view value) {
+                    o.output_format = one_of("--output-format", value, formats);
+                });
+    line.flag(o.ascii, {.names = "--ascii",
+                        .text = "text or binary where the format has both",
+                        .fallback = "binary",
+                        .label = "--ascii, --binary"});
+    line.flag(o.binary, {.names = "--binary"});
+    line.option({"--precision", "P", "float | double | keep", "keep"}, [&o](std::string_view v) {
+        o.precision = one_of("--precision", v, {"float", "double", "keep"});
+    });
+}
+
+void add_run_options(command_line& line, common_options& o) {
+    line.option({"-j, --threads", "N", "worker threads; results do not depend on N", "all"},
+                [&o](std::string_view value) {
+                    const std::uint64_t count = parse_count("--threads", value);
+                    if (count < 1 || count > 1024) refuse("--threads: expected 1 to 1024");
+                    o.threads = static_cast<unsigned>(count);
+                });
+    line.option({"--memory", "SIZE", "stay below SIZE (4G, 512M) or stop", "no limit"},
+                [&o](std::string_view value) { o.memory = parse_size("--memory", value); });
+    line.option({"--timeout", "SEC", "stop after SEC seconds", "no limit"},
+                [&o](std::string_view value) { o.timeout = parse_seconds("--timeout", value); });
+    line.flag(o.progress, {.names = "--progress",
+                           .text = "progress on stderr",
+                           .fallback = "only if stderr is a terminal"});
+    line.flag(o.quiet, {.names = "-q, --quiet", .text = "errors only"});
+    line.repeatable_flag(o.verbose, {.names = "-v, --verbose", .text = "more (repeatable)"});
+    line.option(o.log, {"--log", "FILE", "append what is said on stderr to FILE as well"});
+    line.flag(o.exit_zero, {.names = "--exit-zero", .text = "exit status 0 instead of 1"});
+    line.mention({.names = "-h, --help", .text = "this text"});
+    line.mention({.names = "--version", .text = "version and build"});
+}
+
+/// Whether two paths name one file, as far as can be told before it exists; devices are no files.
+bool same_file(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    if (fs::exists(a, error) && !fs::is_regular_file(a, error)) return false;
+    if (fs::equivalent(a, b, error)) return true;
+    return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+void check_outputs(const command_line& line, const common_options& o) {
+    const std::vector<fs::path> outputs = line.outputs();
+    if (std::count(outputs.begin(), outputs.end(), "-") > 1)
+        refuse("only one output can go to standard output");
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        if (outputs[i] == "-") continue;
+        for (std::size_t j = 0; j < i; ++j)
+            if (outputs[j] != "-" && same_file(outputs[i], outputs[j]))
+                refuse(outputs[i].string() + " is named for two outputs");
+        for (const auto& input : o.inputs)
+            if (input != "-" && same_file(outputs[i], input))
+                refuse(outputs[i].string() + " is an input; no output may replace it");
+    }
+    if (o.inputs.size() < 2) return;
+    for (const fs::path& path : outputs)
+        if (path != o.report)
+            refuse(path.string() + ": one output file, but " + std::to_string(o.inputs.size()) +
+                   " inputs; -r takes several, meshes go to --output-dir");
+}
+
+void check_output_folder(const common_options& o) {
+    if (o.output_dir.empty()) return;
+    if (!o.output.empty()) refuse("-o and --output-dir exclude each other");
+    if (o.suffix.find('/') != std::string::npos) refuse("--suffix: no / allowed");
+    std::set<fs::path> names;
+    for (const auto& input : o.inputs) {
+        const fs::path name = *mesh_output(o, input);
+        if (!names.insert(name).second)
+            refuse("two inputs would both be written to " + name.string());
+        for (const auto& other : o.inputs)
+            if (other != "-" && same_file(name, other))
+                refuse(name.string() + " is an input; no output may replace it");
+    }
+}
+
+}  // namespace
+
+void add_common_options(command_line& line, common_options& target,
+                        const common_features& features) {
+    common_options& o = target;
+    o.mesh_formats = features.output_formats;
+    add_output_options(line, o, features);
+    line.flag(
+        o.force,
+        {.names = "-f, --force", .text = "overwrite existing files", .fallback = "refuse, exit 4"});
+    if (!features.output_formats.empty())
+        line.flag(o.dry_run, {.names = "-n, --dry-run",
+                              .text = "do all the work, write no mesh (reports are written)"});
+    add_format_options(line, o, features);
+    line.option(
+        {"--units", "U", "unit of the inputs: mm cm m in ft; STL, OBJ, PLY and\nOFF carry none",
+         "report as \"unknown\""},
+        [&o](std::string_view value) {
+            o.unit = one_of("--units", value, {"mm", "cm", "m", "in", "ft"});
+        });
+    line.output(o.report, {"-r, --report", "FILE", "JSON report; \"-\" = stdout"});
+    add_run_options(line, o);
+}
+
+void check_common_options(const command_line& line, const common_options& options) {
+    if (options.ascii && options.binary) refuse("--ascii and --binary exclude each other");
+    if (options.quiet && (options.verbose > 0 || options.progress))
+        refuse("-q excludes -v and --progress");
+    if (std::count(options.inputs.begin(), options.inputs.end(), "-") > 1)
+        refuse("standard input can be read only once");
+    if (options.output == "-" && options.output_format.empty())
+        refuse("-o - needs --output-format");
+    if (!options.output.empty()) static_cast<void>(mesh_format(options, options.output));
+    check_outputs(line, options);
+    check_output_folder(options);
+}
+
+std::optional<std::filesystem::path> mesh_output(const common_options& options,
+                                                 const std::string& input) {
+    if (!options.output.empty()) return options.output;
+    if (options.output_dir.empty()) return std::nullopt;
+    const std::string stem = input == "-" ? "stdin" : fs::path(input).stem().string();
+    std::string format =
+        options.output_format.empty() ? extension_of(input) : options.output_format;
+    if (!offers(options, format)) format = options.mesh_formats.front();
+    return options.output_dir / (stem + options.suffix + "." + format);
+}
+
+std::string mesh_format(const common_options& options, const fs::path& path) {
+    const std::string format =
+        options.output_format.empty() ? extension_of(path) : options.output_format;
+    if (!offers(options, format))
+        refuse(path.string() + ": the mesh can be written as " + joined(options.mesh_formats));
+    return format;
+}
+
+std::string extension_of(const std::filesystem::path& path) {
+    std::string text = path.extension().string();
+    if (!text.empty()) text.erase(0, 1);
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+}  // namespace tools

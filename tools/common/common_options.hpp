@@ -1,0 +1,69 @@
+#pragma once
+/// \file
+/// The options that all tools share.
+
+#include "tools/common/command_line.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+struct common_options {
+    std::vector<std::string> inputs;
+    std::filesystem::path output;
+    std::filesystem::path output_dir;
+    std::string suffix;  ///< for `output_dir`
+    bool force = false;
+    bool dry_run = false;
+    std::string format;         ///< of the inputs; empty: by content
+    std::string output_format;  ///< empty: by extension
+    bool ascii = false;
+    bool binary = false;
+    std::string precision = "keep";
+    std::string unit = "unknown";
+    std::filesystem::path report;
+    std::filesystem::path html;
+    unsigned threads = 0;  ///< 0: all
+    std::uint64_t memory = 0;
+    double timeout = 0.0;
+    bool progress = false;
+    bool quiet = false;
+    int verbose = 0;
+    std::string log;
+    bool exit_zero = false;                 ///< 0 instead of 1
+    std::vector<std::string> mesh_formats;  ///< that the tool writes, the preferred one first
+
+    /// Whether a report of some kind wants every fact.
+    [[nodiscard]] bool detailed() const { return !report.empty() || !html.empty(); }
+};
+
+/// What of the common options a tool offers.
+struct common_features {
+    std::vector<std::string> output_formats;  ///< extensions; empty: writes no mesh
+    bool changes_meshes = true;               ///< then --in-place makes sense
+};
+
+/// Adds them to `line` as a group of their own; `target` must outlive the parsing.
+void add_common_options(command_line& line, common_options& target,
+                        const common_features& features);
+
+/// What only shows when all options are known: outputs that exclude each other or are inputs.
+/// \throws failure (bad_usage)
+void check_common_options(const command_line& line, const common_options& options);
+
+/// Where the mesh made from `input` goes; none when no mesh is asked for.
+[[nodiscard]] std::optional<std::filesystem::path> mesh_output(const common_options& options,
+                                                               const std::string& input);
+
+/// The format in which `path` is to be written. \throws failure (bad_usage) for one not offered
+[[nodiscard]] std::string mesh_format(const common_options& options,
+                                      const std::filesystem::path& path);
+
+/// The file's extension in small letters, without its dot.
+[[nodiscard]] std::string extension_of(const std::filesystem::path& path);
+
+}  // namespace tools

@@ -1,0 +1,231 @@
+#include "tools/common/guard.hpp"
+
+#include "tools/common/exit_status.hpp"
+
+#include <poll.h>
+#include <pthread.h>
+#include <sys/eventfd.h>
+#include <sys/resource.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <set>
+#include <thread>
+
+#ifndef __has_feature
+#define __has_feature(x) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
+    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define TREEFORM_SHADOW_MEMORY 1  // reserves terabytes: no limit on data can be set
+#endif
+
+namespace tools {
+namespace {
+
+using clock = std::chrono::steady_clock;
+constexpr auto grace = std::chrono::seconds(1);
+
+enum class reason : int { none, interrupt, terminate, hang_up, time, memory };
+
+const char* code_of(reason why) {
+    return why == reason::time ? "timeout" : why == reason::memory ? "memory" : "signal";
+}
+
+const char* text_of(reason why) {
+    switch (why) {
+        case reason::none:
+            break;
+        case reason::interrupt:
+            return "stopped by SIGINT";
+        case reason::terminate:
+            return "stopped by SIGTERM";
+        case reason::hang_up:
+            return "stopped by SIGHUP";
+        case reason::time:
+            return "stopped by the time limit (--timeout)";
+        case reason::memory:
+            return "stopped by the memory limit (--memory)";
+    }
+    return "stopped";
+}
+
+/// Memory that is the process's own: pages of mapped files are the system's to drop.
+std::uint64_t memory_in_use() {
+    std::FILE* const file = std::fopen("/proc/self/statm", "r");
+    if (file == nullptr) return 0;
+    unsigned long long size = 0;
+    unsigned long long resident = 0;
+    unsigned long long shared = 0;
+    const int read = std::fscanf(file, "%llu %llu %llu", &size, &resident, &shared);
+    std::fclose(file);
+    if (read != 3 || shared > resident) return 0;
+    return (resident - shared) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void bound_data(std::uint64_t bytes) {
+#ifdef TREEFORM_SHADOW_MEMORY
+    static_cast<void>(bytes);
+#else
+    rlimit bound{};
+    if (getrlimit(RLIMIT_DATA, &bound) != 0) return;
+    bound.rlim_cur = std::min<rlim_t>(bytes, bound.rlim_max);
+    setrlimit(RLIMIT_DATA, &bound);
+#endif
+}
+
+sigset_t watched_signals() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction present {};
+        sigaction(signal, nullptr, &present);
+        if (present.sa_handler != SIG_IGN) sigaddset(&set, signal);  // nohup stays in force
+    }
+    return set;
+}
+
+}  // namespace
+
+struct guard::state {
+    std::string tool;
+    limits bounds;
+    clock::time_point start = clock::now();
+    std::atomic<reason> why{reason::none};
+    std::mutex mutex;
+    std::set<std::filesystem::path> open_files;
+    sigset_t signals{};
+    sigset_t signals_before{};
+    int signal_fd = -1;
+    int done_fd = -1;
+    std::thread watcher;
+
+    void watch();
+    [[nodiscard]] reason next_reason(bool signalled) const;
+    [[noreturn]] void end_process(reason cause, int status);
+};
+
+namespace {
+std::atomic<guard*> current{nullptr};
+std::atomic<void (*)(int)> end_current{nullptr};
+
+/// An allocation may fail where nothing may throw; that is the memory limit, not a bug.
+void on_terminate() {
+    int status = bug;
+    if (const auto error = std::current_exception()) {
+        try {
+            std::rethrow_exception(error);
+        } catch (const std::bad_alloc&) {
+            status = stopped;
+        } catch (...) {
+        }
+    }
+    if (auto* const end = end_current.load()) end(status);
+    std::_Exit(status);
+}
+}  // namespace
+
+reason guard::state::next_reason(bool signalled) const {
+    if (signalled) {
+        signalfd_siginfo info{};
+        if (read(signal_fd, &info, sizeof info) == sizeof info) {
+            if (info.ssi_signo == SIGINT) return reason::interrupt;
+            return info.ssi_signo == SIGHUP ? reason::hang_up : reason::terminate;
+        }
+    }
+    const std::chrono::duration<double> elapsed = clock::now() - start;
+    if (bounds.seconds > 0.0 && elapsed.count() > bounds.seconds) return reason::time;
+    if (bounds.memory > 0 && memory_in_use() > bounds.memory) return reason::memory;
+    return reason::none;
+}
+
+void guard::state::watch() {
+    clock::time_point asked{};
+    while (true) {
+        pollfd files[2] = {{signal_fd, POLLIN, 0}, {done_fd, POLLIN, 0}};
+        const bool idle = bounds.seconds == 0.0 && bounds.memory == 0 && why == reason::none;
+        if (poll(files, 2, idle ? -1 : 20) < 0) continue;
+        if ((files[1].revents & POLLIN) != 0) return;
+        const bool signalled = (files[0].revents & POLLIN) != 0;
+        const reason next = next_reason(signalled);
+        if (why == reason::none) {
+            if (next == reason::none) continue;
+            why = next;
+            asked = clock::now();
+        } else if ((signalled && next != reason::none) || clock::now() - asked > grace) {
+            end_process(why, stopped);
+        }
+    }
+}
+
+void guard::state::end_process(reason cause, int status) {
+    {
+        const std::lock_guard lock(mutex);
+        std::error_code ignored;
+        for (const auto& path : open_files) std::filesystem::remove_all(path, ignored);
+    }
+    std::fprintf(stderr, "%s: error: %s\n", tool.c_str(),
+                 cause == reason::none ? (status == stopped ? "out of memory" : "internal error")
+                                       : text_of(cause));
+    std::_Exit(status);
+}
+
+guard::guard(std::string tool, limits bounds) : state_(std::make_unique<state>()) {
+    state_->tool = std::move(tool);
+    state_->bounds = bounds;
+    if (bounds.memory > 0) bound_data(bounds.memory);
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an output error like any other
+    state_->signals = watched_signals();
+    pthread_sigmask(SIG_BLOCK, &state_->signals, &state_->signals_before);
+    state_->signal_fd = signalfd(-1, &state_->signals, SFD_CLOEXEC | SFD_NONBLOCK);
+    state_->done_fd = eventfd(0, EFD_CLOEXEC);
+    current = this;
+    end_current = [](int status) {
+        if (guard* const g = current.load()) g->state_->end_process(g->state_->why, status);
+    };
+    std::set_terminate(on_terminate);
+    state_->watcher = std::thread([s = state_.get()] { s->watch(); });
+}
+
+guard::~guard() {
+    const std::uint64_t one = 1;
+    if (write(state_->done_fd, &one, sizeof one) != sizeof one) std::_Exit(bug);
+    state_->watcher.join();
+    current = nullptr;
+    close(state_->signal_fd);
+    close(state_->done_fd);
+    pthread_sigmask(SIG_SETMASK, &state_->signals_before, nullptr);
+}
+
+bool guard::stop_requested() const { return state_->why != reason::none; }
+
+void guard::check() const {
+    const reason why = state_->why;
+    if (why != reason::none) throw failure(stopped, code_of(why), text_of(why));
+}
+
+void guard::unfinished(const std::filesystem::path& path) {
+    const std::lock_guard lock(state_->mutex);
+    state_->open_files.insert(path);
+}
+
+void guard::finished(const std::filesystem::path& path) {
+    const std::lock_guard lock(state_->mutex);
+    state_->open_files.erase(path);
+}
+
+std::uint64_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace tools

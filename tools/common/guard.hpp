@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// Signals, the time limit and the memory limit: a tool stops in order, and leaves nothing
+/// half-written.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace tools {
+
+struct limits {
+    double seconds = 0.0;      ///< 0: none
+    std::uint64_t memory = 0;  ///< bytes; 0: none
+};
+
+/// Watches from a thread of its own. When SIGINT, SIGTERM or SIGHUP arrives or a limit is passed,
+/// `check` throws and the tool ends with `stopped`. If it has not ended within a second, or at a
+/// second signal, the guard removes the unfinished files and ends the process with `stopped`.
+/// Memory is also bounded by the system (RLIMIT_DATA), so an allocation beyond the limit fails
+/// with std::bad_alloc rather than pass it unseen.
+///
+/// Make one before any other thread; threads made later inherit the blocked signals.
+class guard {
+  public:
+    guard(std::string tool, limits bounds);
+    ~guard();
+    guard(const guard&) = delete;
+    guard& operator=(const guard&) = delete;
+
+    /// \throws failure (stopped) naming what asked for the stop
+    void check() const;
+    [[nodiscard]] bool stop_requested() const;
+
+    /// Files, or folders with all that is in them, to remove if the process is ended in the middle
+    /// of the work.
+    void unfinished(const std::filesystem::path& path);
+    void finished(const std::filesystem::path& path);
+
+  private:
+    struct state;
+    std::unique_ptr<state> state_;
+};
+
+/// Largest memory in use so far, in bytes.
+[[nodiscard]] std::uint64_t peak_memory();
+
+}  // namespace tools

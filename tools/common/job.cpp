@@ -1,0 +1,95 @@
+#include "tools/common/run.hpp"
+#include "tools/common/sha256.hpp"
+#include <libmesh/io/read.hpp>
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+namespace tools {
+namespace {
+
+double now() {
+    using clock = std::chrono::steady_clock;
+    return std::chrono::duration<double>(clock::now().time_since_epoch()).count();
+}
+
+std::vector<std::byte> read_standard_input(const guard& keeper) {
+    std::vector<std::byte> bytes;
+    std::size_t size = 0;
+    while (true) {
+        keeper.check();
+        constexpr std::size_t step = std::size_t{1} << 16;
+        if (bytes.size() - size < step) bytes.resize(bytes.size() + bytes.size() / 2 + step);
+        const ssize_t count = ::read(STDIN_FILENO, bytes.data() + size, bytes.size() - size);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) throw failure(bad_input, "read", "standard input cannot be read");
+        if (count == 0) break;
+        size += static_cast<std::size_t>(count);
+    }
+    bytes.resize(size);
+    return bytes;
+}
+
+}  // namespace
+
+job::job(const std::string& input, const common_options& all_options, console& messages,
+         guard& stop, std::map<std::string, double>& all_seconds)
+    : path(input),
+      name(input == "-" ? "standard input" : input),
+      options(all_options),
+      out(messages),
+      keeper(stop),
+      seconds(all_seconds) {
+    entry["input"] = input;
+    entry["error"] = nullptr;
+}
+
+tf::mesh_file job::read() {
+    const timer whole = time("read");
+    out.progress(name + ": read", 0.0);
+    tf::mesh_file file;
+    std::string digest;
+    if (path == "-") {
+        const std::vector<std::byte> bytes = read_standard_input(keeper);
+        if (options.detailed()) {
+            sha256 sum;
+            sum.add(bytes);
+            digest = sum.hex();
+        }
+        file = tf::read_mesh(bytes, name, options.format);
+    } else {
+        std::error_code error;
+        if (std::filesystem::is_directory(path, error))
+            throw failure(bad_input, "read", path + ": is a folder");
+        if (options.detailed()) digest = sha256_of_file(path);
+        file = tf::read_mesh(path, options.format);
+    }
+    entry["format"] = file.format;
+    entry["sha256"] = digest.empty() ? json(nullptr) : json(digest);
+    entry["precision_in"] = file.stored_as == tf::precision::single_ ? "float" : "double";
+    entry["warnings"] = json::array();
+    for (const tf::io_warning& w : file.warnings) warn(w.code, w.text);
+    out.end_progress();
+    keeper.check();
+    return file;
+}
+
+job::timer::timer(double& sum) : sum_(sum), start_(now()) {}
+job::timer::~timer() { sum_ += now() - start_; }
+
+tf::progress_callback job::progress(std::string_view step) {
+    return [this, label = name + ": " + std::string(step)](double share) {
+        out.progress(label, share);
+        return !keeper.stop_requested();
+    };
+}
+
+void job::warn(const std::string& code, const std::string& text) {
+    out.warning(name + ": " + text);
+    entry["warnings"].push_back({{"code", code}, {"text", text}});
+}
+
+}  // namespace tools

@@ -1,0 +1,62 @@
+#pragma once
+/// \file
+/// Files a tool writes: complete under their name, or not there at all.
+
+#include "tools/common/guard.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace tools {
+
+/// \throws failure (bad_output) when `path` exists as a file and `force` is not set, or its folder
+///         is missing. "-", pipes and devices always pass.
+void check_output(const std::filesystem::path& path, bool force);
+
+/// A name in a new folder beside `path` to write to, and the move that makes it final. Without a
+/// `commit` nothing stays, also when the process is stopped, whatever else a writer has put into
+/// the folder. For "-", pipes and devices the name is `path` itself.
+class output_place {
+  public:
+    /// \throws failure (bad_output) as `check_output` does
+    output_place(std::filesystem::path path, bool force, guard& keeper);
+    ~output_place();
+    output_place(const output_place&) = delete;
+    output_place& operator=(const output_place&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] const std::filesystem::path& writable() const { return writable_; }
+    /// \throws failure (bad_output), also when `path` has come into being without `force`
+    void commit();
+
+  private:
+    std::filesystem::path path_;
+    std::filesystem::path target_;  ///< `path_` with links followed
+    std::filesystem::path folder_;  ///< made for this; empty when written to directly
+    std::filesystem::path writable_;
+    bool force_;
+    guard& keeper_;
+};
+
+/// A file written from memory.
+class output_file {
+  public:
+    output_file(const std::filesystem::path& path, bool force, guard& keeper);
+    ~output_file();
+    output_file(const output_file&) = delete;
+    output_file& operator=(const output_file&) = delete;
+
+    /// \throws failure (bad_output) when the device is full or the reader has gone
+    void write(std::string_view bytes);
+    void commit();
+
+  private:
+    [[noreturn]] void fail() const;
+
+    output_place place_;
+    std::FILE* file_ = nullptr;
+};
+
+}  // namespace tools

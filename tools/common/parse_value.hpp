@@ -1,0 +1,34 @@
+#pragma once
+/// \file
+/// Values of options: numbers, distances, sizes. Locale-free; what is left over is an error.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tools {
+
+/// A length in the unit of the file, or a share of the diagonal of its box.
+struct distance {
+    std::string given = "0";  ///< as typed
+    double value = 0.0;       ///< the length, or the share: 0.0001 for "0.01%"
+    bool relative = false;
+    /// The length for a box with this diagonal.
+    [[nodiscard]] double used(double diagonal) const { return relative ? value * diagonal : value; }
+};
+
+/// All of them: \throws failure (bad_usage) naming `option`, the text and what was expected.
+[[nodiscard]] double parse_number(std::string_view option, std::string_view text);
+[[nodiscard]] std::vector<double> parse_numbers(std::string_view option, std::string_view text,
+                                                std::size_t count);
+[[nodiscard]] std::uint64_t parse_count(std::string_view option, std::string_view text);
+/// Finite, not negative.
+[[nodiscard]] distance parse_distance(std::string_view option, std::string_view text);
+/// Bytes: "512M", "4G", "4GiB", "1.5G", "1000000"; K, M, G and T are powers of 1024.
+[[nodiscard]] std::uint64_t parse_size(std::string_view option, std::string_view text);
+/// Seconds, greater than 0.
+[[nodiscard]] double parse_seconds(std::string_view option, std::string_view text);
+
+}  // namespace tools

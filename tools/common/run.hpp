@@ -1,0 +1,75 @@
+#pragma once
+/// \file
+/// One run of a tool: its inputs one after the other, its report, its exit status.
+
+#include "tools/common/command_line.hpp"
+#include "tools/common/common_options.hpp"
+#include "tools/common/console.hpp"
+#include "tools/common/exit_status.hpp"
+#include "tools/common/guard.hpp"
+#include <libmesh/io/mesh_file.hpp>
+#include <libtree/progress.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tools {
+
+using json = nlohmann::ordered_json;
+
+/// The work on one input.
+class job {
+  public:
+    job(const std::string& path, const common_options& options, console& out, guard& keeper,
+        std::map<std::string, double>& seconds);
+
+    /// Reads the input and enters what is known of it in `entry`. \throws failure
+    [[nodiscard]] tf::mesh_file read();
+
+    /// Adds the time from now to the end of the returned object's life to the report's `step`.
+    class timer {
+      public:
+        explicit timer(double& sum);
+        ~timer();
+        timer(const timer&) = delete;
+        timer& operator=(const timer&) = delete;
+
+      private:
+        double& sum_;
+        double start_;
+    };
+    [[nodiscard]] timer time(const std::string& step) { return timer(seconds[step]); }
+
+    /// For library calls: shows progress, and asks them to stop when the tool has to.
+    [[nodiscard]] tf::progress_callback progress(std::string_view step);
+
+    /// A remark for the person and for the report.
+    void warn(const std::string& code, const std::string& text);
+
+    const std::string& path;
+    std::string name;  ///< of the input, for people
+    const common_options& options;
+    console& out;
+    guard& keeper;
+    std::map<std::string, double>& seconds;  ///< of the report, by step
+    json entry;                              ///< of the report's `files`
+};
+
+/// Parses the command line and calls `body` for each input. What `body` returns or throws becomes
+/// the input's status: a `failure` its own, an `io_error` bad_input, no memory `stopped`, anything
+/// else `bug`. Work goes on with the next input, except after `stopped`. The exit status is the
+/// gravest of all.
+///
+/// `steps` names the keys of the report's "seconds", which are there even where they are 0.
+[[nodiscard]] int run(command_line& line, common_options& options,
+                      const std::vector<std::string>& steps, int argc, const char* const* argv,
+                      const std::function<void()>& check_options,
+                      const std::function<exit_status(job&)>& body);
+
+}  // namespace tools

@@ -1,0 +1,186 @@
+/// \file
+/// tf-selfintersect: finds the self-intersections of triangle meshes.
+
+#include "tools/common/command_line.hpp"
+#include "tools/common/common_options.hpp"
+#include "tools/common/output_file.hpp"
+#include "tools/common/run.hpp"
+#include "tools/tf-selfintersect/outputs.hpp"
+#include "tools/tf-selfintersect/page.hpp"
+#include "tools/tf-selfintersect/search.hpp"
+#include "tools/tf-selfintersect/words.hpp"
+
+namespace {
+
+using tools::command_line;
+using tools::common_options;
+using tools::exit_status;
+
+struct request {
+    tools::search_settings search;
+    std::uint64_t limit = 10000;
+    std::filesystem::path pairs;
+    std::filesystem::path curves;
+};
+
+tf::box3 parse_box(std::string_view text) {
+    const auto v = tools::parse_numbers("--box", text, 6);
+    const tf::box3 box{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (box.min[axis] > box.max[axis])
+            throw tools::failure(
+                tools::bad_usage, "usage",
+                "--box " + std::string(text) + ": the first corner must be the low one");
+    return box;
+}
+
+tools::vertex_mode parse_vertices(std::string_view text) {
+    if (text == "file") return tools::vertex_mode::stored;
+    if (text == "equal") return tools::vertex_mode::equal;
+    throw tools::failure(tools::bad_usage, "usage",
+                         "--vertices " + std::string(text) + ": expected file or equal");
+}
+
+void add_what_counts(command_line& line, tools::search_settings& s) {
+    line.group("What counts");
+    line.flag(s.touching, {"--touching", "",
+                           "also count contact without crossing between faces\n"
+                           "that are not neighbours, and pairs with a\n"
+                           "degenerate face",
+                           "off"});
+    line.flag(s.no_overlap,
+              {"--no-overlap", "", "do not count coplanar overlap, folds, duplicates"});
+    line.flag(s.between, {"--between", "", "only pairs of different connected components"});
+    line.flag(s.within, {"--within", "", "only pairs inside one connected component"});
+    line.option({"--vertices", "MODE",
+                 "which corners are one vertex: file (indices as\n"
+                 "stored) or equal (same coordinates)",
+                 "equal for STL, else file"},
+                [&s](std::string_view text) { s.vertices = parse_vertices(text); });
+    line.option(
+        {.names = "-t, --tolerance",
+         .value = "DIST",
+         .text = "join corners within DIST before looking",
+         .fallback = "0",
+         .aliases = "--eps,--threshold"},
+        [&s](std::string_view text) { s.tolerance = tools::parse_distance("--tolerance", text); });
+    line.option({"--box", "X0,Y0,Z0,X1,Y1,Z1", "only faces that meet this box"},
+                [&s](std::string_view text) { s.box = parse_box(text); });
+}
+
+void add_what_to_give_back(command_line& line, request& r, common_options& options) {
+    line.group("What to give back");
+    line.flag(r.search.first, {"--first", "", "stop at the first one found"});
+    line.option({"--limit", "N",
+                 "list at most N pairs in the report (counts, --pairs\n"
+                 "and regions stay complete)",
+                 "10000"},
+                [&r](std::string_view text) { r.limit = tools::parse_count("--limit", text); });
+    line.output(r.pairs, {"--pairs", "FILE", "all pairs as CSV: face,face,kind,region"});
+    line.output(r.curves, {"--curves", "FILE", "intersection curves as OBJ or PLY lines"});
+    line.output(options.html, {"--html", "FILE", "self-contained HTML page with a 3D view"});
+    line.output(options.output, {"-o, --output", "FILE",
+                                 "the mesh with the faces coloured by kind, and its\n"
+                                 "properties tf_class and tf_region (PLY, GLB)"});
+}
+
+const char* const epilogue =
+    "DIST is in the unit of the file; \"0.01%\" is that share of the bounding-box\n"
+    "diagonal. The DIST actually used is reported in file units.\n"
+    "\n"
+    "Kinds of pairs: crossing (no common corner), pierce (one common corner), overlap\n"
+    "(coplanar, common area), fold (common edge, coplanar, on one side of it),\n"
+    "duplicate (same corners), touching (contact without crossing), degenerate (a\n"
+    "face of the pair is a segment or a point). Degenerate pairs are counted apart:\n"
+    "the edges of such a face belong to its neighbours, which are looked at in their\n"
+    "own right. Face and vertex numbers are those of the file, from 0; polygons are\n"
+    "cut into a fan from their first corner.\n"
+    "\n"
+    "Exit status: 0 none found; 1 found; 2 usage; 3 input; 4 output; 5 stopped\n"
+    "  (memory, timeout, signal); 70 bug. Of several inputs, the highest.\n";
+
+/// Outputs are looked at before the work, so that it is not lost in the end.
+void check_outputs(const tools::job& work, const request& r) {
+    const common_options& o = work.options;
+    for (const auto& path : {r.pairs, o.html})
+        if (!path.empty()) tools::check_output(path, o.force);
+    if (o.dry_run) return;
+    if (!r.curves.empty()) tools::check_output(r.curves, o.force);
+    if (const auto path = tools::mesh_output(o, work.path)) tools::check_output(*path, o.force);
+}
+
+bool curves_as_ply(const request& r) { return tools::extension_of(r.curves) == "ply"; }
+
+void check_request(const request& r, const common_options& options) {
+    const auto refuse = [](const std::string& text) {
+        throw tools::failure(tools::bad_usage, "usage", text);
+    };
+    if (r.search.between && r.search.within) refuse("--between and --within exclude each other");
+    if (!r.curves.empty() && r.curves != "-" && !curves_as_ply(r) &&
+        tools::extension_of(r.curves) != "obj")
+        refuse(r.curves.string() + ": curves can be written as obj or ply");
+    const bool mesh_asked = !options.output.empty() || !options.output_dir.empty();
+    if (!mesh_asked && (options.ascii || options.binary || options.precision != "keep" ||
+                        !options.output_format.empty() || options.dry_run))
+        refuse("--output-format, --ascii, --binary, --precision and -n need -o or --output-dir");
+}
+
+template <class Write>
+void write_file(const tools::job& work, const std::filesystem::path& path, Write&& write) {
+    if (path.empty()) return;
+    tools::output_file file(path, work.options.force, work.keeper);
+    write(file);
+    file.commit();
+}
+
+void hint_at_near_points(tools::job& work, const tools::findings& result) {
+    const auto near = tools::nearly_equal_points(result);
+    if (!near || near->count == 0) return;
+    work.warn("near-corners",
+              tools::counted(near->count, "vertex lies", "vertices lie") + " within " +
+                  tools::shortest(near->within) +
+                  " of another without being equal to it; -t 0.0001% would join them");
+}
+
+exit_status look_at(tools::job& work, const request& r) {
+    check_outputs(work, r);
+    tf::mesh_file file = work.read();
+    const common_options& o = work.options;
+    const auto marked = o.dry_run ? std::nullopt : tools::mesh_output(o, work.path);
+    const tools::findings result = tools::search(work, file, r.search, marked.has_value());
+
+    work.out.result(work.name + ": " + tools::verdict(result, r.search));
+    tools::say_details(work, result);
+    tools::enter_report(work, result, r.search, r.limit);
+    if (result.pairs_that_count() > 0) hint_at_near_points(work, result);
+
+    const auto timing = work.time("write");
+    write_file(work, r.pairs, [&](auto& out) { tools::write_pairs(out, result); });
+    if (!o.dry_run)
+        write_file(work, r.curves,
+                   [&](auto& out) { tools::write_curves(out, result, curves_as_ply(r)); });
+    if (marked) tools::write_marked(work, file, result, *marked);
+    write_file(work, o.html, [&](auto& out) { tools::write_page(out, work, result, r.search); });
+    return result.pairs_that_count() > 0 ? tools::found : tools::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    command_line line("tf-selfintersect", "[OPTIONS] INPUT...",
+                      "Find self-intersections of triangle meshes.\n"
+                      "Every yes/no answer is exact for the coordinates as read.");
+    request r;
+    common_options options;
+    options.suffix = "-selfintersect";
+    line.inputs(options.inputs, "STL OBJ PLY OFF GLB/glTF 3MF files; \"-\" = stdin");
+    add_what_counts(line, r.search);
+    add_what_to_give_back(line, r, options);
+    line.group("Common options");
+    tools::add_common_options(line, options,
+                              {.output_formats = {"ply", "glb"}, .changes_meshes = false});
+    line.epilogue(epilogue);
+    return tools::run(
+        line, options, {"read", "prepare", "tree", "pairs", "regions", "write"}, argc, argv,
+        [&] { check_request(r, options); }, [&](tools::job& work) { return look_at(work, r); });
+}

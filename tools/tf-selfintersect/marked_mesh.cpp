@@ -1,0 +1,110 @@
+#include "tools/common/console.hpp"
+#include "tools/tf-selfintersect/marks.hpp"
+#include "tools/tf-selfintersect/outputs.hpp"
+#include <libmesh/attributes.hpp>
+#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/write.hpp>
+#include <libmesh/weld/equal_points.hpp>
+
+#include <algorithm>
+#include <string_view>
+
+namespace tools {
+namespace {
+
+std::uint8_t channel(std::size_t mark, std::size_t which) {
+    const std::string_view color = mark_colors[mark];
+    return static_cast<std::uint8_t>(
+        std::stoi(std::string(color.substr(1 + 2 * which, 2)), nullptr, 16));
+}
+
+/// Puts `column` in the place of one of the same name, or at the end.
+void set_column(tf::element& element, tf::column column) {
+    const auto at = std::find_if(element.columns.begin(), element.columns.end(),
+                                 [&](const tf::column& c) { return c.name == column.name; });
+    if (at == element.columns.end())
+        element.columns.push_back(std::move(column));
+    else
+        *at = std::move(column);
+}
+
+void set_colors(tf::element& element, const std::vector<std::uint8_t>& marks) {
+    constexpr const char* names[] = {"red", "green", "blue"};
+    std::vector<std::uint8_t> values(marks.size());
+    for (std::size_t which = 0; which < 3; ++which) {
+        for (std::size_t i = 0; i < marks.size(); ++i) values[i] = channel(marks[i], which);
+        set_column(element, tf::make_column<std::uint8_t>(names[which], values));
+    }
+}
+
+/// The marks of the faces searched, for all triangles of the file.
+face_marks marks_of_file(const findings& result, std::size_t triangles) {
+    const face_marks searched = mark_faces(result);
+    face_marks all{std::vector<std::uint8_t>(triangles, 0),
+                   std::vector<std::int32_t>(triangles, -1)};
+    for (std::uint32_t f = 0; f < searched.kind.size(); ++f) {
+        all.kind[result.triangle(f)] = searched.kind[f];
+        all.region[result.triangle(f)] = searched.region[f];
+    }
+    return all;
+}
+
+/// A vertex shows the mark of a face at it that is in a pair, of the first one if there are more.
+std::vector<std::uint8_t> marks_of_vertices(const tf::mesh& mesh,
+                                            const std::vector<std::uint8_t>& faces) {
+    std::vector<std::uint8_t> vertices(mesh.points.size(), 0);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (const std::uint32_t corner : mesh.faces[f])
+            if (vertices[corner] == 0) vertices[corner] = faces[f];
+    return vertices;
+}
+
+void add_marks(tf::mesh_file& file, const face_marks& marks) {
+    tf::element& vertices = tf::obtain_element(file.attributes, "vertex", file.mesh.points.size());
+    set_colors(vertices, marks_of_vertices(file.mesh, marks.kind));
+    tf::element& faces = tf::obtain_element(file.attributes, "face", file.mesh.faces.size());
+    set_colors(faces, marks.kind);
+    const std::vector<std::int32_t> classes(marks.kind.begin(), marks.kind.end());
+    set_column(faces, tf::make_column<std::int32_t>("tf_class", classes));
+    set_column(faces, tf::make_column<std::int32_t>("tf_region", marks.region));
+}
+
+void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written) {
+    work.entry["output"] = {
+        {"file", path.string()},
+        {"format", written.format},
+        {"precision_out", written.written_as == tf::precision::single_ ? "float" : "double"},
+        {"max_move", written.largest_move}};
+    for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
+    if (written.largest_move > 0.0)
+        work.warn("rounded", "the marked copy is in single precision: coordinates move by up to " +
+                                 shortest(written.largest_move));
+}
+
+}  // namespace
+
+void write_marked(job& work, tf::mesh_file& file, const findings& result,
+                  const std::filesystem::path& path) {
+    const common_options& o = work.options;
+    const std::string format = mesh_format(o, path);
+    const face_marks marks = marks_of_file(result, file.mesh.faces.size());
+    if (!file.stored_face.empty()) tf::split_polygons(file);
+    if (!file.indexed) {  // a soup becomes a mesh; where vertices have numbers they keep them
+        file.mesh = tf::join_equal_points(file.mesh);
+        file.attributes = {};
+        file.indexed = true;
+    }
+    add_marks(file, marks);
+    tf::write_options options{.format = format, .ascii = o.ascii};
+    if (o.precision == "float") options.precision = tf::precision::single_;
+    if (o.precision == "double") options.precision = tf::precision::double_;
+    output_place place(path, o.force, work.keeper);
+    try {
+        enter_output(work, path, tf::write_mesh(place.writable(), file, options));
+    } catch (const tf::io_error& error) {
+        throw failure(bad_output, "output", error.what());
+    }
+    place.commit();
+}
+
+}  // namespace tools

@@ -1,0 +1,91 @@
+#include "tools/tf-selfintersect/words.hpp"
+
+#include "tools/common/console.hpp"
+
+namespace tools {
+
+const char* name_of(tf::pair_kind kind) {
+    switch (kind) {
+        case tf::pair_kind::crossing:
+            return "crossing";
+        case tf::pair_kind::overlap:
+            return "overlap";
+        case tf::pair_kind::fold:
+            return "fold";
+        case tf::pair_kind::duplicate:
+            return "duplicate";
+        case tf::pair_kind::pierce:
+            return "pierce";
+        case tf::pair_kind::touching:
+            return "touching";
+        case tf::pair_kind::degenerate:
+            return "degenerate";
+    }
+    return "";
+}
+
+std::string verdict(const findings& result, const search_settings& settings) {
+    const auto& counts = result.found.counts;
+    const std::uint64_t pairs = result.pairs_that_count();
+    if (settings.first && pairs > 0) {
+        const tf::face_pair& pair = result.found.pairs.front();
+        return "self-intersecting: faces " + std::to_string(result.stored_face(pair.a)) + " and " +
+               std::to_string(result.stored_face(pair.b)) + " (" + name_of(pair.kind) +
+               "); stopped at the first";
+    }
+    std::string text =
+        pairs == 0 ? "no self-intersections in " + counted(result.faces_stored, "face", "faces")
+                   : counted(pairs, "self-intersecting pair", "self-intersecting pairs") + " of " +
+                         counted(result.faces_stored, "face", "faces");
+    const char* separator = ": ";
+    for (std::size_t k = 0; k < tf::pair_kind_count; ++k) {
+        const auto kind = static_cast<tf::pair_kind>(k);
+        if (!settings.counts(kind) || counts[k] == 0) continue;
+        text += separator + grouped(counts[k]) + " " + name_of(kind);
+        separator = ", ";
+    }
+    if (pairs > 0) text += ", in " + counted(result.regions.regions.size(), "region", "regions");
+    const auto apart = counts[static_cast<std::size_t>(tf::pair_kind::degenerate)];
+    if (apart > 0 && !settings.counts(tf::pair_kind::degenerate))
+        text += "; " + counted(apart, "pair", "pairs") + " with a degenerate face not counted";
+    return text;
+}
+
+void say_details(job& work, const findings& result) {
+    console& out = work.out;
+    if (!out.shows(level::info)) return;
+    out.info(work.name + ": " + counted(result.mesh.faces.size(), "triangle", "triangles") +
+             " on " + counted(result.mesh.points.size(), "vertex", "vertices") + " searched, " +
+             grouped(result.degenerate) + " degenerate");
+    if (result.tolerance_used > 0.0)
+        out.info(work.name + ": " + counted(result.corners_joined, "vertex", "vertices") +
+                 " joined within " + shortest(result.tolerance_used));
+    for (std::size_t id = 0; id < result.regions.regions.size(); ++id) {
+        const tf::intersection_region& region = result.regions.regions[id];
+        out.info(work.name + ": region " + std::to_string(id) + ": " +
+                 counted(region.pairs, "pair", "pairs") + ", " +
+                 counted(region.faces.size(), "face", "faces") + ", centre " +
+                 in_words(center(region)) + ", box " + in_words(region.min) + " to " +
+                 in_words(region.max));
+    }
+    const tf::predicate_counters& predicates = result.found.predicates;
+    out.debug(work.name + ": " + grouped(result.found.box_pairs) + " pairs of boxes, " +
+              grouped(result.found.exact_pairs) + " left to the exact stage; " +
+              grouped(predicates.calls) + " predicates, " + grouped(predicates.undecided) +
+              " not settled by their filter");
+}
+
+std::string in_words(const tf::point3& p) {
+    std::string text = "(";
+    text += shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z);
+    return text += ")";
+}
+
+tf::point3 center(const tf::intersection_region& region) {
+    tf::point3 middle;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        middle[axis] = 0.5 * region.min[axis] + 0.5 * region.max[axis];
+    return middle;
+}
+
+}  // namespace tools
