@@ -45,9 +45,10 @@ run_tool() {
     local status=0
     "$installed/bin/tf-selfintersect" "$SOURCE/data/two_spheres.stl" || status=$?
     test $status -eq 1
-    # Moved or not, the shared tool takes the library beside it.
+    # Moved or not, the shared tool takes the library beside it. (Not through a pipe into grep -q:
+    # that stops reading at the first match, and what writes into it then fails.)
     [[ $1 == static ]] ||
-        ldd "$installed/bin/tf-selfintersect" | grep -q "libtreeform_mesh.* => $WORK/"
+        grep -q "libtreeform_mesh.* => $WORK/" <<<"$(ldd "$installed/bin/tf-selfintersect")"
 }
 
 # Every header without "detail/" in its path is installed, and what the installed ones include is.
