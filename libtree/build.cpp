@@ -92,68 +92,94 @@ split_record* scratch_of(tree<D>& tree) {
         split_record[std::max<std::size_t>(tree.size(), 1)];
 }
 
-/// Sorts the records into leaf order, from one array to the other at each level; they end up in
+/// The halves of all parts above `grain` records, in order; the rest as they are.
+std::vector<split_part> halves(const split_plan& plan, const std::vector<split_part>& parts,
+                               std::size_t grain) {
+    std::vector<split_part> next;
+    for (const auto [begin, count, round] : parts) {
+        if (count <= grain) {
+            next.push_back({begin, count, round});
+            continue;
+        }
+        const std::size_t left = plan.left(count, round);
+        next.push_back({begin, left, round + 1});
+        if (left < count) next.push_back({begin + left, count - left, round + 1});
+    }
+    return next;
+}
+bool exceeds(const std::vector<split_part>& parts, std::size_t grain) {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const split_part& part) { return part.count > grain; });
+}
+
+/// Cuts the places of `plan` down to leaf blocks: parts above `shared_split` one after the other,
+/// each by all threads in `cut_shared(part)`; below, parts are independent and each is one
+/// thread's, in `cut(part)` down to the grain of a task and in `finish(part)` from there on.
+template <class CutShared, class Cut, class Finish>
+void cut_places(const split_plan& plan, const CutShared& cut_shared, const Cut& cut,
+                const Finish& finish) {
+    if (plan.rounds() == 0) return;
+    std::vector<split_part> parts{{0, plan.size, 0}};
+    for (; exceeds(parts, shared_split); parts = halves(plan, parts, shared_split))
+        for (const split_part& part : parts)
+            if (part.count > shared_split) cut_shared(part);
+    for (; exceeds(parts, subtree); parts = halves(plan, parts, subtree))
+        for_chunks(parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+            if (parts[i].count > subtree) cut(parts[i]);
+        });
+    for_chunks(parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) { finish(parts[i]); });
+}
+
+/// Sorts the records into leaf order, from one array to the other in each round; they end up in
 /// `memory.records`.
 template <std::size_t D>
-void order_by_splits(const split_shape& shape, tree<D>& tree, build_memory<D>& memory) {
+void order_by_splits(const split_plan& plan, tree<D>& tree, build_memory<D>& memory) {
     split_record* even = memory.records.data();
     split_record* odd = scratch_of(tree);
-    if (shape.depth % 2 != 0) std::swap(even, odd);
-    unsigned d = 0;
-    for (; d < shape.depth && (shape.size >> d) > shared_split; ++d) {
-        split_record* const from = d % 2 == 0 ? even : odd;
-        split_record* const to = d % 2 == 0 ? odd : even;
-        for (std::size_t node = 0; node < (std::size_t{1} << d); ++node) {
-            const std::size_t begin = shape.begin(node, d);
-            const std::size_t count = shape.begin(node + 1, d) - begin;
-            const std::size_t left = shape.begin(2 * node + 1, d + 1) - begin;
-            split_shared(from + begin, to + begin, count, left,
-                         widest_axis(range_shared(from + begin, count)));
-        }
-    }
-    // Below, nodes are independent: halve to the grain of a task, then a task a node.
-    for (; d < shape.depth && (shape.size >> d) > subtree; ++d)
-        for_chunks(std::size_t{1} << d, 1, [&](std::size_t node, std::size_t, std::size_t) {
-            const std::size_t begin = shape.begin(node, d);
-            const std::size_t count = shape.begin(node + 1, d) - begin;
-            split_record* const from = (d % 2 == 0 ? even : odd) + begin;
-            split_record* const to = (d % 2 == 0 ? odd : even) + begin;
-            split(from, to, count, shape.begin(2 * node + 1, d + 1) - begin,
-                  widest_axis(range_of(from, count)));
-        });
-    for_chunks(std::size_t{1} << d, 1, [&](std::size_t node, std::size_t, std::size_t) {
-        split_subtree(even, odd, shape, d, node);
-    });
+    if (plan.rounds() % 2 != 0) std::swap(even, odd);
+    const auto move = [&](const split_part& part, const auto& cut) {
+        split_record* const from = (part.round % 2 == 0 ? even : odd) + part.begin;
+        split_record* const to = (part.round % 2 == 0 ? odd : even) + part.begin;
+        const std::size_t left = plan.left(part.count, part.round);
+        if (left == part.count)
+            std::copy_n(from, part.count, to);
+        else
+            cut(from, to, part.count, left);
+    };
+    cut_places(
+        plan,
+        [&](const split_part& part) {
+            move(part,
+                 [](split_record* from, split_record* to, std::size_t count, std::size_t left) {
+                     split_shared(from, to, count, left, widest_axis(range_shared(from, count)));
+                 });
+        },
+        [&](const split_part& part) {
+            move(part,
+                 [](split_record* from, split_record* to, std::size_t count, std::size_t left) {
+                     split(from, to, count, left, widest_axis(range_of(from, count)));
+                 });
+        },
+        [&](const split_part& part) { split_to_leaves(even, odd, plan, part); });
 }
 
-void select_subtree(split_record* records, const split_shape& shape, const select_records& select,
-                    unsigned d, std::size_t node) {
-    if (d == shape.depth) return;
-    const std::size_t begin = shape.begin(node, d);
-    const std::size_t end = shape.begin(node + 1, d);
-    const split_axis axis = widest_axis(range_of(records + begin, end - begin));
-    select(records + begin, records + shape.begin(2 * node + 1, d + 1), records + end, axis.axis);
-    select_subtree(records, shape, select, d + 1, 2 * node);
-    select_subtree(records, shape, select, d + 1, 2 * node + 1);
-}
-
-/// The same with a selection of the caller's, in place: serial down to nodes of a task's grain.
+/// The same with a selection of the caller's, in place.
 template <std::size_t D>
-void order_by_selection(const split_shape& shape, build_memory<D>& memory,
+void order_by_selection(const split_plan& plan, build_memory<D>& memory,
                         const select_records& select) {
-    split_record* const records = memory.records.data();
-    unsigned d = 0;
-    for (; d < shape.depth && (shape.size >> d) > subtree; ++d)
-        for_chunks(std::size_t{1} << d, 1, [&](std::size_t node, std::size_t, std::size_t) {
-            const std::size_t begin = shape.begin(node, d);
-            const std::size_t end = shape.begin(node + 1, d);
-            const split_axis axis = widest_axis(range_of(records + begin, end - begin));
-            select(records + begin, records + shape.begin(2 * node + 1, d + 1), records + end,
-                   axis.axis);
-        });
-    for_chunks(std::size_t{1} << d, 1, [&](std::size_t node, std::size_t, std::size_t) {
-        select_subtree(records, shape, select, d, node);
-    });
+    const auto cut = [&](const split_part& part) {
+        split_record* const first = memory.records.data() + part.begin;
+        const std::size_t left = plan.left(part.count, part.round);
+        if (left == part.count) return;
+        const split_axis axis = widest_axis(range_of(first, part.count));
+        select(first, first + left, first + part.count, axis.axis);
+    };
+    const auto finish = [&](const split_part& part) {
+        std::vector<split_part> parts{part};
+        for (; parts[0].round < plan.rounds(); parts = halves(plan, parts, 0))
+            for (const split_part& p : parts) cut(p);
+    };
+    cut_places(plan, cut, cut, finish);
 }
 
 template <std::size_t D>
@@ -173,9 +199,9 @@ void fill_leaves(tree<D>& tree, const split_record* order, const float_box<D>* b
                [&](std::size_t first, std::size_t last, std::size_t) {
                    for (std::size_t block = first; block < last; ++block) {
                        wide_node<D>& leaf = leaves[block];
-                       clear(leaf);
-                       const std::size_t begin = tree.leaf_begin(block);
-                       const std::size_t end = tree.leaf_begin(block + 1);
+                       const std::size_t begin = tree.width * block;
+                       const std::size_t end = begin + tree.children(tree.levels() - 1, block);
+                       if (end - begin < tree.width) clear(leaf);
                        for (std::size_t i = begin; i < end; ++i) {
                            if (i + ahead < tree.size())
                                __builtin_prefetch(&boxes[order[i + ahead].id]);
@@ -196,14 +222,14 @@ void fill_inner(tree<D>& tree) {
     for (unsigned level = tree.levels() - 1; level-- > 0;) {
         wide_node<D>* const nodes = tree.level_data(level);
         const wide_node<D>* const below = tree.level_data(level + 1);
-        const std::size_t arity = level == 0 ? tree.root_arity() : tree.width;
         for_chunks(tree.nodes_in_level(level), 256,
                    [&](std::size_t first, std::size_t last, std::size_t) {
                        for (std::size_t n = first; n < last; ++n) {
-                           clear(nodes[n]);
-                           for (std::size_t c = 0; c < arity; ++c)
+                           const std::size_t children = tree.children(level, n);
+                           if (children < tree.width) clear(nodes[n]);
+                           for (std::size_t c = 0; c < children; ++c)
                                for (std::size_t k = 0; k < D; ++k) {
-                                   const wide_node<D>& child = below[n * arity + c];
+                                   const wide_node<D>& child = below[n * tree.width + c];
                                    nodes[n].min[k][c] =
                                        *std::min_element(child.min[k], child.min[k] + tree.width);
                                    nodes[n].max[k][c] =
@@ -219,17 +245,18 @@ void fill_inner(tree<D>& tree) {
 template <std::size_t D>
 split_record* records_of(tree<D>& tree, build_memory<D>& memory, const select_records* select) {
     memory.records.resize(tree.size());
-    const bool starts_in_scratch = select == nullptr && tree.depth() % 2 != 0;
+    const bool starts_in_scratch =
+        select == nullptr && split_plan::of(tree.size(), tree.levels()).rounds() % 2 != 0;
     return starts_in_scratch ? scratch_of(tree) : memory.records.data();
 }
 
 template <std::size_t D>
 void build_from_records(tree<D>& tree, build_memory<D>& memory, const select_records* select) {
-    const split_shape shape{tree.size(), tree.depth()};
+    const split_plan plan = split_plan::of(tree.size(), tree.levels());
     if (select == nullptr)
-        order_by_splits(shape, tree, memory);
+        order_by_splits(plan, tree, memory);
     else
-        order_by_selection(shape, memory, *select);
+        order_by_selection(plan, memory, *select);
     fill_leaves(tree, memory.records.data(), memory.boxes.data());
     fill_inner(tree);
 }

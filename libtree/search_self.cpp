@@ -112,11 +112,11 @@ struct self_traversal {
             const auto i = static_cast<std::size_t>(std::countr_zero(as));
             const unsigned bs = overlap_mask(node_b, node_a, i);
             if (t.is_leaf_level(level))
-                emit(t.leaf_begin(a) + i, t.leaf_begin(b), bs);
+                emit(t.width * a + i, t.width * b, bs);
             else
                 for (unsigned rest = bs; rest != 0; rest &= rest - 1) {
                     const auto j = static_cast<std::size_t>(std::countr_zero(rest));
-                    pair(level + 1, child(level, a, i), child(level, b, j), node_b, j);
+                    pair(level + 1, child(a, i), child(b, j), node_b, j);
                     if (sink.stopped()) return;
                 }
         }
@@ -125,18 +125,16 @@ struct self_traversal {
     /// All pairs among the primitives below one node.
     void self(unsigned level, std::size_t a) {
         const wide_node<D>& node = t.level(level)[a];
-        const std::size_t count = t.is_leaf_level(level) ? t.leaf_begin(a + 1) - t.leaf_begin(a)
-                                  : level == 0           ? t.root_arity()
-                                                         : t.width;
+        const std::size_t count = t.children(level, a);
         for (std::size_t i = 0; i < count; ++i) {
             const unsigned later = overlap_mask(node, node, i) & ~((2U << i) - 1);
             if (t.is_leaf_level(level)) {
-                emit(t.leaf_begin(a) + i, t.leaf_begin(a), later);
+                emit(t.width * a + i, t.width * a, later);
             } else {
-                self(level + 1, child(level, a, i));
+                self(level + 1, child(a, i));
                 for (unsigned rest = later; rest != 0; rest &= rest - 1) {
                     const auto j = static_cast<std::size_t>(std::countr_zero(rest));
-                    pair(level + 1, child(level, a, i), child(level, a, j), node, j);
+                    pair(level + 1, child(a, i), child(a, j), node, j);
                     if (sink.stopped()) return;
                 }
             }
@@ -146,8 +144,7 @@ struct self_traversal {
     void visit(unsigned level, node_pair pair_of_nodes) {
         const auto [a, b] = pair_of_nodes;
         if (a == b) return self(level, a);
-        const std::size_t arity = level == 1 ? t.root_arity() : t.width;
-        pair(level, a, b, t.level(level - 1)[b / arity], b % arity);
+        pair(level, a, b, t.level(level - 1)[b / t.width], b % t.width);
     }
 
     void emit(std::size_t first, std::size_t second, unsigned mask) {
@@ -155,30 +152,27 @@ struct self_traversal {
             sink.add(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(second), mask);
     }
 
-    [[nodiscard]] std::size_t child(unsigned level, std::size_t node, std::size_t i) const {
-        return node * (level == 0 ? t.root_arity() : t.width) + i;
-    }
+    static std::size_t child(std::size_t node, std::size_t i) { return node * tree<D>::width + i; }
 };
 
 /// The overlapping node pairs of the level below, in the order the serial search meets them.
 template <std::size_t D>
 void descend(const tree<D>& t, unsigned level, std::span<const node_pair> pairs,
              std::vector<node_pair>& below) {
-    const std::size_t arity = level == 0 ? t.root_arity() : t.width;
     const auto push = [&](std::size_t a, std::size_t b) {
         below.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
     };
     for (const auto [a, b] : pairs) {
         const wide_node<D>& node_a = t.level(level)[a];
         const wide_node<D>& node_b = t.level(level)[b];
-        for (std::size_t i = 0; i < arity; ++i) {
+        for (std::size_t i = 0; i < t.children(level, a); ++i) {
             unsigned bs = overlap_mask(node_b, node_a, i);
             if (a == b) {
-                push(a * arity + i, a * arity + i);
+                push(a * t.width + i, a * t.width + i);
                 bs &= ~((2U << i) - 1);
             }
             for (; bs != 0; bs &= bs - 1)
-                push(a * arity + i, b * arity + static_cast<std::size_t>(std::countr_zero(bs)));
+                push(a * t.width + i, b * t.width + static_cast<std::size_t>(std::countr_zero(bs)));
         }
     }
 }

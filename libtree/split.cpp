@@ -173,37 +173,38 @@ struct split_buffers {
     split_record* odd;
 };
 
-/// `range` holds the centres of the node's records. In small nodes it is passed down, cut where
-/// the node was cut, instead of being found anew: on the other axes it is then wider than need be.
-void split_subtree_of(const split_buffers& buffers, const split_shape& shape, unsigned d,
-                      std::size_t node, const center_range& range) {
-    const std::size_t begin = shape.begin(node, d);
-    const std::size_t middle = shape.begin(2 * node + 1, d + 1);
-    const std::size_t end = shape.begin(node + 1, d);
-    split_record* const from = (d % 2 == 0 ? buffers.even : buffers.odd) + begin;
-    split_record* const to = (d % 2 == 0 ? buffers.odd : buffers.even) + begin;
+/// `range` holds the centres of the part's records. In small parts it is passed down, cut where
+/// the part was cut, instead of being found anew: on the other axes it is then wider than need be.
+void split_part_of(const split_buffers& buffers, const split_plan& plan, const split_part& part,
+                   const center_range& range) {
+    const auto [begin, count, round] = part;
+    if (round == plan.rounds()) return;
+    split_record* const from = (round % 2 == 0 ? buffers.even : buffers.odd) + begin;
+    split_record* const to = (round % 2 == 0 ? buffers.odd : buffers.even) + begin;
+    const std::size_t middle = plan.left(count, round);
+    if (middle == count) {
+        std::copy_n(from, count, to);
+        return split_part_of(buffers, plan, {begin, count, round + 1}, range);
+    }
     const split_axis axis = widest_axis(range);
-    split_any(from, to, end - begin, middle - begin, axis);
-    if (d + 1 == shape.depth) return;
+    split_any(from, to, count, middle, axis);
+    if (round + 1 == plan.rounds()) return;
     center_range left = range, right = range;
-    if (end - begin > max_ranked) {
-        left = range_of_records(to, middle - begin);
-        right = range_of_records(to + (middle - begin), end - middle);
+    if (count > max_ranked) {
+        left = range_of_records(to, middle);
+        right = range_of_records(to + middle, count - middle);
     } else {
         // Ranked records are sorted, up to the rounding of their keys; ranges need not be exact.
-        left.max[axis.axis] = right.min[axis.axis] = to[middle - begin].center[axis.axis];
+        left.max[axis.axis] = right.min[axis.axis] = to[middle].center[axis.axis];
     }
-    split_subtree_of(buffers, shape, d + 1, 2 * node, left);
-    split_subtree_of(buffers, shape, d + 1, 2 * node + 1, right);
+    split_part_of(buffers, plan, {begin, middle, round + 1}, left);
+    split_part_of(buffers, plan, {begin + middle, count - middle, round + 1}, right);
 }
 
-void split_to_leaves(split_record* even, split_record* odd, const split_shape& shape, unsigned d,
-                     std::size_t node) {
-    if (d == shape.depth) return;
-    const split_record* const from = d % 2 == 0 ? even : odd;
-    const std::size_t begin = shape.begin(node, d);
-    split_subtree_of({even, odd}, shape, d, node,
-                     range_of_records(from + begin, shape.begin(node + 1, d) - begin));
+void split_all(split_record* even, split_record* odd, const split_plan& plan,
+               const split_part& part) {
+    const split_record* const from = part.round % 2 == 0 ? even : odd;
+    split_part_of({even, odd}, plan, part, range_of_records(from + part.begin, part.count));
 }
 
 }  // namespace
@@ -215,7 +216,7 @@ namespace tf::detail {
 
 HWY_EXPORT(range_of_records);
 HWY_EXPORT(split_any);
-HWY_EXPORT(split_to_leaves);
+HWY_EXPORT(split_all);
 
 center_range range_of(const split_record* records, std::size_t count) {
     return HWY_DYNAMIC_DISPATCH(range_of_records)(records, count);
@@ -226,9 +227,9 @@ void split(split_record* from, split_record* to, std::size_t count, std::size_t 
     HWY_DYNAMIC_DISPATCH(split_any)(from, to, count, left, axis);
 }
 
-void split_subtree(split_record* even, split_record* odd, const split_shape& shape, unsigned d,
-                   std::size_t node) {
-    HWY_DYNAMIC_DISPATCH(split_to_leaves)(even, odd, shape, d, node);
+void split_to_leaves(split_record* even, split_record* odd, const split_plan& plan,
+                     const split_part& part) {
+    HWY_DYNAMIC_DISPATCH(split_all)(even, odd, plan, part);
 }
 
 }  // namespace tf::detail

@@ -4,6 +4,7 @@
 
 #include <libtree/detail/buffer.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -32,17 +33,19 @@ struct tree_frame {
     friend bool operator==(const tree_frame&, const tree_frame&) = default;
 };
 
-/// A balanced 8-ary tree of boxes over N primitives.
+/// A balanced 8-ary tree of boxes over N primitives, packed: every node is full but the last of its
+/// level.
 ///
-/// The shape follows from N alone, so it is stored nowhere: `depth` binary splits, the fewest that
-/// leave at most 8 primitives a leaf, cut the permutation `ids()` into 2^depth leaf blocks of
-/// nearly equal size; three binary levels make one node level, and the root takes what remains.
-/// Node i of level l holds the boxes of its children, nodes 8i ... 8i+7 of level l+1 (the root has
-/// `root_arity()` children); on the last level, leaf block i holds the boxes of its primitives,
-/// those of ids()[leaf_begin(i)] ... ids()[leaf_begin(i+1) - 1].
+/// The shape follows from N alone, so it is stored nowhere. `ids()` is a permutation of the
+/// primitives; leaf block i holds the boxes of the primitives at its places 8i ... 8i+7, box s that
+/// of ids()[8i + s]. On the levels above, node i holds the boxes of its children, nodes
+/// 8i ... 8i+7 of the level below. Level 0 is the root. So a node of level l covers the places
+/// [i * capacity(l), (i + 1) * capacity(l)), as far as there are any, and every level has an eighth
+/// of the nodes of the next: at most 32 bytes a primitive in space, ids included, whatever N is.
 ///
 /// \source the balanced n-ary layout of Sajovic, Knez and Korez, tf::tree, section III-A, with
-///         boxes stored in their parent and no offsets
+///         boxes stored in their parent and no offsets; packed as by Kamel and Faloutsos, On
+///         Packing R-trees, CIKM 1993
 template <std::size_t D>
 class tree {
   public:
@@ -54,11 +57,10 @@ class tree {
 
     /// Takes the shape for `size` primitives; memory is reused, contents are not.
     void reset(std::size_t size) {
-        assert(size < max_size);
+        assert(size <= max_size);
         size_ = size;
-        depth_ = 0;
-        while ((width << depth_) < size) ++depth_;
-        levels_ = (depth_ + 2) / 3 + 1;
+        levels_ = 1;
+        while (capacity(0) < size) ++levels_;
         ids_.resize(size);
         nodes_.resize(level_begin(levels_));
     }
@@ -72,19 +74,22 @@ class tree {
     [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_.span(); }
     [[nodiscard]] std::uint32_t* ids_data() { return ids_.data(); }
 
-    /// Binary splits from the root to a leaf block.
-    [[nodiscard]] unsigned depth() const { return depth_; }
     /// Node levels, leaf blocks included; level 0 is the root.
     [[nodiscard]] unsigned levels() const { return levels_; }
     [[nodiscard]] bool is_leaf_level(unsigned level) const { return level + 1 == levels_; }
-    /// Binary splits above level `level`; it has 2^that many nodes.
-    [[nodiscard]] unsigned depth_of_level(unsigned level) const {
-        return level == 0 ? 0 : depth_ - 3 * (levels_ - 1 - level);
+    /// Primitives below a full node of `level`.
+    [[nodiscard]] std::size_t capacity(unsigned level) const {
+        return std::size_t{1} << (3 * (levels_ - level));
     }
+    /// At least the root, which an empty tree has, too.
     [[nodiscard]] std::size_t nodes_in_level(unsigned level) const {
-        return std::size_t{1} << depth_of_level(level);
+        return level == 0 ? 1 : (size_ + capacity(level) - 1) / capacity(level);
     }
-    [[nodiscard]] std::size_t root_arity() const { return levels_ > 1 ? nodes_in_level(1) : size_; }
+    /// Children of node `node` of `level`; on the last level, its primitives.
+    [[nodiscard]] std::size_t children(unsigned level, std::size_t node) const {
+        const std::size_t below = is_leaf_level(level) ? size_ : nodes_in_level(level + 1);
+        return std::min(width, below - width * node);
+    }
 
     [[nodiscard]] std::span<const wide_node<D>> level(unsigned level) const {
         return {nodes_.data() + level_begin(level), nodes_in_level(level)};
@@ -93,20 +98,11 @@ class tree {
         return nodes_.data() + level_begin(level);
     }
 
-    /// First place in `ids()` of the primitives below node `node` of a level `binary_depth` splits
-    /// down; `node` may be one past the last.
-    [[nodiscard]] std::size_t range_begin(std::size_t node, unsigned binary_depth) const {
-        return (node * size_) >> binary_depth;
-    }
-    [[nodiscard]] std::size_t leaf_begin(std::size_t block) const {
-        return range_begin(block, depth_);
-    }
-
     [[nodiscard]] const tree_frame<D>& frame() const { return frame_; }
     void set_frame(const tree_frame<D>& frame) { frame_ = frame; }
 
   private:
-    /// Nodes above `level`. The levels between root and leaves are the sum 1 + a + 8a + 64a + ...
+    /// Nodes above `level`.
     [[nodiscard]] std::size_t level_begin(unsigned level) const {
         std::size_t begin = 0;
         for (unsigned l = 0; l < level; ++l) begin += nodes_in_level(l);
@@ -114,7 +110,6 @@ class tree {
     }
 
     std::size_t size_ = 0;
-    unsigned depth_ = 0;
     unsigned levels_ = 1;
     detail::buffer<std::uint32_t> ids_;
     detail::buffer<wide_node<D>> nodes_;

@@ -66,20 +66,16 @@ template <std::size_t D, class T>
         for (std::size_t n = 0; n < tree.nodes_in_level(level); ++n) {
             const wide_node<D>& node = tree.level(level)[n];
             const bool leaf = tree.is_leaf_level(level);
-            const std::size_t begin = leaf ? tree.leaf_begin(n) : 0;
-            const std::size_t used = leaf         ? tree.leaf_begin(n + 1) - begin
-                                     : level == 0 ? tree.root_arity()
-                                                  : tree.width;
-            if (used > tree.width) return at("too many children", level, n, used);
+            const std::size_t used = tree.children(level, n);
             for (std::size_t slot = 0; slot < tree.width; ++slot) {
                 if (slot >= used) {
                     if (!is_clear(node, slot)) return at("slot should be empty", level, n, slot);
                 } else if (leaf) {
-                    const aabb<T, D>& box = boxes[tree.ids()[begin + slot]];
+                    const aabb<T, D>& box = boxes[tree.ids()[n * tree.width + slot]];
                     if (!detail::slot_holds(node, slot, box, tree.frame()))
                         return at("box is cut off", level, n, slot);
                 } else {
-                    const wide_node<D>& child = tree.level(level + 1)[n * used + slot];
+                    const wide_node<D>& child = tree.level(level + 1)[n * tree.width + slot];
                     for (std::size_t k = 0; k < D; ++k)
                         if (node.min[k][slot] !=
                                 *std::min_element(child.min[k], child.min[k] + tree.width) ||

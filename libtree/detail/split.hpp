@@ -2,6 +2,7 @@
 /// \file
 /// Halving a set of primitives by the position of their centres: the inner loop of the build.
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -14,14 +15,36 @@ struct split_record {
     std::uint32_t id;
 };
 
-/// The perfect binary hierarchy over `size` primitives: node i at depth d holds the places
-/// [i*size >> d, (i+1)*size >> d).
-struct split_shape {
+/// How the places of a packed tree are cut in two, again and again, down to its leaf blocks.
+///
+/// A node is cut between children: round by round until each part is one child, whose own rounds
+/// follow. The root has as many rounds as its number of children asks for, every other node three;
+/// a node that is not full may be one child before its last round, and then rests.
+struct split_plan {
     std::size_t size;
-    unsigned depth;
+    unsigned levels;
+    unsigned root_rounds;
 
-    [[nodiscard]] std::size_t begin(std::size_t node, unsigned d) const {
-        return (node * size) >> d;
+    /// \pre as for `tree::reset`
+    static split_plan of(std::size_t size, unsigned levels) {
+        const std::size_t unit = std::size_t{1} << (3 * (levels - 1));
+        const std::size_t children = (size + unit - 1) / unit;
+        return {size, levels,
+                children > 1 ? static_cast<unsigned>(std::bit_width(children - 1)) : 0};
+    }
+
+    [[nodiscard]] unsigned rounds() const {
+        return levels == 1 ? 0 : root_rounds + 3 * (levels - 2);
+    }
+    /// Records of a full child of the nodes that are cut in round `round`.
+    [[nodiscard]] std::size_t unit(unsigned round) const {
+        const unsigned level = round < root_rounds ? 0 : 1 + (round - root_rounds) / 3;
+        return std::size_t{1} << (3 * (levels - 1 - level));
+    }
+    /// How many of the `count` records of a part go left in round `round`; all, where it rests.
+    [[nodiscard]] std::size_t left(std::size_t count, unsigned round) const {
+        const std::size_t child = unit(round);
+        return count <= child ? count : (count + child - 1) / child / 2 * child;
     }
 };
 
@@ -94,9 +117,17 @@ inline bracket_counts scatter(split_record* from, split_record* to, std::size_t 
 void split(split_record* from, split_record* to, std::size_t count, std::size_t left,
            const split_axis& axis);
 
-/// Splits node `node` at depth `d` down to the leaf blocks, each time along the widest axis. The
-/// records of depth d lie in `even` or `odd`, by the parity of d; both arrays hold the whole tree.
-void split_subtree(split_record* even, split_record* odd, const split_shape& shape, unsigned d,
-                   std::size_t node);
+/// Some records from one round of halving on: [begin, begin + count), in one of two arrays by the
+/// parity of `round`.
+struct split_part {
+    std::size_t begin;
+    std::size_t count;
+    unsigned round;
+};
+
+/// Sorts a part into leaf blocks, each time along the widest axis. Records move from one array to
+/// the other in each round, and are in `even` or `odd` by the parity of `plan.rounds()` at the end.
+void split_to_leaves(split_record* even, split_record* odd, const split_plan& plan,
+                     const split_part& part);
 
 }  // namespace tf::detail

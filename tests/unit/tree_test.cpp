@@ -278,3 +278,15 @@ TEST_CASE("tree: boxes far from the origin are not blown up by their float form"
     for (auto& box : near) box.min[0] -= 1e6, box.max[0] -= 1e6;
     CHECK(count(tf::build(of, itself)) <= count(tf::build(near, itself)) + 20);
 }
+
+TEST_CASE("tree: at most 32 bytes a primitive, at powers of the width and behind them") {
+    for (const std::size_t size : {512U, 513U, 4096U, 4097U, 32768U, 32769U, 100000U, 262145U}) {
+        CAPTURE(size);
+        tf::tree<3> tree;
+        tree.reset(size);
+        std::size_t nodes = 0;
+        for (unsigned level = 0; level < tree.levels(); ++level) nodes += tree.level(level).size();
+        const std::size_t bytes = nodes * sizeof(tf::wide_node<3>) + tree.ids().size_bytes();
+        CHECK(bytes <= 32 * size + tree.levels() * sizeof(tf::wide_node<3>));
+    }
+}
