@@ -1,0 +1,75 @@
+#pragma once
+/// \file
+/// Affine maps of the plane and of space.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace tf {
+
+/// The map that takes a point x to M x + t: row k of `rows` is [M[k][0] ... M[k][D-1], t[k]]. The
+/// identity as constructed. M may be anything: a rotation, a mirror, a shear, even singular.
+template <std::size_t D>
+struct transform {
+    static constexpr std::size_t dimensions = D;
+    using row = std::array<double, D + 1>;
+
+    std::array<row, D> rows = unit();
+
+    /// The image of `point`, anything with [] for coordinates to read and to write.
+    ///
+    /// Coordinate k is ((M[k][0] x[0] + M[k][1] x[1]) + M[k][2] x[2]) + t[k], each product and each
+    /// sum rounded to double, unless the compiler is allowed to fuse them (`-ffp-contract`): within
+    /// the libraries it is not, so that every machine moves a point to the same place.
+    template <class Point>
+    [[nodiscard]] constexpr Point operator()(const Point& point) const {
+        Point moved = point;
+        for (std::size_t k = 0; k < D; ++k) {
+            double sum = rows[k][0] * point[0];
+            for (std::size_t j = 1; j < D; ++j) sum += rows[k][j] * point[j];
+            moved[k] = sum + rows[k][D];
+        }
+        return moved;
+    }
+
+    /// Whether no entry is NaN or infinite.
+    [[nodiscard]] bool finite() const {
+        for (const row& r : rows)
+            for (const double entry : r)
+                if (!std::isfinite(entry)) return false;
+        return true;
+    }
+
+    friend constexpr bool operator==(const transform&, const transform&) = default;
+
+  private:
+    static constexpr std::array<row, D> unit() {
+        std::array<row, D> result{};
+        for (std::size_t k = 0; k < D; ++k) result[k][k] = 1.0;
+        return result;
+    }
+};
+
+/// The map that moves every point by `offset`, anything with [].
+template <std::size_t D, class Vector>
+[[nodiscard]] constexpr transform<D> translation(const Vector& offset) {
+    transform<D> result;
+    for (std::size_t k = 0; k < D; ++k) result.rows[k][D] = offset[k];
+    return result;
+}
+
+/// First `inner`, then `outer`, in one map; its entries are rounded.
+template <std::size_t D>
+[[nodiscard]] constexpr transform<D> after(const transform<D>& outer, const transform<D>& inner) {
+    transform<D> result;
+    for (std::size_t k = 0; k < D; ++k)
+        for (std::size_t j = 0; j <= D; ++j) {
+            double sum = j == D ? outer.rows[k][D] : 0.0;
+            for (std::size_t i = 0; i < D; ++i) sum += outer.rows[k][i] * inner.rows[i][j];
+            result.rows[k][j] = sum;
+        }
+    return result;
+}
+
+}  // namespace tf
