@@ -17,29 +17,20 @@ constexpr std::size_t shared_split = std::size_t{1} << 16;
 constexpr std::size_t subtree = std::size_t{1} << 14;
 constexpr std::size_t split_chunk = std::size_t{1} << 12;
 
-center_range range_shared(const split_record* records, std::size_t count) {
-    std::vector<center_range> ranges(chunk_count(count, split_chunk));
-    for_chunks(count, split_chunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        ranges[chunk] = range_of(records + begin, end - begin);
-    });
-    center_range all = ranges[0];
-    for (const center_range& range : ranges) all.include(range);
-    return all;
-}
-
 /// `split` by all threads: count the three classes of every chunk, then move each record to its
 /// place. What falls between the brackets, a few per cent, is split by this thread.
-void split_shared(split_record* from, split_record* to, std::size_t count, std::size_t left,
-                  const split_axis& axis) {
+void split_shared(split_record* from, split_record* to, std::size_t count, std::size_t left) {
     constexpr std::size_t sample_size = 1024;
     constexpr std::size_t spread = 52;  // 3.2 standard deviations of a median of 1024
-    std::array<float, sample_size> sample;
-    for (std::size_t i = 0; i < sample_size; ++i)
-        sample[i] = from[i * count / sample_size].center[axis.axis];
-    std::sort(sample.begin(), sample.end());
+    std::array<split_record, sample_size> sample;
+    for (std::size_t i = 0; i < sample_size; ++i) sample[i] = from[i * count / sample_size];
+    const int axis = widest_axis(range_of(sample.data(), sample_size)).axis;
+    std::sort(sample.begin(), sample.end(), [axis](const split_record& a, const split_record& b) {
+        return a.center[axis] < b.center[axis];
+    });
     const std::size_t rank = left * sample_size / count;
-    const float lo = sample[rank > spread ? rank - spread : 0];
-    const float hi = sample[std::min(rank + spread, sample_size - 1)];
+    const float lo = sample[rank > spread ? rank - spread : 0].center[axis];
+    const float hi = sample[std::min(rank + spread, sample_size - 1)].center[axis];
 
     struct classes {
         std::size_t below = 0, between = 0, above = 0;
@@ -48,8 +39,8 @@ void split_shared(split_record* from, split_record* to, std::size_t count, std::
     for_chunks(count, split_chunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         classes n;
         for (std::size_t i = begin; i < end; ++i) {
-            n.below += from[i].center[axis.axis] < lo;
-            n.above += from[i].center[axis.axis] > hi;
+            n.below += from[i].center[axis] < lo;
+            n.above += from[i].center[axis] > hi;
         }
         n.between = end - begin - n.below - n.above;
         at[chunk] = n;
@@ -63,7 +54,7 @@ void split_shared(split_record* from, split_record* to, std::size_t count, std::
     for_chunks(count, split_chunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         std::array<split_record, split_chunk> part;  // so that no write hits another chunk's places
         const std::size_t size = end - begin;
-        const auto [below, between] = scatter(from + begin, part.data(), size, axis.axis, lo, hi);
+        const auto [below, between] = scatter(from + begin, part.data(), size, axis, lo, hi);
         std::copy_n(part.data(), below, to + at[chunk].below);
         std::copy_n(from + begin, between, to + total.below + at[chunk].between);
         std::copy_n(part.data() + (below + between), size - below - between,
@@ -80,7 +71,7 @@ void split_shared(split_record* from, split_record* to, std::size_t count, std::
     }
     if (left == begin) return;
     std::copy_n(to + begin, size, from + begin);
-    split(from + begin, to + begin, size, left - begin, axis);
+    split(from + begin, to + begin, size, left - begin);
 }
 
 /// The memory of the nodes, which hold nothing yet, as a second array of records: each leaf block
@@ -147,19 +138,8 @@ void order_by_splits(const split_plan& plan, tree<D>& tree, build_memory<D>& mem
             cut(from, to, part.count, left);
     };
     cut_places(
-        plan,
-        [&](const split_part& part) {
-            move(part,
-                 [](split_record* from, split_record* to, std::size_t count, std::size_t left) {
-                     split_shared(from, to, count, left, widest_axis(range_shared(from, count)));
-                 });
-        },
-        [&](const split_part& part) {
-            move(part,
-                 [](split_record* from, split_record* to, std::size_t count, std::size_t left) {
-                     split(from, to, count, left, widest_axis(range_of(from, count)));
-                 });
-        },
+        plan, [&](const split_part& part) { move(part, split_shared); },
+        [&](const split_part& part) { move(part, split); },
         [&](const split_part& part) { split_to_leaves(even, odd, plan, part); });
 }
 

@@ -1,6 +1,7 @@
 #include <libtree/detail/split.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -101,6 +102,21 @@ void split_by_rank(const split_record* from, split_record* to, std::size_t count
     for (std::size_t i = 0; i < count; ++i) to[rank[i]] = from[i];
 }
 
+/// Records at equal distances, which stand for all of a large set. Where they lie decides how good
+/// a split is, never whether it is right.
+struct record_sample {
+    static constexpr std::size_t max_size = 128;
+    std::array<split_record, max_size> records;
+    std::size_t size;
+
+    record_sample(const split_record* from, std::size_t count)
+        : size(count <= 256    ? 32
+               : count <= 4096 ? 64
+                               : 128) {
+        for (std::size_t i = 0; i < size; ++i) records[i] = from[i * count / size];
+    }
+};
+
 struct bracket {
     float lo, hi;
 };
@@ -108,28 +124,26 @@ struct bracket {
 /// Two keys between which the key of rank `left` of `count` lies in all likelihood: the order
 /// statistics of a sample, 1.6 standard deviations to either side.
 /// \source Floyd and Rivest, Expected Time Bounds for Selection, CACM 18 (1975)
-bracket bracket_of(const split_record* records, std::size_t count, std::size_t left, int axis) {
-    constexpr std::size_t max_sample = 128;
-    alignas(64) std::int32_t keys[max_sample + padding];
-    alignas(64) std::int32_t rank[max_sample + padding];
-    const std::size_t sample = count <= 256 ? 32 : count <= 4096 ? 64 : 128;
-    for (std::size_t i = 0; i < sample; ++i) {
-        const auto bits = std::bit_cast<std::int32_t>(records[i * count / sample].center[axis]);
+bracket bracket_of(const record_sample& sample, std::size_t count, std::size_t left, int axis) {
+    alignas(64) std::int32_t keys[record_sample::max_size + padding];
+    alignas(64) std::int32_t rank[record_sample::max_size + padding];
+    for (std::size_t i = 0; i < sample.size; ++i) {
+        const auto bits = std::bit_cast<std::int32_t>(sample.records[i].center[axis]);
         const std::int32_t ordered = bits ^ ((bits >> 31) & 0x7FFFFFFF);
         keys[i] =
             (ordered & ~127) | static_cast<std::int32_t>(i);  // unique; the place matters more
     }
-    std::fill_n(keys + sample, padding, std::numeric_limits<std::int32_t>::max());
-    rank_by_counting(keys, sample, rank);
+    std::fill_n(keys + sample.size, padding, std::numeric_limits<std::int32_t>::max());
+    rank_by_counting(keys, sample.size, rank);
 
     const double share = static_cast<double>(left) / static_cast<double>(count);
-    const double s = static_cast<double>(sample);
+    const double s = static_cast<double>(sample.size);
     const double spread = 1.6 * std::sqrt(share * (1.0 - share) * s) + 1.0;
     const auto lowest = static_cast<std::int32_t>(std::max(0.0, share * s - spread));
     const auto highest = static_cast<std::int32_t>(std::min(s - 1.0, share * s + spread));
     bracket result{};
-    for (std::size_t i = 0; i < sample; ++i) {
-        const float key = records[i * count / sample].center[axis];
+    for (std::size_t i = 0; i < sample.size; ++i) {
+        const float key = sample.records[i].center[axis];
         if (rank[i] == lowest) result.lo = key;
         if (rank[i] == highest) result.hi = key;
     }
@@ -145,26 +159,29 @@ void select_in_place(split_record* records, std::size_t count, std::size_t left,
                          });
 }
 
-void split_any(split_record* from, split_record* to, std::size_t count, std::size_t left,
-               const split_axis& axis) {
+void split_any(split_record* from, split_record* to, std::size_t count, std::size_t left) {
+    if (count <= max_ranked)
+        return split_by_rank(from, to, count, widest_axis(range_of_records(from, count)));
+    record_sample sample(from, count);
+    const int axis = widest_axis(range_of_records(sample.records.data(), sample.size)).axis;
     for (;;) {
-        if (count <= max_ranked) return split_by_rank(from, to, count, axis);
-        const auto [lo, hi] = bracket_of(from, count, left, axis.axis);
-        const auto [below, between] = scatter(from, to, count, axis.axis, lo, hi);
+        const auto [lo, hi] = bracket_of(sample, count, left, axis);
+        const auto [below, between] = scatter(from, to, count, axis, lo, hi);
         const std::size_t above = count - below - between;
         // `to` has a gap of `between` places behind `below`, where the cut should fall.
         const bool found = below <= left && left <= below + between;
         if (!found || between > count - count / 4) {  // bad luck, or many equal keys
             std::copy_n(from, between, to + below);
-            if (left < below) return select_in_place(to, below, left, axis.axis);
+            if (left < below) return select_in_place(to, below, left, axis);
             if (left > below + between)
-                return select_in_place(to + below + between, above, left - below - between,
-                                       axis.axis);
-            return select_in_place(to + below, between, left - below, axis.axis);
+                return select_in_place(to + below + between, above, left - below - between, axis);
+            return select_in_place(to + below, between, left - below, axis);
         }
         to += below;
         left -= below;
         count = between;
+        if (count <= max_ranked) return split_by_rank(from, to, count, {axis, lo, hi});
+        sample = record_sample(from, count);
     }
 }
 
@@ -173,38 +190,56 @@ struct split_buffers {
     split_record* odd;
 };
 
-/// `range` holds the centres of the part's records. In small parts it is passed down, cut where
-/// the part was cut, instead of being found anew: on the other axes it is then wider than need be.
-void split_part_of(const split_buffers& buffers, const split_plan& plan, const split_part& part,
-                   const center_range& range) {
+struct moved_part {
+    split_record* from;
+    split_record* to;
+};
+
+moved_part places_of(const split_buffers& buffers, const split_part& part) {
+    const auto [even, odd] = buffers;
+    return part.round % 2 == 0 ? moved_part{even + part.begin, odd + part.begin}
+                               : moved_part{odd + part.begin, even + part.begin};
+}
+
+/// A part of few records. `range` holds their centres; it is passed down, cut where the part was
+/// cut, instead of being found anew: on the other axes it is then wider than need be.
+void split_few(const split_buffers& buffers, const split_plan& plan, const split_part& part,
+               const center_range& range) {
     const auto [begin, count, round] = part;
     if (round == plan.rounds()) return;
-    split_record* const from = (round % 2 == 0 ? buffers.even : buffers.odd) + begin;
-    split_record* const to = (round % 2 == 0 ? buffers.odd : buffers.even) + begin;
+    const auto [from, to] = places_of(buffers, part);
     const std::size_t middle = plan.left(count, round);
     if (middle == count) {
         std::copy_n(from, count, to);
-        return split_part_of(buffers, plan, {begin, count, round + 1}, range);
+        return split_few(buffers, plan, {begin, count, round + 1}, range);
     }
     const split_axis axis = widest_axis(range);
-    split_any(from, to, count, middle, axis);
-    if (round + 1 == plan.rounds()) return;
+    split_by_rank(from, to, count, axis);
+    // Ranked records are sorted, up to the rounding of their keys; ranges need not be exact.
     center_range left = range, right = range;
-    if (count > max_ranked) {
-        left = range_of_records(to, middle);
-        right = range_of_records(to + middle, count - middle);
-    } else {
-        // Ranked records are sorted, up to the rounding of their keys; ranges need not be exact.
-        left.max[axis.axis] = right.min[axis.axis] = to[middle].center[axis.axis];
-    }
-    split_part_of(buffers, plan, {begin, middle, round + 1}, left);
-    split_part_of(buffers, plan, {begin + middle, count - middle, round + 1}, right);
+    left.max[axis.axis] = right.min[axis.axis] = to[middle].center[axis.axis];
+    split_few(buffers, plan, {begin, middle, round + 1}, left);
+    split_few(buffers, plan, {begin + middle, count - middle, round + 1}, right);
+}
+
+void split_part_to_leaves(const split_buffers& buffers, const split_plan& plan,
+                          const split_part& part) {
+    const auto [begin, count, round] = part;
+    const auto [from, to] = places_of(buffers, part);
+    if (count <= max_ranked) return split_few(buffers, plan, part, range_of_records(from, count));
+    const std::size_t middle = plan.left(count, round);
+    if (middle == count)
+        std::copy_n(from, count, to);
+    else
+        split_any(from, to, count, middle);
+    split_part_to_leaves(buffers, plan, {begin, middle, round + 1});
+    if (middle < count)
+        split_part_to_leaves(buffers, plan, {begin + middle, count - middle, round + 1});
 }
 
 void split_all(split_record* even, split_record* odd, const split_plan& plan,
                const split_part& part) {
-    const split_record* const from = part.round % 2 == 0 ? even : odd;
-    split_part_of({even, odd}, plan, part, range_of_records(from + part.begin, part.count));
+    split_part_to_leaves({even, odd}, plan, part);
 }
 
 }  // namespace
@@ -222,9 +257,8 @@ center_range range_of(const split_record* records, std::size_t count) {
     return HWY_DYNAMIC_DISPATCH(range_of_records)(records, count);
 }
 
-void split(split_record* from, split_record* to, std::size_t count, std::size_t left,
-           const split_axis& axis) {
-    HWY_DYNAMIC_DISPATCH(split_any)(from, to, count, left, axis);
+void split(split_record* from, split_record* to, std::size_t count, std::size_t left) {
+    HWY_DYNAMIC_DISPATCH(split_any)(from, to, count, left);
 }
 
 void split_to_leaves(split_record* even, split_record* odd, const split_plan& plan,

@@ -109,13 +109,12 @@ inline bracket_counts scatter(split_record* from, split_record* to, std::size_t 
 }
 
 /// Moves `count` records from `from` to `to` so that none of the first `left` lies behind any of
-/// the others along `axis`, up to a thousandth of its range in sets of a few. `from` is
-/// overwritten. Which of several records with equal keys go
-/// left depends on their order in `from` alone.
+/// the others along the axis on which a sample of them spreads most, up to a thousandth of its
+/// range in sets of a few. `from` is overwritten. Which of several records with equal keys go left
+/// depends on their order in `from` alone.
 ///
 /// \cost O(count) expected, whatever the order of the records
-void split(split_record* from, split_record* to, std::size_t count, std::size_t left,
-           const split_axis& axis);
+void split(split_record* from, split_record* to, std::size_t count, std::size_t left);
 
 /// Some records from one round of halving on: [begin, begin + count), in one of two arrays by the
 /// parity of `round`.
