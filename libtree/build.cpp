@@ -124,7 +124,7 @@ void cut_places(const split_plan& plan, const CutShared& cut_shared, const Cut& 
 /// Sorts the records into leaf order, from one array to the other in each round; they end up in
 /// `memory.records`.
 template <std::size_t D>
-void order_by_splits(const split_plan& plan, tree<D>& tree, build_memory<D>& memory) {
+void order_by_splits(const split_plan& plan, tree<D>& tree, build_memory& memory) {
     split_record* even = memory.records.data();
     split_record* odd = scratch_of(tree);
     if (plan.rounds() % 2 != 0) std::swap(even, odd);
@@ -144,8 +144,7 @@ void order_by_splits(const split_plan& plan, tree<D>& tree, build_memory<D>& mem
 }
 
 /// The same with a selection of the caller's, in place.
-template <std::size_t D>
-void order_by_selection(const split_plan& plan, build_memory<D>& memory,
+void order_by_selection(const split_plan& plan, build_memory& memory,
                         const select_records& select) {
     const auto cut = [&](const split_part& part) {
         split_record* const first = memory.records.data() + part.begin;
@@ -171,8 +170,8 @@ void clear(wide_node<D>& node) {
 }
 
 template <std::size_t D>
-void fill_leaves(tree<D>& tree, const split_record* order, const float_box<D>* boxes) {
-    constexpr std::size_t ahead = 24;  // boxes come from anywhere in memory: ask for them early
+void fill_leaves(tree<D>& tree, const split_record* order, const half_extents* extents) {
+    constexpr std::size_t ahead = 24;  // extents come from anywhere in memory: ask for them early
     wide_node<D>* const leaves = tree.level_data(tree.levels() - 1);
     std::uint32_t* const ids = tree.ids_data();
     for_chunks(tree.nodes_in_level(tree.levels() - 1), 1024,
@@ -184,12 +183,13 @@ void fill_leaves(tree<D>& tree, const split_record* order, const float_box<D>* b
                        if (end - begin < tree.width) clear(leaf);
                        for (std::size_t i = begin; i < end; ++i) {
                            if (i + ahead < tree.size())
-                               __builtin_prefetch(&boxes[order[i + ahead].id]);
-                           const std::uint32_t id = order[i].id;
+                               __builtin_prefetch(&extents[order[i + ahead].id]);
+                           const auto& [center, id] = order[i];
+                           const half_extents half = extents[id];
                            ids[i] = id;
                            for (std::size_t k = 0; k < D; ++k) {
-                               leaf.min[k][i - begin] = boxes[id].min[k];
-                               leaf.max[k][i - begin] = boxes[id].max[k];
+                               leaf.min[k][i - begin] = center[k] - half[k];
+                               leaf.max[k][i - begin] = center[k] + half[k];
                            }
                        }
                    }
@@ -223,7 +223,7 @@ void fill_inner(tree<D>& tree) {
 }  // namespace
 
 template <std::size_t D>
-split_record* records_of(tree<D>& tree, build_memory<D>& memory, const select_records* select) {
+split_record* records_of(tree<D>& tree, build_memory& memory, const select_records* select) {
     memory.records.resize(tree.size());
     const bool starts_in_scratch =
         select == nullptr && split_plan::of(tree.size(), tree.levels()).rounds() % 2 != 0;
@@ -231,19 +231,19 @@ split_record* records_of(tree<D>& tree, build_memory<D>& memory, const select_re
 }
 
 template <std::size_t D>
-void build_from_records(tree<D>& tree, build_memory<D>& memory, const select_records* select) {
+void build_from_records(tree<D>& tree, build_memory& memory, const select_records* select) {
     const split_plan plan = split_plan::of(tree.size(), tree.levels());
     if (select == nullptr)
         order_by_splits(plan, tree, memory);
     else
         order_by_selection(plan, memory, *select);
-    fill_leaves(tree, memory.records.data(), memory.boxes.data());
+    fill_leaves(tree, memory.records.data(), memory.extents.data());
     fill_inner(tree);
 }
 
-template split_record* records_of(tree<2>&, build_memory<2>&, const select_records*);
-template split_record* records_of(tree<3>&, build_memory<3>&, const select_records*);
-template void build_from_records(tree<2>&, build_memory<2>&, const select_records*);
-template void build_from_records(tree<3>&, build_memory<3>&, const select_records*);
+template split_record* records_of(tree<2>&, build_memory&, const select_records*);
+template split_record* records_of(tree<3>&, build_memory&, const select_records*);
+template void build_from_records(tree<2>&, build_memory&, const select_records*);
+template void build_from_records(tree<3>&, build_memory&, const select_records*);
 
 }  // namespace tf::detail

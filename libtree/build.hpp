@@ -53,7 +53,7 @@ class builder {
     void fill(tree<D>& tree, const Range& range, const MakeBox& make_aabb,
               const detail::select_records* select);
 
-    detail::build_memory<D> memory_;
+    detail::build_memory memory_;
 };
 
 /// The tree over the boxes that `make_aabb` gives for the elements of `range`.
@@ -66,7 +66,7 @@ class builder {
 ///
 /// \throws std::invalid_argument naming the element whose box is not finite or is empty, or when
 ///         the range holds more than `tree<D>::max_size` elements
-/// \cost   O(N log N) expected time; about 75 bytes an element at its peak in space, 35 of them
+/// \cost   O(N log N) expected time; about 56 bytes an element at its peak in space, 32 of them
 /// kept \same   on any number of threads; a random-access range is read in parallel, `make_aabb` is
 ///         called up to twice an element
 /// \source Sajovic, Knez and Korez, tf::tree, Algorithm 1; the selection after Floyd and Rivest
@@ -137,13 +137,13 @@ void builder<D>::fill(tree<D>& tree, const Range& range, const MakeBox& make_aab
     tree.reset(size);
     tree.set_frame(detail::frame_of<D>(size, box_of));
     detail::split_record* const records = detail::records_of(tree, memory_, select);
-    memory_.boxes.resize(size);
+    memory_.extents.resize(size);
     std::atomic<std::size_t> bad{size};  // the first element whose box cannot be used
     for_chunks(size, std::size_t{1} << 13, [&](std::size_t begin, std::size_t end, std::size_t) {
         const detail::rounder<D> round(tree.frame());
         for (std::size_t i = begin; i < end; ++i) {
             const auto box = box_of(i);
-            if (!round(box, static_cast<std::uint32_t>(i), memory_.boxes[i], records[i])) {
+            if (!round(box, static_cast<std::uint32_t>(i), records[i], memory_.extents[i])) {
                 std::size_t seen = bad.load();
                 while (i < seen && !bad.compare_exchange_weak(seen, i)) {
                 }

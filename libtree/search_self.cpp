@@ -1,101 +1,20 @@
+#include <libtree/detail/candidate_sink.hpp>
 #include <libtree/parallel.hpp>
 #include <libtree/search_self.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstring>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libtree/search_self.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-
-#ifndef TREEFORM_SEARCH_SELF_ONCE
-#define TREEFORM_SEARCH_SELF_ONCE
-namespace tf::detail {
-namespace {
-
-using block_visitor = function_ref<bool(const candidate_block&)>;
-
-/// The positions of the bits of a mask of eight, ascending, the rest 0.
-struct mask_bits {
-    std::array<std::uint8_t, 8> positions;
-    std::uint8_t count;
-};
-constexpr auto bits_of_mask = [] {
-    std::array<mask_bits, 256> table{};
-    for (unsigned mask = 0; mask < 256; ++mask)
-        for (unsigned bit = 0; bit < 8; ++bit)
-            if ((mask >> bit & 1U) != 0)
-                table[mask].positions[table[mask].count++] = static_cast<std::uint8_t>(bit);
-    return table;
-}();
-
-/// Gathers candidates into blocks and hands on the full ones.
-class candidate_sink {
-  public:
-    explicit candidate_sink(block_visitor visit) : visit_(visit) {}
-
-    /// Adds the pairs of `first` with `second` + each bit of `mask`.
-    void add(std::uint32_t first, std::uint32_t second, unsigned mask) {
-        // All eight are written and the count moves on by those that are real.
-        for (unsigned i = 0; i < 8; ++i) {
-            first_[count_ + i] = first;
-            second_[count_ + i] = second + bits_of_mask[mask].positions[i];
-        }
-        count_ += bits_of_mask[mask].count;
-        if (count_ > max_candidates - 8) flush();
-    }
-
-    void flush() {
-        if (count_ != 0 && !stopped_)
-            stopped_ = !visit_({{first_.data(), count_}, {second_.data(), count_}});
-        count_ = 0;
-    }
-
-    [[nodiscard]] bool stopped() const { return stopped_; }
-
-  private:
-    block_visitor visit_;
-    std::size_t count_ = 0;
-    bool stopped_ = false;
-    std::array<std::uint32_t, max_candidates + 8> first_;
-    std::array<std::uint32_t, max_candidates + 8> second_;
-};
-
-}  // namespace
-}  // namespace tf::detail
-#endif
+// Behind the two, as it is compiled for each target.
+#include <libtree/detail/overlap_mask-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
 namespace tf::detail::HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// Which boxes of `node` overlap box `slot` of `other`, a bit each.
-template <std::size_t D>
-unsigned overlap_mask(const wide_node<D>& node, const wide_node<D>& other, std::size_t slot) {
-    const hn::CappedTag<float, 8> d;
-    const std::size_t lanes = hn::Lanes(d);
-    unsigned mask = 0;
-    for (std::size_t i = 0; i < 8; i += lanes) {
-        auto overlap = hn::Le(hn::Load(d, node.min[0] + i), hn::Set(d, other.max[0][slot]));
-        overlap =
-            hn::And(overlap, hn::Ge(hn::Load(d, node.max[0] + i), hn::Set(d, other.min[0][slot])));
-        for (std::size_t k = 1; k < D; ++k) {
-            overlap = hn::And(overlap,
-                              hn::Le(hn::Load(d, node.min[k] + i), hn::Set(d, other.max[k][slot])));
-            overlap = hn::And(overlap,
-                              hn::Ge(hn::Load(d, node.max[k] + i), hn::Set(d, other.min[k][slot])));
-        }
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(d, overlap, bits);
-        mask |= (bits[0] & ((1U << lanes) - 1)) << i;
-    }
-    return mask;
-}
 
 template <std::size_t D>
 struct self_traversal {

@@ -2,6 +2,7 @@
 /// \file
 /// Search of a tree by itself: every pair of primitives whose boxes overlap, once.
 
+#include <libtree/candidates.hpp>
 #include <libtree/detail/function_ref.hpp>
 #include <libtree/export.hpp>
 #include <libtree/parallel.hpp>
@@ -22,15 +23,6 @@ struct node_pair {
 };
 
 }  // namespace detail
-
-/// A block of candidate pairs: primitives `first[i]` and `second[i]` as places in leaf order, so
-/// that neighbours in a block are neighbours in memory for data kept in that order;
-/// `tree.ids()[place]` is the primitive. `first[i] < second[i]`.
-struct candidate_block {
-    std::span<const std::uint32_t> first;   ///< [up to `max_candidates`]
-    std::span<const std::uint32_t> second;  ///< [same]
-};
-inline constexpr std::size_t max_candidates = 1024;
 
 /// The search of a tree by itself, cut into chunks that depend on the tree alone.
 ///

@@ -54,26 +54,29 @@ template <class Box>
     return finite;
 }
 
-/// Rounds boxes outward into a frame.
+/// Rounds boxes outward into a frame, as a centre and half extents.
 template <std::size_t D>
 class rounder {
   public:
     explicit rounder(const tree_frame<D>& frame) : frame_(frame) {}
 
-    /// Writes the float box and the record of element `id`; false for a box that is empty or not
-    /// finite.
+    /// Writes the record of element `id` and how far its box reaches from there; false for a box
+    /// that is empty or not finite.
     template <class Box>
-    bool operator()(const Box& box, std::uint32_t id, float_box<D>& rounded,
-                    split_record& record) const {
+    bool operator()(const Box& box, std::uint32_t id, split_record& record,
+                    half_extents& extents) const {
+        float half[D];
         record.center[2] = 0.0F;
         for (std::size_t k = 0; k < D; ++k) {
             const float lo = to_float(static_cast<double>(box.min[k]), k);
             const float hi = to_float(static_cast<double>(box.max[k]), k);
-            rounded.min[k] = lo - margin(lo);
-            rounded.max[k] = hi + margin(hi);
-            record.center[k] = 0.5F * lo + 0.5F * hi;
+            const float center = 0.5F * lo + 0.5F * hi;
+            record.center[k] = center;
+            half[k] =
+                std::max(hi - center, center - lo) + margin(std::max(std::abs(lo), std::abs(hi)));
         }
         record.id = id;
+        extents = half_extents(half);
         return is_finite(box);
     }
 
@@ -87,13 +90,20 @@ class rounder {
         return static_cast<float>(y);
     }
 
-    /// More than the error of `to_float`. That is at most 2^-24 |y| of the rounding to float, and
-    /// 2^-53 |y| of the difference, for the exact value y; with |f| >= |y| (1 - 2^-23), twice 2^-24
-    /// |f| suffices, and 1.2e-7 > 2^-23. Where f is too small for that product, or flushed to 0,
-    /// the error is below the least normal float, 1.2e-38. Scaling is exact but for underflow,
-    /// which that covers too. A clamped f moves out to infinity: 1.2e-7 max > half an ulp of max;
-    /// inward it stays finite, which is right since x lies further out.
-    [[nodiscard]] static float margin(float f) { return std::abs(f) * 1.2e-7F + 1e-37F; }
+    /// What makes center - half and center + half, rounded to float, lie outside the exact image
+    /// of a box with |lo|, |hi| <= m. With u = 2^-24:
+    /// - `to_float` is off by at most u |y| of the rounding to float and 2^-53 |y| of the
+    /// difference,
+    ///   for the exact value y: by less than 1.01 u m;
+    /// - hi - center <= 2 m is off by u times itself, adding the margin by u (2 m + margin), and
+    /// the
+    ///   final center + half, which is at most m + margin off where it should be, by
+    ///   u (m + margin) beyond what it gains: together by less than 5.01 u m + 2 u margin.
+    /// Six units are 3.6e-7 m < 4.8e-7 m. Where m is so small that the product is flushed to 0, the
+    /// errors are below the least normal float, 1.2e-38. Scaling is exact but for underflow, which
+    /// that covers too. A clamped coordinate moves out to infinity: 4.8e-7 max is more than half an
+    /// ulp of max; inward it stays finite, which is right since x lies further out.
+    [[nodiscard]] static float margin(float m) { return m * 4.8e-7F + 1e-37F; }
 
     tree_frame<D> frame_;
 };
