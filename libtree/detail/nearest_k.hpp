@@ -1,0 +1,56 @@
+#pragma once
+/// \file
+/// The k nearest of those offered.
+
+#include <libtree/neighbor.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace tf::detail {
+
+/// Few are kept sorted: a new one is moved in place. Many are kept as a heap, the furthest on top.
+template <class Neighbor>
+class nearest_k {
+  public:
+    nearest_k(std::size_t k, double squared_radius) : k_(k), bound_(squared_radius) {
+        kept_.reserve(k);
+        if (k == 0) bound_ = -1.0;
+    }
+
+    void offer(Neighbor one) {
+        if (!(one.squared_distance() <= bound_)) return;  // NaN is not
+        if (kept_.size() == k_) {
+            if (!nearer(one, furthest())) return;
+            if (!few()) std::pop_heap(kept_.begin(), kept_.end(), nearer<Neighbor>);
+            kept_.pop_back();
+        }
+        if (few()) {
+            kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), one, nearer<Neighbor>), one);
+        } else {
+            kept_.push_back(std::move(one));
+            std::push_heap(kept_.begin(), kept_.end(), nearer<Neighbor>);
+        }
+        if (kept_.size() == k_) bound_ = furthest().squared_distance();
+    }
+
+    /// The largest squared distance at which one more would be kept.
+    [[nodiscard]] double bound() const { return bound_; }
+
+    [[nodiscard]] std::vector<Neighbor> sorted() && {
+        if (!few()) std::sort_heap(kept_.begin(), kept_.end(), nearer<Neighbor>);
+        return std::move(kept_);
+    }
+
+  private:
+    [[nodiscard]] bool few() const { return k_ <= 32; }
+    [[nodiscard]] const Neighbor& furthest() const { return few() ? kept_.back() : kept_.front(); }
+
+    std::size_t k_;
+    double bound_;
+    std::vector<Neighbor> kept_;
+};
+
+}  // namespace tf::detail
