@@ -3,6 +3,7 @@
 
 #include <libmesh/exact/detail/exact_sign.hpp>
 #include <libmesh/exact/detail/filter.hpp>
+#include <libmesh/exact/detail/ray_polynomials.hpp>
 
 #include <doctest/doctest.h>
 
@@ -49,9 +50,15 @@ int factors_of(rounding_count c) { return c.factors; }
 int factors_of(const detail::vector3<rounding_count>& v) {
     return std::max({v.x.factors, v.y.factors, v.z.factors});
 }
+int factors_of(const detail::vector2<rounding_count>& v) {
+    return std::max(v.x.factors, v.y.factors);
+}
 int operations_of(operation_count c) { return c.operations; }
 int operations_of(const detail::vector3<operation_count>& v) {
     return std::max({v.x.operations, v.y.operations, v.z.operations});
+}
+int operations_of(const detail::vector2<operation_count>& v) {
+    return std::max(v.x.operations, v.y.operations);
 }
 
 template <class Polynomial>
@@ -75,6 +82,11 @@ TEST_CASE("the filter's constant exceeds the error bound of its polynomial") {
     check_error_factor<detail::normal_dot_polynomial>();
     check_error_factor<detail::normal_turn_polynomial>();
     check_error_factor<detail::normal_determinant_polynomial>();
+    check_error_factor<detail::direction_side_polynomial>();
+    check_error_factor<detail::line_side_polynomial>();
+    check_error_factor<detail::cut_polynomial>();
+    check_error_factor<detail::compare_cut_polynomial>();
+    check_error_factor<detail::compare_cuts_polynomial>();
 }
 
 TEST_CASE("the guards keep what underflow loses below the slack, and products finite") {
@@ -101,6 +113,9 @@ whole operator+(whole a, whole b) { return {a.value + b.value}; }
 whole operator-(whole a, whole b) { return {a.value - b.value}; }
 
 int magnitude_of(whole a) { return std::abs(a.value); }
+int magnitude_of(const detail::vector2<whole>& v) {
+    return std::max(magnitude_of(v.x), magnitude_of(v.y));
+}
 int magnitude_of(const detail::vector3<whole>& v) {
     return std::max({magnitude_of(v.x), magnitude_of(v.y), magnitude_of(v.z)});
 }
@@ -144,6 +159,11 @@ TEST_CASE("no value exceeds its polynomial's growth, and half the growth would b
     check_growth<detail::normal_dot_polynomial>(ends);
     check_growth<detail::normal_turn_polynomial>(ends);
     check_growth<detail::normal_determinant_polynomial>(ends);
+    check_growth<detail::direction_side_polynomial>(ends);
+    check_growth<detail::line_side_polynomial>(ends);
+    check_growth<detail::cut_polynomial>(ends);
+    check_growth<detail::compare_cut_polynomial>(ends);
+    check_growth<detail::compare_cuts_polynomial>(ends);
 }
 
 TEST_CASE("widths hold what they are said to, and the widest holds all doubles") {
@@ -155,6 +175,8 @@ TEST_CASE("widths hold what they are said to, and the widest holds all doubles")
     CHECK(most_bits<detail::compare_along_polynomial>(1) == 61);
     CHECK(most_bits<detail::normal_determinant_polynomial>(0) == 19);
     CHECK(most_bits<detail::normal_determinant_polynomial>(6) >= 2098);
+    CHECK(most_bits<detail::compare_cuts_polynomial>(6) >= 2098);
+    CHECK(most_bits<detail::cut_polynomial>(6) >= 2098);
     CHECK(detail::width_class_of<detail::orient3d_polynomial>(40) == 0);
     CHECK(detail::width_class_of<detail::orient3d_polynomial>(41) == 1);
     CHECK(detail::width_class_of<detail::orient3d_polynomial>(63) == 2);
