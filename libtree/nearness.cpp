@@ -19,8 +19,11 @@ void approach_by(const tree<D>& t, const near_query<D>& query, double squared,
                  const Strategy& strategy, function_ref<double(std::uint32_t)> visit) {
     typename Strategy::template frontier<near_entry, near_depth> frontier(strategy);
     const std::uint32_t* const ids = t.ids().data();
-    const auto leaf = [&](std::uint32_t block, unsigned mask, const float* lower, float& bound) {
+    const wide_node<D>* const blocks = t.level(t.levels() - 1).data();
+    const auto leaf = [&](std::uint32_t block, float& bound) {
+        alignas(64) float lower[8];
         std::array<std::uint8_t, 8> slots;
+        const unsigned mask = near_mask(blocks[block], query.low, query.high, bound, lower);
         const std::size_t count = nearest_first(mask, lower, slots);
         for (std::size_t i = 0; i < count && lower[slots[i]] <= bound; ++i) {
             const double now = visit(ids[block * 8 + slots[i]]);

@@ -12,12 +12,13 @@
 #include <libtree/tree.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -161,7 +162,7 @@ template <std::size_t D, nearness_query<D> Query, class DistanceOf>
                             found.offer({id, distance_of(id)});
                             return found.bound();
                         });
-    return std::move(found).sorted();
+    return std::move(found.sorted());
 }
 
 /// All primitives within `radius` (inclusive), ascending by distance, then by number. See `nearest`

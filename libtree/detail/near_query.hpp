@@ -40,7 +40,9 @@ inline float float_above(double x) {
 template <std::size_t D>
 class near_query {
   public:
-    near_query(const tree_frame<D>& frame, const aabb<double, D>& box) : scale_(frame.scale) {
+    /// Squared distances will be those of the caller's coordinates times `unit`, a power of two.
+    near_query(const tree_frame<D>& frame, const aabb<double, D>& box, double unit = 1.0)
+        : scale_(frame.scale / unit) {
         for (std::size_t k = 0; k < D; ++k) {
             low[k] = -float_above(-(box.min[k] - frame.origin[k]) * frame.scale);
             high[k] = float_above((box.max[k] - frame.origin[k]) * frame.scale);

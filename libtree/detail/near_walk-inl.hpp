@@ -54,9 +54,8 @@ HWY_INLINE unsigned near_mask(const wide_node<D>& node, const std::array<float, 
     return mask;
 }
 
-/// Opens nodes in the order of `frontier` until none is left within `bound`. For the leaf blocks,
-/// calls `leaf(block, mask, squared, bound)`: the slots that may hold something within the bound,
-/// the squared distances of their boxes, and the bound, which it may lower.
+/// Opens nodes in the order of `frontier` until none is left within `bound`; for leaf blocks calls
+/// `leaf(block, bound)`, which may lower the bound.
 template <std::size_t D, class Frontier, class Leaf>
 HWY_INLINE void walk_near(const tree<D>& t, const near_query<D>& query, float bound,
                           Frontier& frontier, const Leaf& leaf) {
@@ -66,12 +65,12 @@ HWY_INLINE void walk_near(const tree<D>& t, const near_query<D>& query, float bo
     alignas(64) float squared[8];
     near_entry at{0.0F, 0, 0};
     do {
-        const unsigned mask =
-            near_mask(level[at.level][at.index], query.low, query.high, bound, squared);
         if (at.level == last) {
-            leaf(at.index, mask, squared, bound);
+            leaf(at.index, bound);
             continue;
         }
+        const unsigned mask =
+            near_mask(level[at.level][at.index], query.low, query.high, bound, squared);
         frontier.open();
         for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
             const auto slot = static_cast<std::uint32_t>(std::countr_zero(rest));

@@ -15,9 +15,9 @@ namespace tf::detail {
 template <class Neighbor>
 class nearest_k {
   public:
-    nearest_k(std::size_t k, double squared_radius) : k_(k), bound_(squared_radius) {
+    nearest_k(std::size_t k, double squared_radius) : k_(k) {
         kept_.reserve(k);
-        if (k == 0) bound_ = -1.0;
+        reset(squared_radius);
     }
 
     void offer(Neighbor one) {
@@ -27,21 +27,28 @@ class nearest_k {
             if (!few()) std::pop_heap(kept_.begin(), kept_.end(), nearer<Neighbor>);
             kept_.pop_back();
         }
-        if (few()) {
-            kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), one, nearer<Neighbor>), one);
-        } else {
-            kept_.push_back(std::move(one));
+        kept_.push_back(std::move(one));
+        if (few())
+            for (auto at = kept_.end() - 1; at != kept_.begin() && nearer(*at, *(at - 1)); --at)
+                std::swap(*at, *(at - 1));
+        else
             std::push_heap(kept_.begin(), kept_.end(), nearer<Neighbor>);
-        }
         if (kept_.size() == k_) bound_ = furthest().squared_distance();
     }
 
     /// The largest squared distance at which one more would be kept.
     [[nodiscard]] double bound() const { return bound_; }
 
-    [[nodiscard]] std::vector<Neighbor> sorted() && {
+    /// Those kept, nearest first; nothing can be offered until the next `reset`.
+    [[nodiscard]] std::vector<Neighbor>& sorted() {
         if (!few()) std::sort_heap(kept_.begin(), kept_.end(), nearer<Neighbor>);
-        return std::move(kept_);
+        return kept_;
+    }
+
+    /// Forgets all and starts again, keeping the memory.
+    void reset(double squared_radius) {
+        kept_.clear();
+        bound_ = k_ == 0 ? -1.0 : squared_radius;
     }
 
   private:
