@@ -20,6 +20,7 @@ template <std::size_t D>
 struct self_traversal {
     const tree<D>& t;
     candidate_sink& sink;
+    search_statistics seen{};
 
     /// All pairs between the primitives below two nodes of `level`; the box of b is box `slot` of
     /// its parent, and overlaps that of a.
@@ -27,9 +28,12 @@ struct self_traversal {
               std::size_t slot) {
         const wide_node<D>& node_a = t.level(level)[a];
         const wide_node<D>& node_b = t.level(level)[b];
+        ++seen.nodes;
+        ++seen.box_tests;
         for (unsigned as = overlap_mask(node_a, parent_of_b, slot); as != 0; as &= as - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(as));
             const unsigned bs = overlap_mask(node_b, node_a, i);
+            ++seen.box_tests;
             if (t.is_leaf_level(level))
                 emit(t.width * a + i, t.width * b, bs);
             else
@@ -45,6 +49,8 @@ struct self_traversal {
     void self(unsigned level, std::size_t a) {
         const wide_node<D>& node = t.level(level)[a];
         const std::size_t count = t.children(level, a);
+        ++seen.nodes;
+        seen.box_tests += count;
         for (std::size_t i = 0; i < count; ++i) {
             const unsigned later = overlap_mask(node, node, i) & ~((2U << i) - 1);
             if (t.is_leaf_level(level)) {
@@ -97,15 +103,15 @@ void descend(const tree<D>& t, unsigned level, std::span<const node_pair> pairs,
 }
 
 template <std::size_t D>
-void search_items(const tree<D>& t, unsigned level, std::span<const node_pair> items,
-                  block_visitor visit) {
+search_statistics search_items(const tree<D>& t, unsigned level, std::span<const node_pair> items,
+                               block_visitor visit) {
     candidate_sink sink(visit);
     self_traversal<D> traversal{t, sink};
-    for (const node_pair item : items) {
-        traversal.visit(level, item);
-        if (sink.stopped()) return;
-    }
+    for (std::size_t i = 0; i < items.size() && !sink.stopped(); ++i)
+        traversal.visit(level, items[i]);
     sink.flush();
+    traversal.seen.candidates = sink.total();
+    return traversal.seen;
 }
 
 void descend_2(const tree<2>& t, unsigned level, std::span<const node_pair> pairs,
@@ -116,13 +122,13 @@ void descend_3(const tree<3>& t, unsigned level, std::span<const node_pair> pair
                std::vector<node_pair>& below) {
     descend(t, level, pairs, below);
 }
-void search_items_2(const tree<2>& t, unsigned level, std::span<const node_pair> items,
-                    block_visitor visit) {
-    search_items(t, level, items, visit);
+search_statistics search_items_2(const tree<2>& t, unsigned level, std::span<const node_pair> items,
+                                 block_visitor visit) {
+    return search_items(t, level, items, visit);
 }
-void search_items_3(const tree<3>& t, unsigned level, std::span<const node_pair> items,
-                    block_visitor visit) {
-    search_items(t, level, items, visit);
+search_statistics search_items_3(const tree<3>& t, unsigned level, std::span<const node_pair> items,
+                                 block_visitor visit) {
+    return search_items(t, level, items, visit);
 }
 
 }  // namespace
@@ -147,13 +153,13 @@ void descend(const tree<3>& t, unsigned level, std::span<const node_pair> pairs,
              std::vector<node_pair>& below) {
     HWY_DYNAMIC_DISPATCH(descend_3)(t, level, pairs, below);
 }
-void search_items(const tree<2>& t, unsigned level, std::span<const node_pair> items,
-                  block_visitor visit) {
-    HWY_DYNAMIC_DISPATCH(search_items_2)(t, level, items, visit);
+search_statistics search_items(const tree<2>& t, unsigned level, std::span<const node_pair> items,
+                               block_visitor visit) {
+    return HWY_DYNAMIC_DISPATCH(search_items_2)(t, level, items, visit);
 }
-void search_items(const tree<3>& t, unsigned level, std::span<const node_pair> items,
-                  block_visitor visit) {
-    HWY_DYNAMIC_DISPATCH(search_items_3)(t, level, items, visit);
+search_statistics search_items(const tree<3>& t, unsigned level, std::span<const node_pair> items,
+                               block_visitor visit) {
+    return HWY_DYNAMIC_DISPATCH(search_items_3)(t, level, items, visit);
 }
 
 // Where the search is cut: at the first level with enough pairs of nodes, in pieces of a few. Both
@@ -182,11 +188,11 @@ std::size_t self_search<D>::chunks() const {
 }
 
 template <std::size_t D>
-void self_search<D>::visit(std::size_t chunk,
-                           detail::function_ref<bool(const candidate_block&)> visit) const {
+search_statistics self_search<D>::visit(
+    std::size_t chunk, detail::function_ref<bool(const candidate_block&)> visit) const {
     const std::size_t begin = chunk * detail::items_per_chunk;
     const std::size_t count = std::min(detail::items_per_chunk, items_.size() - begin);
-    detail::search_items(*tree_, level_, std::span(items_).subspan(begin, count), visit);
+    return detail::search_items(*tree_, level_, std::span(items_).subspan(begin, count), visit);
 }
 
 template class self_search<2>;

@@ -4,25 +4,17 @@
 
 #include <libtree/candidates.hpp>
 #include <libtree/detail/function_ref.hpp>
+#include <libtree/detail/search_chunks.hpp>
 #include <libtree/export.hpp>
-#include <libtree/parallel.hpp>
 #include <libtree/tree.hpp>
 
-#include <atomic>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace tf {
-namespace detail {
-
-/// Two nodes of one level, or twice the same, whose candidate pairs are wanted.
-struct node_pair {
-    std::uint32_t a, b;
-};
-
-}  // namespace detail
 
 /// The search of a tree by itself, cut into chunks that depend on the tree alone.
 ///
@@ -44,7 +36,8 @@ class TREEFORM_API self_search {
     /// and some whose boxes miss by less than the rounding of the tree's float boxes.
     ///
     /// \cost over all chunks O(N + pairs of overlapping nodes + P) for P candidates
-    void visit(std::size_t chunk, detail::function_ref<bool(const candidate_block&)> visit) const;
+    search_statistics visit(std::size_t chunk,
+                            detail::function_ref<bool(const candidate_block&)> visit) const;
 
   private:
     const tree<D>* tree_;
@@ -53,30 +46,61 @@ class TREEFORM_API self_search {
 };
 
 /// Calls `apply(state, a, b)` for every pair of primitives a, b of the range the tree was built
-/// over whose boxes overlap. Returns the states, one a chunk, in an order that depends on the tree
-/// alone: no state is shared between threads. When `apply` returns true, the search stops: the
-/// state it was given is the last of those returned, and they hold what one thread would have
-/// found.
+/// over whose boxes overlap, a at the earlier place in leaf order. Returns the states, one a chunk,
+/// in an order that depends on the tree alone: no state is shared between threads. Where `apply`
+/// returns true (it may return nothing), the search stops: the state it was given is the last of
+/// those returned, and they hold what one thread would have found.
 template <class State, std::size_t D, class Apply>
 [[nodiscard]] std::vector<State> search_self(const tree<D>& tree, const Apply& apply) {
-    const self_search<D> search(tree);
-    std::vector<State> states(search.chunks());
-    std::atomic<std::size_t> last{states.size()};  // the first chunk that asked to stop
-    for_chunks(search.chunks(), 1, [&](std::size_t chunk, std::size_t, std::size_t) {
-        search.visit(chunk, [&](const candidate_block& block) {
-            if (chunk > last.load(std::memory_order_relaxed)) return false;
+    const auto id = tree.ids();
+    return detail::search_states<State>(
+        self_search<D>(tree), [&](State& state, const candidate_block& block) {
             for (std::size_t i = 0; i < block.first.size(); ++i)
-                if (apply(states[chunk], tree.ids()[block.first[i]], tree.ids()[block.second[i]])) {
-                    std::size_t seen = last.load();
-                    while (chunk < seen && !last.compare_exchange_weak(seen, chunk)) {
-                    }
-                    return false;
-                }
-            return true;
+                if (detail::asks_to_stop(apply, state, id[block.first[i]], id[block.second[i]]))
+                    return true;
+            return false;
         });
+}
+
+/// The same by blocks of candidates, `apply(state, block)`: for those who test several at once.
+template <class State, std::size_t D, class Apply>
+[[nodiscard]] std::vector<State> search_self_broad(const tree<D>& tree, const Apply& apply) {
+    return detail::search_states<State>(self_search<D>(tree),
+                                        [&](State& state, const candidate_block& block) {
+                                            return detail::asks_to_stop(apply, state, block);
+                                        });
+}
+
+/// Whether `accept(a, b)` is true for some pair of primitives whose boxes overlap; it is called
+/// from several threads, and no more once a pair is known.
+template <std::size_t D, class Accept>
+[[nodiscard]] bool search_self_any(const tree<D>& tree, const Accept& accept) {
+    const auto id = tree.ids();
+    return detail::search_for_any(self_search<D>(tree), [&](const candidate_block& block) {
+        for (std::size_t i = 0; i < block.first.size(); ++i)
+            if (accept(id[block.first[i]], id[block.second[i]])) return true;
+        return false;
     });
-    if (last.load() < states.size()) states.resize(last.load() + 1);
-    return states;
+}
+
+/// The pairs (a, b), a < b, of primitives whose boxes overlap and for which `accept(a, b)` is true,
+/// ascending. `accept` is called from several threads.
+template <std::size_t D, class Accept>
+[[nodiscard]] std::vector<id_pair> search_self_all(const tree<D>& tree, const Accept& accept) {
+    using pairs = std::vector<id_pair>;
+    pairs all = detail::joined(
+        search_self<pairs>(tree, [&](pairs& found, std::uint32_t a, std::uint32_t b) {
+            if (b < a) std::swap(a, b);
+            if (accept(a, b)) found.emplace_back(a, b);
+        }));
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+/// The pairs whose boxes, as the tree holds them, overlap.
+template <std::size_t D>
+[[nodiscard]] std::vector<id_pair> search_self_all(const tree<D>& tree) {
+    return search_self_all(tree, [](std::uint32_t, std::uint32_t) { return true; });
 }
 
 }  // namespace tf

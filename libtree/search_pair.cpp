@@ -1,0 +1,315 @@
+#include <libtree/detail/candidate_sink.hpp>
+#include <libtree/parallel.hpp>
+#include <libtree/search_pair.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libtree/search_pair.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Behind the two, as they are compiled for each target.
+#include <libtree/detail/map_node-inl.hpp>
+#include <libtree/detail/overlap_mask-inl.hpp>
+
+#ifndef TREEFORM_SEARCH_PAIR_ONCE
+#define TREEFORM_SEARCH_PAIR_ONCE
+namespace tf::detail {
+namespace {
+
+/// Pairs of nodes of one height in each tree; leaf blocks have height 0.
+struct frontier {
+    unsigned height_a, height_b;
+    std::vector<node_pair> items;
+};
+
+}  // namespace
+}  // namespace tf::detail
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace tf::detail::HWY_NAMESPACE {
+namespace {
+
+/// A node, and where its box is.
+template <std::size_t D>
+struct place {
+    unsigned height;
+    std::size_t node;
+    const wide_node<D>* parent;
+    std::size_t slot;
+};
+
+/// The nodes of one tree in the common frame. A moved node is kept until another one of its height
+/// is asked for: a search that goes down asks for the children of one node in a row.
+template <std::size_t D>
+class side {
+  public:
+    side(const tree<D>& t, const frame_map<D>& map) : map_(map) {
+        for (unsigned level = 0; level < t.levels(); ++level)
+            nodes_[t.levels() - 1 - level] = t.level(level).data();
+        top_ = t.levels() - 1;
+        moved_at_.fill(none);
+        // The box of the root, as if the root were a child.
+        const wide_node<D>& root = node(top_, 0);
+        for (std::size_t k = 0; k < D; ++k) {
+            above_root_.min[k][0] = *std::min_element(root.min[k], root.min[k] + 8);
+            above_root_.max[k][0] = *std::max_element(root.max[k], root.max[k] + 8);
+        }
+    }
+    side(const side&) = delete;
+    side& operator=(const side&) = delete;
+
+    [[nodiscard]] unsigned top() const { return top_; }
+
+    [[nodiscard]] const wide_node<D>& node(unsigned height, std::size_t i) {
+        const wide_node<D>& original = nodes_[height][i];
+        if (map_.identity) return original;
+        if (moved_at_[height] != i) {
+            map_node(map_, original, moved_[height]);
+            moved_at_[height] = i;
+        }
+        return moved_[height];
+    }
+
+    [[nodiscard]] place<D> at(unsigned height, std::size_t i) {
+        if (height == top_) return {height, i, &above_root_, 0};
+        return {height, i, &node(height + 1, i / 8), i % 8};
+    }
+
+    [[nodiscard]] static place<D> child(const place<D>& of, const wide_node<D>& node,
+                                        std::size_t slot) {
+        return {of.height - 1, 8 * of.node + slot, &node, slot};
+    }
+
+  private:
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    static constexpr std::size_t max_levels = 11;  // 8^11 > 2^32
+
+    frame_map<D> map_;
+    unsigned top_ = 0;
+    std::array<const wide_node<D>*, max_levels> nodes_{};
+    std::array<std::size_t, max_levels> moved_at_;
+    std::array<wide_node<D>, max_levels> moved_;
+    wide_node<D> above_root_;
+};
+
+/// Calls `open(a, b)` for the pairs of children of two nodes that overlap, or of the higher one's
+/// children with the other: `pairs_below` for inner nodes; `leaf(i, mask)` for leaf blocks.
+template <std::size_t D>
+class pair_traversal {
+  public:
+    explicit pair_traversal(const two_trees<D>& trees)
+        : a_(*trees.a, trees.map_a), b_(*trees.b, trees.map_b) {}
+
+    [[nodiscard]] side<D>& a() { return a_; }
+    [[nodiscard]] side<D>& b() { return b_; }
+    [[nodiscard]] search_statistics& seen() { return seen_; }
+
+    /// One step down from a pair of nodes whose boxes may overlap: `inner(a, b)` for each pair of
+    /// nodes below, until it returns false; for two leaf blocks `leaf(i, mask)`, primitive i of a
+    /// with each of `mask` of b.
+    template <class Inner, class Leaf>
+    bool open(const place<D>& a, const place<D>& b, const Inner& inner, const Leaf& leaf) {
+        ++seen_.nodes;
+        if (a.height < b.height) {
+            const wide_node<D>& node = b_.node(b.height, b.node);
+            for (unsigned rest = mask(node, *a.parent, a.slot); rest != 0; rest &= rest - 1)
+                if (!inner(a, b_.child(b, node, lowest(rest)))) return false;
+            return true;
+        }
+        const wide_node<D>& node_a = a_.node(a.height, a.node);
+        const unsigned in_a = mask(node_a, *b.parent, b.slot);
+        if (b.height < a.height) {
+            for (unsigned rest = in_a; rest != 0; rest &= rest - 1)
+                if (!inner(a_.child(a, node_a, lowest(rest)), b)) return false;
+            return true;
+        }
+        const wide_node<D>& node_b = b_.node(b.height, b.node);
+        for (unsigned i = in_a; i != 0; i &= i - 1) {
+            const unsigned in_b = mask(node_b, node_a, lowest(i));
+            if (a.height == 0) {
+                if (in_b != 0) leaf(lowest(i), in_b);
+                continue;
+            }
+            const place<D> child = a_.child(a, node_a, lowest(i));
+            for (unsigned rest = in_b; rest != 0; rest &= rest - 1)
+                if (!inner(child, b_.child(b, node_b, lowest(rest)))) return false;
+        }
+        return true;
+    }
+
+    /// All candidates below two nodes, until the sink is told to stop.
+    bool descend(const place<D>& a, const place<D>& b, candidate_sink& sink) {
+        return open(
+                   a, b, [&](const place<D>& x, const place<D>& y) { return descend(x, y, sink); },
+                   [&](std::size_t i, unsigned in_b) {
+                       sink.add(static_cast<std::uint32_t>(8 * a.node + i),
+                                static_cast<std::uint32_t>(8 * b.node), in_b);
+                   }) &&
+               !sink.stopped();
+    }
+
+  private:
+    static std::size_t lowest(unsigned bits) {
+        return static_cast<std::size_t>(std::countr_zero(bits));
+    }
+    unsigned mask(const wide_node<D>& node, const wide_node<D>& other, std::size_t slot) {
+        ++seen_.box_tests;
+        return overlap_mask(node, other, slot);
+    }
+
+    side<D> a_;
+    side<D> b_;
+    search_statistics seen_;
+};
+
+/// Pairs of nodes deep enough that there are `enough` of them, in the order the serial search
+/// meets them.
+template <std::size_t D>
+frontier expand(const two_trees<D>& trees, std::size_t enough) {
+    pair_traversal<D> traversal(trees);
+    frontier now{traversal.a().top(), traversal.b().top(), {{0, 0}}};
+    while (now.height_a + now.height_b != 0 && !now.items.empty() && now.items.size() < enough) {
+        std::vector<node_pair> below;
+        for (const node_pair item : now.items)
+            traversal.open(
+                traversal.a().at(now.height_a, item.a), traversal.b().at(now.height_b, item.b),
+                [&](const place<D>& a, const place<D>& b) {
+                    below.push_back(
+                        {static_cast<std::uint32_t>(a.node), static_cast<std::uint32_t>(b.node)});
+                    return true;
+                },
+                [](std::size_t, unsigned) {});
+        const unsigned height = std::max(now.height_a, now.height_b) - 1;
+        now.height_a = std::min(now.height_a, height);
+        now.height_b = std::min(now.height_b, height);
+        now.items = std::move(below);
+    }
+    return now;
+}
+
+template <std::size_t D>
+search_statistics search_items(const two_trees<D>& trees, unsigned height_a, unsigned height_b,
+                               std::span<const node_pair> items, std::size_t block_size,
+                               block_visitor visit) {
+    candidate_sink sink(visit, block_size);
+    pair_traversal<D> traversal(trees);
+    for (std::size_t i = 0; i < items.size() && !sink.stopped(); ++i)
+        traversal.descend(traversal.a().at(height_a, items[i].a),
+                          traversal.b().at(height_b, items[i].b), sink);
+    sink.flush();
+    traversal.seen().candidates = sink.total();
+    return traversal.seen();
+}
+
+frontier expand_2(const two_trees<2>& trees, std::size_t enough) { return expand(trees, enough); }
+frontier expand_3(const two_trees<3>& trees, std::size_t enough) { return expand(trees, enough); }
+search_statistics search_items_2(const two_trees<2>& trees, unsigned height_a, unsigned height_b,
+                                 std::span<const node_pair> items, std::size_t block_size,
+                                 block_visitor visit) {
+    return search_items(trees, height_a, height_b, items, block_size, visit);
+}
+search_statistics search_items_3(const two_trees<3>& trees, unsigned height_a, unsigned height_b,
+                                 std::span<const node_pair> items, std::size_t block_size,
+                                 block_visitor visit) {
+    return search_items(trees, height_a, height_b, items, block_size, visit);
+}
+
+}  // namespace
+}  // namespace tf::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tf {
+namespace detail {
+namespace {
+
+HWY_EXPORT(expand_2);
+HWY_EXPORT(expand_3);
+HWY_EXPORT(search_items_2);
+HWY_EXPORT(search_items_3);
+
+frontier expand(const two_trees<2>& trees, std::size_t enough) {
+    return HWY_DYNAMIC_DISPATCH(expand_2)(trees, enough);
+}
+frontier expand(const two_trees<3>& trees, std::size_t enough) {
+    return HWY_DYNAMIC_DISPATCH(expand_3)(trees, enough);
+}
+search_statistics search_items(const two_trees<2>& trees, unsigned height_a, unsigned height_b,
+                               std::span<const node_pair> items, std::size_t block_size,
+                               block_visitor visit) {
+    return HWY_DYNAMIC_DISPATCH(search_items_2)(trees, height_a, height_b, items, block_size,
+                                                visit);
+}
+search_statistics search_items(const two_trees<3>& trees, unsigned height_a, unsigned height_b,
+                               std::span<const node_pair> items, std::size_t block_size,
+                               block_visitor visit) {
+    return HWY_DYNAMIC_DISPATCH(search_items_3)(trees, height_a, height_b, items, block_size,
+                                                visit);
+}
+
+template <std::size_t D>
+two_trees<D> in_one_frame(const transformed<D>& a, const transformed<D>& b) {
+    const tree_frame<D>& frame_a = a.original().frame();
+    const tree_frame<D>& frame_b = b.original().frame();
+    const tree_frame<D> common = common_frame(frame_a, a.by(), frame_b, b.by());
+    return {&a.original(), &b.original(), map_into(frame_a, a.by(), common),
+            map_into(frame_b, b.by(), common)};
+}
+
+// Where the search is cut: at the first level with enough pairs of nodes, in pieces of a few. Both
+// are constants, so that results depend on the trees alone.
+constexpr std::size_t enough_items = 2048;
+constexpr std::size_t items_per_chunk = 16;
+constexpr std::size_t full_block = max_candidates - 8;
+constexpr std::size_t small_block = 56;
+
+}  // namespace
+}  // namespace detail
+
+template <std::size_t D>
+pair_search<D>::pair_search(const transformed<D>& a, const transformed<D>& b)
+    : trees_(detail::in_one_frame(a, b)) {
+    if (trees_.a->empty() || trees_.b->empty()) return;
+    detail::frontier cut = detail::expand(trees_, detail::enough_items);
+    height_a_ = cut.height_a;
+    height_b_ = cut.height_b;
+    items_ = std::move(cut.items);
+}
+
+template <std::size_t D>
+std::size_t pair_search<D>::chunks() const {
+    return chunk_count(items_.size(), detail::items_per_chunk);
+}
+
+template <std::size_t D>
+search_statistics pair_search<D>::visit(
+    std::size_t chunk, detail::function_ref<bool(const candidate_block&)> visit) const {
+    const std::size_t begin = chunk * detail::items_per_chunk;
+    const std::size_t count = std::min(detail::items_per_chunk, items_.size() - begin);
+    return detail::search_items(trees_, height_a_, height_b_,
+                                std::span(items_).subspan(begin, count), detail::full_block, visit);
+}
+
+template <std::size_t D>
+search_statistics pair_search<D>::visit_all(
+    const transformed<D>& a, const transformed<D>& b,
+    detail::function_ref<bool(const candidate_block&)> visit) {
+    if (a.original().empty() || b.original().empty()) return {};
+    const detail::two_trees<D> trees = detail::in_one_frame(a, b);
+    const detail::node_pair roots{0, 0};
+    return detail::search_items(trees, trees.a->levels() - 1, trees.b->levels() - 1, {&roots, 1},
+                                detail::small_block, visit);
+}
+
+template class pair_search<2>;
+template class pair_search<3>;
+
+}  // namespace tf
+#endif
