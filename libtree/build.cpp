@@ -1,4 +1,5 @@
 #include <libtree/detail/build_records.hpp>
+#include <libtree/detail/sieve.hpp>
 #include <libtree/parallel.hpp>
 
 #include <algorithm>
@@ -11,68 +12,10 @@
 namespace tf::detail {
 namespace {
 
-// Work is cut by these sizes, never by the thread count. A node above `shared_split` records is
-// halved by all threads together; below `subtree` records one thread takes the node to its leaves.
+// Work is cut by these sizes, never by the thread count. A part above `shared_split` records is cut
+// by all threads together; below `subtree` records one thread takes the part to its leaves.
 constexpr std::size_t shared_split = std::size_t{1} << 16;
 constexpr std::size_t subtree = std::size_t{1} << 14;
-constexpr std::size_t split_chunk = std::size_t{1} << 12;
-
-/// `split` by all threads: count the three classes of every chunk, then move each record to its
-/// place. What falls between the brackets, a few per cent, is split by this thread.
-void split_shared(split_record* from, split_record* to, std::size_t count, std::size_t left) {
-    constexpr std::size_t sample_size = 1024;
-    constexpr std::size_t spread = 52;  // 3.2 standard deviations of a median of 1024
-    std::array<split_record, sample_size> sample;
-    for (std::size_t i = 0; i < sample_size; ++i) sample[i] = from[i * count / sample_size];
-    const int axis = widest_axis(range_of(sample.data(), sample_size)).axis;
-    std::sort(sample.begin(), sample.end(), [axis](const split_record& a, const split_record& b) {
-        return a.center[axis] < b.center[axis];
-    });
-    const std::size_t rank = left * sample_size / count;
-    const float lo = sample[rank > spread ? rank - spread : 0].center[axis];
-    const float hi = sample[std::min(rank + spread, sample_size - 1)].center[axis];
-
-    struct classes {
-        std::size_t below = 0, between = 0, above = 0;
-    };
-    std::vector<classes> at(chunk_count(count, split_chunk));
-    for_chunks(count, split_chunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        classes n;
-        for (std::size_t i = begin; i < end; ++i) {
-            n.below += from[i].center[axis] < lo;
-            n.above += from[i].center[axis] > hi;
-        }
-        n.between = end - begin - n.below - n.above;
-        at[chunk] = n;
-    });
-    classes total;
-    for (classes& n : at) {
-        const classes first = total;
-        total = {total.below + n.below, total.between + n.between, total.above + n.above};
-        n = first;
-    }
-    for_chunks(count, split_chunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        std::array<split_record, split_chunk> part;  // so that no write hits another chunk's places
-        const std::size_t size = end - begin;
-        const auto [below, between] = scatter(from + begin, part.data(), size, axis, lo, hi);
-        std::copy_n(part.data(), below, to + at[chunk].below);
-        std::copy_n(from + begin, between, to + total.below + at[chunk].between);
-        std::copy_n(part.data() + (below + between), size - below - between,
-                    to + total.below + total.between + at[chunk].above);
-    });
-    // The class that holds the cut is split from a copy in `from`, where all has been read.
-    std::size_t begin = 0, size = total.below;
-    if (left >= total.below + total.between) {
-        begin = total.below + total.between;
-        size = total.above;
-    } else if (left >= total.below) {
-        begin = total.below;
-        size = total.between;
-    }
-    if (left == begin) return;
-    std::copy_n(to + begin, size, from + begin);
-    split(from + begin, to + begin, size, left - begin);
-}
 
 /// The memory of the nodes, which hold nothing yet, as a second array of records: each leaf block
 /// has room for more than the 8 records it gets.
@@ -83,38 +26,36 @@ split_record* scratch_of(tree<D>& tree) {
         split_record[std::max<std::size_t>(tree.size(), 1)];
 }
 
-/// The halves of all parts above `grain` records, in order; the rest as they are.
-std::vector<split_part> halves(const split_plan& plan, const std::vector<split_part>& parts,
-                               std::size_t grain) {
-    std::vector<split_part> next;
-    for (const auto [begin, count, round] : parts) {
-        if (count <= grain) {
-            next.push_back({begin, count, round});
-            continue;
-        }
-        const std::size_t left = plan.left(count, round);
-        next.push_back({begin, left, round + 1});
-        if (left < count) next.push_back({begin + left, count - left, round + 1});
-    }
-    return next;
+/// Appends what `part` is cut into after `rounds` rounds.
+void append_cut(const split_plan& plan, const split_part& part, unsigned rounds,
+                std::vector<split_part>& to) {
+    if (rounds == 0) return to.push_back(part);
+    const auto [begin, count, round] = part;
+    const std::size_t left = plan.left(count, round);
+    append_cut(plan, {begin, left, round + 1}, rounds - 1, to);
+    if (left < count) append_cut(plan, {begin + left, count - left, round + 1}, rounds - 1, to);
 }
+
+/// The parts, those above `grain` records after `rounds` more rounds.
+std::vector<split_part> cut_above(const split_plan& plan, const std::vector<split_part>& parts,
+                                  std::size_t grain, unsigned rounds) {
+    std::vector<split_part> result;
+    for (const split_part& part : parts)
+        append_cut(plan, part, part.count > grain ? rounds : 0, result);
+    return result;
+}
+
 bool exceeds(const std::vector<split_part>& parts, std::size_t grain) {
     return std::any_of(parts.begin(), parts.end(),
                        [&](const split_part& part) { return part.count > grain; });
 }
 
-/// Cuts the places of `plan` down to leaf blocks: parts above `shared_split` one after the other,
-/// each by all threads in `cut_shared(part)`; below, parts are independent and each is one
-/// thread's, in `cut(part)` down to the grain of a task and in `finish(part)` from there on.
-template <class CutShared, class Cut, class Finish>
-void cut_places(const split_plan& plan, const CutShared& cut_shared, const Cut& cut,
-                const Finish& finish) {
-    if (plan.rounds() == 0) return;
-    std::vector<split_part> parts{{0, plan.size, 0}};
-    for (; exceeds(parts, shared_split); parts = halves(plan, parts, shared_split))
-        for (const split_part& part : parts)
-            if (part.count > shared_split) cut_shared(part);
-    for (; exceeds(parts, subtree); parts = halves(plan, parts, subtree))
+/// Cuts parts down to leaf blocks. They are independent: each is one thread's, in `cut(part)` down
+/// to the grain of a task and in `finish(part)` from there on.
+template <class Cut, class Finish>
+void cut_parts(const split_plan& plan, std::vector<split_part> parts, const Cut& cut,
+               const Finish& finish) {
+    for (; exceeds(parts, subtree); parts = cut_above(plan, parts, subtree, 1))
         for_chunks(parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
             if (parts[i].count > subtree) cut(parts[i]);
         });
@@ -128,18 +69,23 @@ void order_by_splits(const split_plan& plan, tree<D>& tree, build_memory& memory
     split_record* even = memory.records.data();
     split_record* odd = scratch_of(tree);
     if (plan.rounds() % 2 != 0) std::swap(even, odd);
-    const auto move = [&](const split_part& part, const auto& cut) {
-        split_record* const from = (part.round % 2 == 0 ? even : odd) + part.begin;
-        split_record* const to = (part.round % 2 == 0 ? odd : even) + part.begin;
-        const std::size_t left = plan.left(part.count, part.round);
-        if (left == part.count)
-            std::copy_n(from, part.count, to);
-        else
-            cut(from, to, part.count, left);
+    const auto from = [&](const split_part& p) {
+        return (p.round % 2 == 0 ? even : odd) + p.begin;
     };
-    cut_places(
-        plan, [&](const split_part& part) { move(part, split_shared); },
-        [&](const split_part& part) { move(part, split); },
+    const auto to = [&](const split_part& p) { return (p.round % 2 == 0 ? odd : even) + p.begin; };
+    std::vector<split_part> parts{{0, plan.size, 0}};
+    for (; exceeds(parts, shared_split); parts = cut_above(plan, parts, shared_split, sieve_rounds))
+        for (const split_part& part : parts)
+            if (part.count > shared_split) sieve(from(part), to(part), plan, part);
+    cut_parts(
+        plan, std::move(parts),
+        [&](const split_part& part) {
+            const std::size_t left = plan.left(part.count, part.round);
+            if (left == part.count)
+                std::copy_n(from(part), part.count, to(part));
+            else
+                split(from(part), to(part), part.count, left);
+        },
         [&](const split_part& part) { split_to_leaves(even, odd, plan, part); });
 }
 
@@ -155,10 +101,10 @@ void order_by_selection(const split_plan& plan, build_memory& memory,
     };
     const auto finish = [&](const split_part& part) {
         std::vector<split_part> parts{part};
-        for (; parts[0].round < plan.rounds(); parts = halves(plan, parts, 0))
+        for (; parts[0].round < plan.rounds(); parts = cut_above(plan, parts, 0, 1))
             for (const split_part& p : parts) cut(p);
     };
-    cut_places(plan, cut, cut, finish);
+    cut_parts(plan, {{0, plan.size, 0}}, cut, finish);
 }
 
 template <std::size_t D>
@@ -233,10 +179,12 @@ split_record* records_of(tree<D>& tree, build_memory& memory, const select_recor
 template <std::size_t D>
 void build_from_records(tree<D>& tree, build_memory& memory, const select_records* select) {
     const split_plan plan = split_plan::of(tree.size(), tree.levels());
-    if (select == nullptr)
-        order_by_splits(plan, tree, memory);
-    else
-        order_by_selection(plan, memory, *select);
+    if (plan.rounds() > 0) {
+        if (select == nullptr)
+            order_by_splits(plan, tree, memory);
+        else
+            order_by_selection(plan, memory, *select);
+    }
     fill_leaves(tree, memory.records.data(), memory.extents.data());
     fill_inner(tree);
 }

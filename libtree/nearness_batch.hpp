@@ -5,6 +5,7 @@
 #include <libtree/detail/frame.hpp>
 #include <libtree/detail/morton_order.hpp>
 #include <libtree/nearness.hpp>
+#include <libtree/neighbor.hpp>
 #include <libtree/parallel.hpp>
 
 #include <cstddef>
@@ -12,7 +13,6 @@
 #include <iterator>
 #include <optional>
 #include <ranges>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -20,19 +20,6 @@
 #include <vector>
 
 namespace tf {
-
-/// A list of answers for each of Q queries, in one array.
-template <class Neighbor>
-struct neighbor_lists {
-    std::vector<std::size_t> begin{
-        0};  ///< [Q + 1] where the list of each query starts, and the end
-    std::vector<Neighbor> neighbors;
-
-    [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
-    [[nodiscard]] std::span<const Neighbor> operator[](std::size_t query) const {
-        return std::span(neighbors).subspan(begin[query], begin[query + 1] - begin[query]);
-    }
-};
 
 namespace detail {
 

@@ -2,8 +2,11 @@
 /// \file
 /// The answers of nearness searches.
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
+#include <vector>
 
 namespace tf {
 
@@ -33,5 +36,18 @@ template <class Neighbor>
     const double of_b = b.squared_distance();
     return of_a != of_b ? of_a < of_b : a.id < b.id;
 }
+
+/// A list of answers for each of Q queries, in one array.
+template <class Neighbor>
+struct neighbor_lists {
+    std::vector<std::size_t> begin{
+        0};  ///< [Q + 1] where the list of each query starts, and the end
+    std::vector<Neighbor> neighbors;
+
+    [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
+    [[nodiscard]] std::span<const Neighbor> operator[](std::size_t query) const {
+        return std::span(neighbors).subspan(begin[query], begin[query + 1] - begin[query]);
+    }
+};
 
 }  // namespace tf
