@@ -55,7 +55,9 @@ template <std::size_t D, class Queries, class Search>
                    for (std::size_t i = begin; i < end; ++i) found[order[i]] = search(order[i]);
                });
     neighbor_lists<typename list::value_type> lists;
-    for (const list& one : found) lists.begin.push_back(lists.begin.back() + one.size());
+    lists.begin.resize(found.size() + 1);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        lists.begin[i + 1] = lists.begin[i] + found[i].size();
     lists.neighbors.reserve(lists.begin.back());
     for (list& one : found)
         lists.neighbors.insert(lists.neighbors.end(), std::move_iterator(one.begin()),

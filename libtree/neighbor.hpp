@@ -40,11 +40,10 @@ template <class Neighbor>
 /// A list of answers for each of Q queries, in one array.
 template <class Neighbor>
 struct neighbor_lists {
-    std::vector<std::size_t> begin{
-        0};  ///< [Q + 1] where the list of each query starts, and the end
+    std::vector<std::size_t> begin;  ///< [Q + 1] where each list starts, and the end
     std::vector<Neighbor> neighbors;
 
-    [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
+    [[nodiscard]] std::size_t size() const { return begin.empty() ? 0 : begin.size() - 1; }
     [[nodiscard]] std::span<const Neighbor> operator[](std::size_t query) const {
         return std::span(neighbors).subspan(begin[query], begin[query + 1] - begin[query]);
     }

@@ -75,8 +75,8 @@ HWY_INLINE unsigned squared_distances(const double* points, const point_query<D>
     for (std::size_t i = 0; i < 8; i += lanes) {
         auto sum = hn::Zero(d);
         for (std::size_t k = 0; k < D; ++k) {
-            const auto gap = hn::Sub(hn::Mul(hn::Load(d, points + 8 * k + i), unit),
-                                     hn::Set(d, query.at[k]));
+            const auto gap =
+                hn::Sub(hn::Mul(hn::Load(d, points + 8 * k + i), unit), hn::Set(d, query.at[k]));
             sum = hn::Add(sum, hn::Mul(gap, gap));
         }
         hn::Store(sum, d, squared + i);
@@ -154,11 +154,13 @@ void dispatch(const point_blocks<3>& points, const point_query<3>& query,
     HWY_DYNAMIC_DISPATCH(all_of_3)(points, query, framed, kept);
 }
 
-/// The frame's scale, but for queries and clouds so large in it that squares might overflow.
+/// The frame's scale, unless coordinates are so large or so small in it that squares might leave
+/// the range of double.
 double unit_for(double scale, double largest) {
-    constexpr int most = 500;
-    if (largest <= 1.0 || largest * scale <= 0x1p500) return std::min(scale, 0x1p1000);
-    return std::ldexp(1.0, std::max(most - 1 - std::ilogb(largest), -1000));
+    if (largest * scale > 0x1p500) return std::ldexp(1.0, 499 - std::ilogb(largest));
+    if (largest * scale < 0x1p-400 && largest > 0.0)
+        return std::ldexp(1.0, std::min(-std::ilogb(largest), 1000));
+    return scale;
 }
 
 /// One search after the other over the same points, keeping what memory it needs.
@@ -224,24 +226,23 @@ neighbor_lists<near_point> lists_of(const point_blocks<D>& points, double larges
     const auto order = morton_order<D>(queries.size(), [&](std::size_t i) { return queries[i]; });
     std::vector<std::vector<near_point>> found(chunk_count(order.size(), queries_per_chunk));
     std::vector<std::size_t> count(order.size());
-    for_chunks(
-        order.size(), queries_per_chunk,
-        [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-            auto kept = make_kept();
-            point_searcher<D, decltype(kept)> searcher(points, largest, radius, kept);
-            std::vector<near_point>& mine = found[chunk];
-            double limit = std::numeric_limits<double>::infinity();
-            for (std::size_t i = begin; i < end; ++i) {
-                const std::size_t before = mine.size();
-                searcher.search(queries[order[i]], limit, mine);
-                count[order[i]] = mine.size() - before;
-                if (i + 1 < end && k != 0 && count[order[i]] == k)
-                    limit = limit_after(queries[order[i]], queries[order[i + 1]],
-                                        mine.back().distance);
-                else
-                    limit = std::numeric_limits<double>::infinity();
-            }
-        });
+    for_chunks(order.size(), queries_per_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                   auto kept = make_kept();
+                   point_searcher<D, decltype(kept)> searcher(points, largest, radius, kept);
+                   std::vector<near_point>& mine = found[chunk];
+                   double limit = std::numeric_limits<double>::infinity();
+                   for (std::size_t i = begin; i < end; ++i) {
+                       const std::size_t before = mine.size();
+                       searcher.search(queries[order[i]], limit, mine);
+                       count[order[i]] = mine.size() - before;
+                       if (i + 1 < end && k != 0 && count[order[i]] == k)
+                           limit = limit_after(queries[order[i]], queries[order[i + 1]],
+                                               mine.back().distance);
+                       else
+                           limit = std::numeric_limits<double>::infinity();
+                   }
+               });
     neighbor_lists<near_point> lists;
     lists.begin.resize(order.size() + 1);
     for (std::size_t i = 0; i < order.size(); ++i) lists.begin[i + 1] = lists.begin[i] + count[i];

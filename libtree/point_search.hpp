@@ -9,7 +9,10 @@
 #include <libtree/parallel.hpp>
 #include <libtree/tree.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -109,9 +112,9 @@ void point_search<D>::copy(const Points& points) {
             for (std::size_t k = 0; k < D; ++k) {
                 slot[k * 8] = std::numeric_limits<double>::quiet_NaN();
                 if (place >= tree_.size()) continue;
-                const auto& p = std::ranges::begin(
-                    points)[static_cast<std::ranges::range_difference_t<Points>>(
-                    tree_.ids()[place])];
+                const auto& p =
+                    std::ranges::begin(points)[static_cast<std::ranges::range_difference_t<Points>>(
+                        tree_.ids()[place])];
                 slot[k * 8] = static_cast<double>(p[k]);
                 largest[chunk] = std::max(largest[chunk], std::abs(slot[k * 8]));
             }

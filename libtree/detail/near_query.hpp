@@ -37,12 +37,16 @@ inline float float_above(double x) {
 /// Beyond the range of float: `low` and `high` are cut to its limits. No side that faces them is
 /// stored further out, so where a cut one is used its difference is zero or an underestimate. When
 /// s overflows while the bound is finite, S > best as well; an infinite bound passes over nothing.
+/// Only where differences of coordinates overflow double before they do float, for frames of an
+/// extent beyond 1e267, would a cut side lie further out than the truth; there the bound stays
+/// infinite.
 template <std::size_t D>
 class near_query {
   public:
     /// Squared distances will be those of the caller's coordinates times `unit`, a power of two.
     near_query(const tree_frame<D>& frame, const aabb<double, D>& box, double unit = 1.0)
-        : scale_(frame.scale / unit) {
+        : scale_(frame.scale < least_scale ? std::numeric_limits<double>::infinity()
+                                           : frame.scale / unit) {
         for (std::size_t k = 0; k < D; ++k) {
             low[k] = -float_above(-(box.min[k] - frame.origin[k]) * frame.scale);
             high[k] = float_above((box.max[k] - frame.origin[k]) * frame.scale);
@@ -62,6 +66,8 @@ class near_query {
     std::array<float, D> high;
 
   private:
+    static constexpr double least_scale = 0x1p-890;
+
     double scale_;
 };
 
