@@ -134,8 +134,8 @@ void fill_leaves(tree<D>& tree, const split_record* order, const half_extents* e
                            const half_extents half = extents[id];
                            ids[i] = id;
                            for (std::size_t k = 0; k < D; ++k) {
-                               leaf.min[k][i - begin] = center[k] - half[k];
-                               leaf.max[k][i - begin] = center[k] + half[k];
+                               leaf.min[k][i - begin] = center[k] - half.template on_axis<D>(k);
+                               leaf.max[k][i - begin] = center[k] + half.template on_axis<D>(k);
                            }
                        }
                    }

@@ -5,11 +5,13 @@
 #include <libtree/aabb.hpp>
 #include <libtree/detail/build_records.hpp>
 #include <libtree/detail/frame.hpp>
+#include <libtree/detail/round_boxes.hpp>
 #include <libtree/parallel.hpp>
 #include <libtree/strategy/bracketed_select.hpp>
 #include <libtree/strategy/nth_element.hpp>
 #include <libtree/tree.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <concepts>
 #include <cstddef>
@@ -139,16 +141,20 @@ void builder<D>::fill(tree<D>& tree, const Range& range, const MakeBox& make_aab
     detail::split_record* const records = detail::records_of(tree, memory_, select);
     memory_.extents.resize(size);
     std::atomic<std::size_t> bad{size};  // the first element whose box cannot be used
+    using block = detail::box_block<D>;
     for_chunks(size, std::size_t{1} << 13, [&](std::size_t begin, std::size_t end, std::size_t) {
-        const detail::rounder<D> round(tree.frame());
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto box = box_of(i);
-            if (!round(box, static_cast<std::uint32_t>(i), records[i], memory_.extents[i])) {
-                std::size_t seen = bad.load();
-                while (i < seen && !bad.compare_exchange_weak(seen, i)) {
-                }
-                return;
+        block boxes;
+        for (std::size_t i = begin; i < end; i += block::size) {
+            const std::size_t count = std::min(block::size, end - i);
+            for (std::size_t j = 0; j < count; ++j) boxes.set(j, box_of(i + j));
+            const std::size_t sound =
+                detail::round_boxes(tree.frame(), boxes, count, static_cast<std::uint32_t>(i),
+                                    records + i, memory_.extents.data() + i);
+            if (sound == count) continue;
+            std::size_t seen = bad.load();
+            while (i + sound < seen && !bad.compare_exchange_weak(seen, i + sound)) {
             }
+            return;
         }
     });
     if (bad.load() != size)

@@ -14,31 +14,22 @@
 
 namespace tf::detail {
 
-/// How far a primitive's box reaches from the centre in its record: three floats of 21 bits each
-/// (sign-free, rounded up), in eight bytes, since gathering them by primitive is a random access.
+/// How far a primitive's box reaches from the centre in its record, in eight bytes, since gathering
+/// them by primitive is a random access: D floats of 21 bits each, without a sign and rounded up,
+/// the last axis in the lowest bits.
 class half_extents {
   public:
-    half_extents() = default;
-    /// \pre every h[k] >= 0 or infinite
+    static constexpr unsigned kept = 21;  ///< 8 of exponent, 13 of mantissa
+    static constexpr unsigned dropped = 10;
+
+    /// At least the extent on axis `k` of D, and at most 2^-13 of it more.
     template <std::size_t D>
-    explicit half_extents(const float (&h)[D]) {
-        bits_ = 0;
-        for (std::size_t k = 0; k < D; ++k) {
-            // Adding to the bits of a float goes to the next larger one, from the greatest to
-            // infinity.
-            const std::uint32_t up = std::bit_cast<std::uint32_t>(h[k]) + ((1U << dropped) - 1);
-            bits_ |= std::uint64_t{up >> dropped} << (kept * k);
-        }
-    }
-    /// At least h[k], and at most 2^-13 of it more.
-    [[nodiscard]] float operator[](std::size_t k) const {
-        const auto up = static_cast<std::uint32_t>(bits_ >> (kept * k)) & ((1U << kept) - 1);
-        return std::bit_cast<float>(up << dropped);
+    [[nodiscard]] float on_axis(std::size_t k) const {
+        const std::uint64_t bits = bits_ >> (kept * (D - 1 - k)) & ((1U << kept) - 1);
+        return std::bit_cast<float>(static_cast<std::uint32_t>(bits) << dropped);
     }
 
   private:
-    static constexpr unsigned kept = 21;  // 8 of exponent, 13 of mantissa
-    static constexpr unsigned dropped = 10;
     std::uint64_t bits_;
 };
 

@@ -1,15 +1,13 @@
 #pragma once
 /// \file
-/// The frame of a tree: where its float boxes are centred, and how boxes are rounded into it.
+/// Choosing the frame of a tree: where its float boxes are centred.
 
-#include <libtree/detail/build_records.hpp>
 #include <libtree/tree.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 
 namespace tf::detail {
@@ -53,59 +51,5 @@ template <class Box>
                   (box.max[k] <= std::numeric_limits<scalar>::max());
     return finite;
 }
-
-/// Rounds boxes outward into a frame, as a centre and half extents.
-template <std::size_t D>
-class rounder {
-  public:
-    explicit rounder(const tree_frame<D>& frame) : frame_(frame) {}
-
-    /// Writes the record of element `id` and how far its box reaches from there; false for a box
-    /// that is empty or not finite.
-    template <class Box>
-    bool operator()(const Box& box, std::uint32_t id, split_record& record,
-                    half_extents& extents) const {
-        float half[D];
-        record.center[2] = 0.0F;
-        for (std::size_t k = 0; k < D; ++k) {
-            const float lo = to_float(static_cast<double>(box.min[k]), k);
-            const float hi = to_float(static_cast<double>(box.max[k]), k);
-            const float center = 0.5F * lo + 0.5F * hi;
-            record.center[k] = center;
-            half[k] =
-                std::max(hi - center, center - lo) + margin(std::max(std::abs(lo), std::abs(hi)));
-        }
-        record.id = id;
-        extents = half_extents(half);
-        return is_finite(box);
-    }
-
-  private:
-    /// (x - origin) * scale, to about 2^-24, clamped to the range of float.
-    [[nodiscard]] float to_float(double x, std::size_t k) const {
-        constexpr double limit = std::numeric_limits<float>::max();
-        double y = (x - frame_.origin[k]) * frame_.scale;
-        y = y < -limit ? -limit : y;
-        y = limit < y ? limit : y;
-        return static_cast<float>(y);
-    }
-
-    /// What makes center - half and center + half, rounded to float, lie outside the exact image
-    /// of a box with |lo|, |hi| <= m. With u = 2^-24:
-    /// - `to_float` is off by at most u |y| of the rounding to float and 2^-53 |y| of the
-    /// difference,
-    ///   for the exact value y: by less than 1.01 u m;
-    /// - hi - center <= 2 m is off by u times itself, adding the margin by u (2 m + margin), and
-    /// the
-    ///   final center + half, which is at most m + margin off where it should be, by
-    ///   u (m + margin) beyond what it gains: together by less than 5.01 u m + 2 u margin.
-    /// Six units are 3.6e-7 m < 4.8e-7 m. Where m is so small that the product is flushed to 0, the
-    /// errors are below the least normal float, 1.2e-38. Scaling is exact but for underflow, which
-    /// that covers too. A clamped coordinate moves out to infinity: 4.8e-7 max is more than half an
-    /// ulp of max; inward it stays finite, which is right since x lies further out.
-    [[nodiscard]] static float margin(float m) { return m * 4.8e-7F + 1e-37F; }
-
-    tree_frame<D> frame_;
-};
 
 }  // namespace tf::detail

@@ -56,14 +56,16 @@ boxes<D> family(const std::string& name, std::size_t count, std::uint64_t seed) 
             for (double& x : corner) x = (x - 0.5) * 1.6e308, size = 1e306;
         if (name == "mixed")
             for (double& x : corner) x *= std::ldexp(1.0, static_cast<int>(i % 80) - 40);
+        if (name == "comb" && i % 8 != 0)  // a sample at equal distances sees none of these
+            for (double& x : corner) x = 5.0 - x;
         result[i] = box_at<D>(corner, size);
     }
     if (name == "stray" && count > 0) result[0] = box_at<D>({1e30}, 1.0);
     return result;
 }
 
-const std::vector<std::string> families{"random", "grid", "equal", "line", "far",
-                                        "tiny",   "huge", "mixed", "stray"};
+const std::vector<std::string> families{"random", "grid", "equal", "line",  "far",
+                                        "tiny",   "huge", "mixed", "stray", "comb"};
 const std::vector<std::size_t> sizes{0, 1, 2, 7, 8, 9, 16, 17, 63, 64, 65, 129, 1000, 4097};
 
 using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -124,16 +126,16 @@ TEST_CASE("build: the paper's layout is well formed at every arity and leaf size
 }
 
 TEST_CASE("build: the tree is large enough to be cut by all threads and still well formed") {
-    for (const char* name : {"random", "grid", "equal", "line"}) {
+    for (const char* name : {"random", "grid", "equal", "line", "mixed", "comb"}) {
         CAPTURE(name);
-        const boxes<3> of = family<3>(name, 200'000, 5);
+        const boxes<3> of = family<3>(name, 204'800, 5);
         const auto defect = tf::why_malformed(tf::build(of, itself), std::span(of));
         REQUIRE_MESSAGE(!defect, defect.value_or(""));
     }
 }
 
 TEST_CASE("build: the same tree on 1, 2 and 8 threads") {
-    for (const char* name : {"random", "grid"}) {
+    for (const char* name : {"random", "grid", "comb"}) {
         const boxes<3> of = family<3>(name, 150'000, 6);
         const auto ids_on = [&](unsigned threads) {
             const tf::thread_scope scope(threads);
