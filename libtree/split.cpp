@@ -151,6 +151,84 @@ bracket bracket_of(const record_sample& sample, std::size_t count, std::size_t l
     return result;
 }
 
+/// How many records lie below a bracket of keys, and how many in it.
+struct bracket_counts {
+    std::size_t below, between;
+};
+
+/// Where `scatter` is: records below the bracket end at `below_end`, those above it begin at
+/// `above_begin`, those between end at `between_end`.
+struct scatter_ends {
+    split_record* below_end;
+    split_record* above_begin;
+    split_record* between_end;
+};
+
+/// Without a branch: each record is written to all three places, and two are written again.
+void scatter_one(const split_record& record, int axis, bracket b, scatter_ends& ends) {
+    const float key = record.center[axis];
+    const std::size_t is_below = key < b.lo;
+    const std::size_t is_above = key > b.hi;
+    const split_record copy = record;
+    *ends.below_end = copy;
+    *(ends.above_begin - 1) = copy;
+    *ends.between_end = copy;
+    ends.below_end += is_below;
+    ends.above_begin -= is_above;
+    ends.between_end += 1 - (is_below + is_above);
+}
+
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+/// The same for four records in one register. Returns how many records it took.
+///
+/// Between `below_end` and `above_begin` there is room for every record not yet taken, four at
+/// least, so a whole register may be written to the former; to the latter, only what belongs there.
+std::size_t scatter_vectors(const split_record* from, std::size_t count, int axis, bracket b,
+                            scatter_ends& ends) {
+    const hn::Full512<float> d;
+    const hn::Full512<std::int32_t> di;
+    alignas(64) std::int32_t lane_of_key[16];
+    for (int lane = 0; lane < 16; ++lane) lane_of_key[lane] = lane / 4 * 4 + axis;
+    const auto key_lanes = hn::SetTableIndices(d, lane_of_key);
+    const auto lo = hn::Set(d, b.lo), hi = hn::Set(d, b.hi);
+    std::size_t i = 0;
+    for (; i + 4 <= count; i += 4) {
+        const auto records = hn::LoadU(d, from[i].center);
+        const auto last_first = hn::ReverseBlocks(d, records);
+        const auto keys = hn::TableLookupLanes(records, key_lanes);
+        const auto below = hn::Lt(keys, lo);
+        const auto between = hn::Not(hn::Or(below, hn::Gt(keys, hi)));
+        const auto above = hn::Gt(hn::TableLookupLanes(last_first, key_lanes), hi);
+        hn::StoreU(hn::Compress(records, below), d, ends.below_end->center);
+        hn::StoreU(hn::Compress(records, between), d, ends.between_end->center);
+        const std::size_t lanes_above = hn::CountTrue(d, above);
+        ends.above_begin -= lanes_above / 4;
+        hn::BlendedStore(hn::Compress(last_first, above), hn::FirstN(d, lanes_above), d,
+                         ends.above_begin->center);
+        ends.below_end += hn::CountTrue(d, below) / 4;
+        ends.between_end += hn::CountTrue(d, between) / 4;
+    }
+    return i;
+}
+#else
+std::size_t scatter_vectors(const split_record*, std::size_t, int, bracket, scatter_ends&) {
+    return 0;
+}
+#endif
+
+/// Moves the records below the bracket on `axis` to the front of `to`, those above it to its back,
+/// last first, and the few between to the front of `from`, whose records have been read by then.
+///
+/// \pre `to` has room for `count` records
+bracket_counts scatter(split_record* from, split_record* to, std::size_t count, int axis,
+                       bracket b) {
+    scatter_ends ends{to, to + count, from};
+    for (std::size_t i = scatter_vectors(from, count, axis, b, ends); i < count; ++i)
+        scatter_one(from[i], axis, b, ends);
+    return {static_cast<std::size_t>(ends.below_end - to),
+            static_cast<std::size_t>(ends.between_end - from)};
+}
+
 void select_in_place(split_record* records, std::size_t count, std::size_t left, int axis) {
     if (left > 0 && left < count)
         std::nth_element(records, records + left, records + count,
@@ -165,8 +243,8 @@ void split_any(split_record* from, split_record* to, std::size_t count, std::siz
     record_sample sample(from, count);
     const int axis = widest_axis(range_of_records(sample.records.data(), sample.size)).axis;
     for (;;) {
-        const auto [lo, hi] = bracket_of(sample, count, left, axis);
-        const auto [below, between] = scatter(from, to, count, axis, lo, hi);
+        const bracket cut = bracket_of(sample, count, left, axis);
+        const auto [below, between] = scatter(from, to, count, axis, cut);
         const std::size_t above = count - below - between;
         // `to` has a gap of `between` places behind `below`, where the cut should fall.
         const bool found = below <= left && left <= below + between;
@@ -180,7 +258,7 @@ void split_any(split_record* from, split_record* to, std::size_t count, std::siz
         to += below;
         left -= below;
         count = between;
-        if (count <= max_ranked) return split_by_rank(from, to, count, {axis, lo, hi});
+        if (count <= max_ranked) return split_by_rank(from, to, count, {axis, cut.lo, cut.hi});
         sample = record_sample(from, count);
     }
 }

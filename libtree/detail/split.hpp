@@ -78,36 +78,6 @@ struct split_axis {
     return {axis, range.min[axis], range.max[axis]};
 }
 
-/// How many records lie below a bracket of keys, and how many in it.
-struct bracket_counts {
-    std::size_t below, between;
-};
-
-/// Moves the records below `lo` on `axis` to the front of `to`, those above `hi` to its back, last
-/// first, and the few between to the front of `from`, whose records have been read by then. Without
-/// a branch: each record is written to all three places, and two of them are written again.
-///
-/// \pre `to` has room for `count` records
-inline bracket_counts scatter(split_record* from, split_record* to, std::size_t count, int axis,
-                              float lo, float hi) {
-    split_record* below_end = to;
-    split_record* above_begin = to + count;
-    split_record* between_end = from;
-    for (std::size_t i = 0; i < count; ++i) {
-        const split_record record = from[i];
-        const float key = record.center[axis];
-        const std::size_t is_below = key < lo;
-        const std::size_t is_above = key > hi;
-        *below_end = record;
-        *(above_begin - 1) = record;
-        *between_end = record;
-        below_end += is_below;
-        above_begin -= is_above;
-        between_end += 1 - (is_below + is_above);
-    }
-    return {static_cast<std::size_t>(below_end - to), static_cast<std::size_t>(between_end - from)};
-}
-
 /// Moves `count` records from `from` to `to` so that none of the first `left` lies behind any of
 /// the others along the axis on which a sample of them spreads most, up to a thousandth of its
 /// range in sets of a few. `from` is overwritten. Which of several records with equal keys go left
