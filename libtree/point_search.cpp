@@ -181,8 +181,9 @@ class point_searcher {
         kept_.reset(reach * reach);
         const near_query<D> framed(points_.nodes->frame(), {query, query}, scaled.unit);
         if (points_.nodes->size() != 0) dispatch(points_, scaled, framed, kept_);
+        const double per_unit = 1.0 / scaled.unit;  // a power of two as well
         for (const neighbor<double>& one : kept_.sorted())
-            found.push_back({one.id, std::sqrt(one.answer) / scaled.unit});
+            found.push_back({one.id, std::sqrt(one.answer) * per_unit});
     }
 
   private:
@@ -206,9 +207,10 @@ void check_radius(double radius) { (void)squared_radius("tf::point_search", radi
 template <std::size_t D>
 double limit_after(const std::array<double, D>& before, const std::array<double, D>& query,
                    double furthest) {
-    double move = 0.0;
-    for (std::size_t k = 0; k < D; ++k) move = std::hypot(move, query[k] - before[k]);
-    return (furthest + move) * (1.0 + 0x1p-40) + std::numeric_limits<double>::min();
+    double squared = 0.0;
+    for (std::size_t k = 0; k < D; ++k) squared += (query[k] - before[k]) * (query[k] - before[k]);
+    // What underflow takes from a square is below 1e-307; what it overflows to bounds nothing.
+    return (furthest + std::sqrt(squared)) * (1.0 + 0x1p-40) + 1e-153;
 }
 
 /// Queries that one thread answers in a row.
@@ -231,6 +233,7 @@ neighbor_lists<near_point> lists_of(const point_blocks<D>& points, double larges
                    auto kept = make_kept();
                    point_searcher<D, decltype(kept)> searcher(points, largest, radius, kept);
                    std::vector<near_point>& mine = found[chunk];
+                   mine.reserve(std::min<std::size_t>(k, 64) * (end - begin));
                    double limit = std::numeric_limits<double>::infinity();
                    for (std::size_t i = begin; i < end; ++i) {
                        const std::size_t before = mine.size();
