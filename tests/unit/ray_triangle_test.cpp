@@ -31,9 +31,6 @@ vec cross(const vec& a, const vec& b) {
 /// num / den, den >= 0; 1 / 0 and -1 / 0 are infinite.
 struct ratio {
     whole num, den;
-    friend bool operator==(const ratio& a, const ratio& b) {
-        return a.num * b.den == b.num * a.den;
-    }
     friend bool operator<(const ratio& a, const ratio& b) {
         if (a.den == 0 && b.den == 0) return a.num < b.num;
         return a.num * b.den < b.num * a.den;
