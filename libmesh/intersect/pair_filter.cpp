@@ -214,21 +214,91 @@ batch_verdict corner_pairs(const pair_batch<5>& batch, std::size_t count) {
     return verdict;
 }
 
+/// Three corners and where each lies of the other triangle's plane.
+struct seen_triangle {
+    std::array<vec, 3> corner;
+    std::array<sides, 3> side;
+};
+
+vec either(lanes_mask first, const vec& a, const vec& b) {
+    return {hn::IfThenElse(first, a.x, b.x), hn::IfThenElse(first, a.y, b.y),
+            hn::IfThenElse(first, a.z, b.z)};
+}
+
+/// Turned so that the first corner is alone on its side of the other plane, where there is such a
+/// corner; says whether that side is behind.
+lanes_mask turn_lone_first(seen_triangle& t) {
+    const lanes_mask lone_1 = same_side(t.side[2], t.side[0]);
+    const lanes_mask lone_2 = same_side(t.side[0], t.side[1]);
+    const auto [c0, c1, c2] = t.corner;
+    t.corner = {either(lone_1, c1, either(lone_2, c2, c0)),
+                either(lone_1, c2, either(lone_2, c0, c1)),
+                either(lone_1, c0, either(lone_2, c1, c2))};
+    const auto behind = [&](std::size_t i) { return t.side[i].behind; };
+    return hn::Or(
+        hn::And(lone_1, behind(1)),
+        hn::Or(hn::And(lone_2, behind(2)), hn::AndNot(hn::Or(lone_1, lone_2), behind(0))));
+}
+
+void exchange(lanes_mask where, vec& a, vec& b) {
+    const vec old = a;
+    a = either(where, b, a);
+    b = either(where, old, b);
+}
+
+/// Of triangles that both have corners strictly on both sides of the other's plane: each cuts the
+/// line of both planes in a segment, and the triangles meet where the segments overlap. With the
+/// lone corners p of a and q of b first, and both ahead of the other plane (or its orientation
+/// exchanged), they overlap if and only if det(p, a1, q, b1) <= 0 and det(p, a2, b2, q) <= 0, in
+/// more than a point if both are negative.
+///
+/// \source Devillers and Guigue, INRIA RR-4488, section 4
+struct line_verdict {
+    lanes_mask apart, crossing;
+};
+line_verdict compare_on_line(seen_triangle& a, seen_triangle& b) {
+    const lanes_mask a_behind = turn_lone_first(a);
+    const lanes_mask b_behind = turn_lone_first(b);
+    exchange(a_behind, b.corner[1], b.corner[2]);
+    exchange(b_behind, a.corner[1], a.corner[2]);
+    const vec& p = a.corner[0];
+    const vec to_q = b.corner[0] - p;
+    const sides first = plane(a.corner[1] - p, to_q).of(b.corner[1] - p);
+    const sides second = plane(a.corner[2] - p, b.corner[2] - p).of(to_q);
+    return {hn::Or(first.ahead, second.ahead), hn::And(first.behind, second.behind)};
+}
+
+lanes_mask cut(const std::array<sides, 3>& s) {
+    const auto certain = [&](std::size_t i) { return hn::Or(s[i].ahead, s[i].behind); };
+    return hn::AndNot(same_side(s[0], s[1], s[2]),
+                      hn::And(hn::And(certain(0), certain(1)), certain(2)));
+}
+
 batch_verdict separate_pairs(const pair_batch<6>& batch, std::size_t count) {
     batch_verdict verdict;
     for (std::size_t i = 0; i < count; i += hn::Lanes(lanes_tag())) {
-        const vec a0 = load(batch, 0, i);
-        const vec a1 = load(batch, 1, i);
-        const vec a2 = load(batch, 2, i);
-        const vec b0 = load(batch, 3, i);
-        const vec b1 = load(batch, 4, i);
-        const vec b2 = load(batch, 5, i);
-        const plane of_a(a1 - a0, a2 - a0);
-        const plane of_b(b1 - b0, b2 - b0);
-        verdict.apart |=
-            bits_at(hn::Or(same_side(of_a.of(b0 - a0), of_a.of(b1 - a0), of_a.of(b2 - a0)),
-                           same_side(of_b.of(a0 - b0), of_b.of(a1 - b0), of_b.of(a2 - b0))),
-                    i);
+        seen_triangle a, b;
+        for (std::size_t k = 0; k < 3; ++k) {
+            a.corner[k] = load(batch, k, i);
+            b.corner[k] = load(batch, k + 3, i);
+        }
+        const auto normal = [](const std::array<vec, 3>& t) {
+            return plane(t[1] - t[0], t[2] - t[0]);
+        };
+        const plane of_a = normal(a.corner);
+        const plane of_b = normal(b.corner);
+        for (std::size_t k = 0; k < 3; ++k) {
+            a.side[k] = of_b.of(a.corner[k] - b.corner[0]);
+            b.side[k] = of_a.of(b.corner[k] - a.corner[0]);
+        }
+        verdict.apart |= bits_at(hn::Or(same_side(a.side[0], a.side[1], a.side[2]),
+                                        same_side(b.side[0], b.side[1], b.side[2])),
+                                 i);
+        const lanes_mask both_cut = hn::And(cut(a.side), cut(b.side));
+        if (hn::AllFalse(lanes_tag(), both_cut)) continue;
+        const line_verdict on_line = compare_on_line(a, b);
+        verdict.apart |= bits_at(hn::And(both_cut, on_line.apart), i);
+        verdict.pierce |= bits_at(hn::And(both_cut, on_line.crossing), i);
     }
     return verdict;
 }

@@ -84,7 +84,7 @@ void pair_sieve::filter_class(std::size_t which, const CornersOf& corners_of,
         const std::uint64_t in_use = ~std::uint64_t{0} >> (batch_type::capacity - count);
         for (std::uint64_t rest = verdict.pierce & in_use; rest != 0; rest &= rest - 1)
             record(list[begin + static_cast<std::size_t>(std::countr_zero(rest))],
-                   pair_kind::pierce);
+                   Corners == 6 ? pair_kind::crossing : pair_kind::pierce);
         const std::uint64_t open = ~(verdict.apart | verdict.pierce) & in_use;
         for (std::uint64_t rest = open; rest != 0; rest &= rest - 1)
             decide(list[begin + static_cast<std::size_t>(std::countr_zero(rest))]);

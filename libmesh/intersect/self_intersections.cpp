@@ -1,6 +1,7 @@
+#include <libmesh/face_tree.hpp>
+#include <libmesh/intersect/detail/join_outputs.hpp>
 #include <libmesh/intersect/detail/pair_sieve.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
-#include <libtree/build.hpp>
 #include <libtree/parallel.hpp>
 #include <libtree/search_self.hpp>
 
@@ -8,8 +9,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <mutex>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -63,14 +62,6 @@ bool fits_filter(points_view points) {
            }) == points.size();
 }
 
-tree<3> tree_of(mesh_view mesh) {
-    return build(mesh.faces, [points = mesh.points](const face& f) {
-        aabb<double, 3> box;
-        for (const std::uint32_t corner : f) box.include(points[corner]);
-        return box;
-    });
-}
-
 /// The faces in leaf order, so that candidates find theirs side by side.
 detail::buffer<detail::numbered_face> leaf_order(mesh_view mesh, const tree<3>& tree) {
     detail::buffer<detail::numbered_face> faces(mesh.faces.size());
@@ -84,68 +75,6 @@ detail::buffer<detail::numbered_face> leaf_order(mesh_view mesh, const tree<3>& 
     return faces;
 }
 
-/// Says how far the search is, from whatever thread, and hears when to stop.
-class search_progress {
-  public:
-    search_progress(const progress_callback& callback, std::size_t chunks)
-        : callback_(callback), chunks_(chunks) {}
-
-    [[nodiscard]] bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
-
-    void chunk_done() {
-        if (!callback_) return;
-        const std::lock_guard lock(mutex_);
-        const double done = static_cast<double>(++done_) / static_cast<double>(chunks_);
-        if (!cancelled() && !callback_(done)) cancelled_ = true;
-    }
-
-  private:
-    const progress_callback& callback_;
-    std::size_t chunks_;
-    std::size_t done_ = 0;
-    std::mutex mutex_;
-    std::atomic<bool> cancelled_{false};
-};
-
-void lower(std::atomic<std::size_t>& value, std::size_t to) {
-    std::size_t seen = value.load();
-    while (to < seen && !value.compare_exchange_weak(seen, to)) {
-    }
-}
-
-/// Drops all but one pair: the lowest of the first chunk that has any. What later chunks found
-/// before they heard of it depends on the threads.
-void keep_first(std::vector<detail::sieve_output>& found) {
-    const auto first = std::find_if(found.begin(), found.end(),
-                                    [](const auto& output) { return !output.pairs.empty(); });
-    if (first == found.end()) return;
-    const face_pair pair = *std::min_element(first->pairs.begin(), first->pairs.end());
-    first->pairs = {pair};
-    first->counts = {};
-    first->counts[static_cast<std::size_t>(pair.kind)] = 1;
-    std::fill(first + 1, found.end(), detail::sieve_output{});
-}
-
-void join(std::vector<detail::sieve_output>& found, std::size_t limit,
-          self_intersection_result& result) {
-    std::size_t total = 0;
-    for (const detail::sieve_output& output : found) total += output.pairs.size();
-    result.pairs.reserve(total);
-    for (detail::sieve_output& output : found) {
-        result.pairs.insert(result.pairs.end(), output.pairs.begin(), output.pairs.end());
-        output.pairs = {};
-        for (std::size_t k = 0; k < pair_kind_count; ++k) result.counts[k] += output.counts[k];
-        result.box_pairs += output.box_pairs;
-        result.exact_pairs += output.exact_pairs;
-        result.predicates += output.predicates;
-    }
-    const std::size_t kept = std::min(limit, total);
-    const auto end = result.pairs.begin() + static_cast<std::ptrdiff_t>(kept);
-    std::nth_element(result.pairs.begin(), end, result.pairs.end());
-    std::sort(result.pairs.begin(), end);
-    result.pairs.resize(kept);
-}
-
 }  // namespace
 
 self_intersection_result self_intersections(mesh_view mesh,
@@ -153,7 +82,7 @@ self_intersection_result self_intersections(mesh_view mesh,
     check(mesh, options);
     self_intersection_result result;
     const auto tree_start = std::chrono::steady_clock::now();
-    const tree<3> tree = tree_of(mesh);
+    const tree<3> tree = face_tree(mesh);
     result.tree_seconds = seconds_since(tree_start);
 
     const auto pair_start = std::chrono::steady_clock::now();
@@ -161,7 +90,7 @@ self_intersection_result self_intersections(mesh_view mesh,
     const detail::sieve_input input{mesh.points, faces.span(), &options, fits_filter(mesh.points)};
     const self_search<3> search(tree);
     std::vector<detail::sieve_output> found(search.chunks());
-    search_progress progress(options.progress, search.chunks());
+    detail::search_progress progress(options.progress, search.chunks());
     std::atomic<std::size_t> last{search.chunks()};  // the first chunk that found enough
     for_chunks(search.chunks(), 1, [&](std::size_t chunk, std::size_t, std::size_t) {
         const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
@@ -171,11 +100,11 @@ self_intersection_result self_intersections(mesh_view mesh,
             sieve.add(block);
             return !satisfied() && !not_needed();
         });
-        if (satisfied()) lower(last, chunk);
+        if (satisfied()) detail::lower(last, chunk);
         progress.chunk_done();
     });
-    if (options.first_only) keep_first(found);
-    join(found, options.limit, result);
+    if (options.first_only) detail::keep_first(found);
+    detail::join_outputs(found, options.limit, result);
     result.cancelled = progress.cancelled();
     result.pair_seconds = seconds_since(pair_start);
     return result;

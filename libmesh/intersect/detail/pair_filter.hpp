@@ -62,7 +62,7 @@ struct pair_batch {
 /// What the filter is certain of, a bit for each pair of a batch; the rest is open.
 struct batch_verdict {
     std::uint64_t apart = 0;   ///< no common point beyond the shared corners
-    std::uint64_t pierce = 0;  ///< the faces pass through each other from the corner they share
+    std::uint64_t pierce = 0;  ///< they pass through each other, from the corner they share if any
 };
 
 /// Corners u, v, a, b: faces u v a and u v b.

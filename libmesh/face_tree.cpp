@@ -1,0 +1,23 @@
+#include <libmesh/detail/check_faces.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libtree/build.hpp>
+
+#include <cmath>
+
+namespace tf {
+
+tree<3> face_tree(mesh_view mesh) {
+    detail::check_faces("tf::face_tree", mesh.points.size(), mesh.faces);
+    return build(mesh.faces, [points = mesh.points](const face& f) {
+        aabb<double, 3> box;
+        double sum = 0.0;  // of zeros; NaN where a coordinate is NaN or infinite
+        for (const std::uint32_t corner : f) {
+            const point3& p = points[corner];
+            box.include(p);
+            sum += 0.0 * p.x + 0.0 * p.y + 0.0 * p.z;
+        }
+        return sum == 0.0 ? box : aabb<double, 3>{};  // the build names an empty box
+    });
+}
+
+}  // namespace tf

@@ -1,0 +1,86 @@
+#pragma once
+/// \file
+/// From candidate pairs of two meshes to classified pairs, for the candidates of one chunk.
+
+#include <libmesh/geometry/triangle_triangle.hpp>
+#include <libmesh/intersect/detail/pair_filter.hpp>
+#include <libmesh/intersect/detail/pair_sieve.hpp>
+#include <libmesh/mesh.hpp>
+#include <libtree/candidates.hpp>
+#include <libtree/transform.hpp>
+#include <libtree/tree.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace tf::detail {
+
+/// One of two meshes: its faces by their place in the tree, moved.
+class mesh_side {
+  public:
+    mesh_side(mesh_view mesh, const tree<3>& tree, const transform<3>& move)
+        : mesh_(mesh), ids_(tree.ids()), move_(move), moves_(move != transform<3>{}) {}
+
+    [[nodiscard]] std::uint32_t face_at(std::uint32_t place) const { return ids_[place]; }
+
+    /// The corners of a face; false when one is no point.
+    [[nodiscard]] bool corners(std::uint32_t id, triangle3& triangle) const {
+        const face& f = mesh_.faces[id];
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (f[k] >= mesh_.points.size()) return false;
+            triangle[k] = mesh_.points[f[k]];
+            if (moves_) triangle[k] = move_(triangle[k]);
+        }
+        return true;
+    }
+
+  private:
+    mesh_view mesh_;
+    std::span<const std::uint32_t> ids_;
+    transform<3> move_;
+    bool moves_;
+};
+
+struct mesh_pair_input {
+    mesh_side a;
+    mesh_side b;
+    std::array<bool, pair_kind_count> kinds;
+};
+
+/// The lowest faces that cannot be computed with, of those that were met.
+struct bad_faces {
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t in_a = none;
+    std::uint32_t in_b = none;
+};
+
+/// Filters candidates in batches, and has the exact stage decide the rest. 10 kB.
+class mesh_pair_sieve {
+  public:
+    mesh_pair_sieve(const mesh_pair_input& input, sieve_output& output, bad_faces& bad)
+        : input_(input), output_(output), bad_(bad) {}
+
+    void add(const candidate_block& block);
+
+  private:
+    struct face_numbers {
+        std::uint32_t a, b;
+    };
+    void add_pair(const face_numbers& pair);
+    void filter();
+    void decide(const face_numbers& pair, const triangle3& a, const triangle3& b);
+    void record(const face_numbers& pair, pair_kind kind);
+    [[nodiscard]] triangle3 batched(std::size_t i, std::size_t first_corner) const;
+
+    const mesh_pair_input& input_;
+    sieve_output& output_;
+    bad_faces& bad_;
+    std::size_t count_ = 0;  ///< pairs in the batch
+    std::array<face_numbers, pair_batch<6>::capacity> pairs_;
+    pair_batch<6> batch_;
+};
+
+}  // namespace tf::detail

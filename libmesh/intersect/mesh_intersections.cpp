@@ -1,0 +1,119 @@
+#include <libmesh/face_tree.hpp>
+#include <libmesh/intersect/detail/join_outputs.hpp>
+#include <libmesh/intersect/detail/mesh_pair_sieve.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
+#include <libtree/parallel.hpp>
+#include <libtree/search_pair.hpp>
+#include <libtree/transformed.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+namespace tf {
+namespace {
+
+void check_tree(const char* function, const char* which, mesh_view mesh, const tree<3>& tree) {
+    if (tree.size() != mesh.faces.size())
+        throw std::invalid_argument(std::string(function) + ": the tree of the " + which +
+                                    " mesh is over " + std::to_string(tree.size()) +
+                                    " primitives, the mesh has " +
+                                    std::to_string(mesh.faces.size()) + " faces");
+}
+
+void check_faces_met(const char* function, const detail::bad_faces& bad) {
+    const auto refuse = [&](const char* which, std::uint32_t face) {
+        throw std::invalid_argument(std::string(function) + ": face " + std::to_string(face) +
+                                    " of the " + which +
+                                    " mesh has a corner that is no point or not finite");
+    };
+    if (bad.in_a != detail::bad_faces::none) refuse("first", bad.in_a);
+    if (bad.in_b != detail::bad_faces::none) refuse("second", bad.in_b);
+}
+
+void add(const detail::bad_faces& more, detail::bad_faces& bad) {
+    bad.in_a = std::min(bad.in_a, more.in_a);
+    bad.in_b = std::min(bad.in_b, more.in_b);
+}
+
+}  // namespace
+
+mesh_intersection_result mesh_intersections(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                            const tree<3>& tree_b,
+                                            const mesh_intersection_options& options) {
+    check_tree("tf::mesh_intersections", "first", a, tree_a);
+    check_tree("tf::mesh_intersections", "second", b, tree_b);
+    const pair_search<3> search(transformed(tree_a, options.move_a),
+                                transformed(tree_b, options.move_b));
+    const detail::mesh_pair_input input{
+        {a, tree_a, options.move_a}, {b, tree_b, options.move_b}, options.kinds};
+    const std::size_t chunks = search.chunks();
+    std::vector<detail::sieve_output> found(chunks);
+    std::vector<detail::bad_faces> bad(chunks);
+    std::vector<search_statistics> searched(chunks);
+    detail::search_progress progress(options.progress, chunks);
+    std::atomic<std::size_t> last{chunks};  // the first chunk that found enough
+    for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t, std::size_t) {
+        const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
+        detail::sieve_output mine;  // outputs of neighbours share cache lines
+        const auto satisfied = [&] { return options.first_only && !mine.pairs.empty(); };
+        detail::mesh_pair_sieve sieve(input, mine, bad[chunk]);
+        searched[chunk] = search.visit(chunk, [&](const candidate_block& block) {
+            if (not_needed()) return false;
+            sieve.add(block);
+            return !satisfied();
+        });
+        if (satisfied()) detail::lower(last, chunk);
+        found[chunk] = std::move(mine);
+        progress.chunk_done();
+    });
+    detail::bad_faces met;
+    mesh_intersection_result result;
+    for (std::size_t chunk = 0; chunk < std::min(last.load() + 1, chunks); ++chunk) {
+        add(bad[chunk], met);
+        result.searched += searched[chunk];
+    }
+    check_faces_met("tf::mesh_intersections", met);
+    if (options.first_only) detail::keep_first(found);
+    detail::join_outputs(found, options.limit, result);
+    result.cancelled = progress.cancelled();
+    return result;
+}
+
+mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
+                                            const mesh_intersection_options& options) {
+    return mesh_intersections(a, face_tree(a), b, face_tree(b), options);
+}
+
+bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
+                const mesh_positions& positions) {
+    check_tree("tf::intersects", "first", a, tree_a);
+    check_tree("tf::intersects", "second", b, tree_b);
+    mesh_intersection_options all;
+    const detail::mesh_pair_input input{
+        {a, tree_a, positions.move_a}, {b, tree_b, positions.move_b}, all.kinds};
+    std::mutex mutex;  // taken for a bad face only
+    detail::bad_faces bad;
+    const bool found =
+        search_any_broad(transformed(tree_a, positions.move_a),
+                         transformed(tree_b, positions.move_b), [&](const candidate_block& block) {
+                             detail::sieve_output output;
+                             detail::bad_faces met;
+                             detail::mesh_pair_sieve(input, output, met).add(block);
+                             if (met.in_a != met.none || met.in_b != met.none) {
+                                 const std::lock_guard lock(mutex);
+                                 add(met, bad);
+                             }
+                             return !output.pairs.empty();
+                         });
+    check_faces_met("tf::intersects", bad);
+    return found;
+}
+
+bool intersects(mesh_view a, mesh_view b, const mesh_positions& positions) {
+    return intersects(a, face_tree(a), b, face_tree(b), positions);
+}
+
+}  // namespace tf
