@@ -1,6 +1,6 @@
+#include <libmesh/face_tree.hpp>
 #include <libmesh/geometry/ray_triangle.hpp>
 #include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/face_tree.hpp>
 #include <libmesh/intersect/point_location.hpp>
 #include <libtree/parallel.hpp>
 

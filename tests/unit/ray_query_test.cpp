@@ -1,4 +1,4 @@
-#include <libmesh/intersect/face_tree.hpp>
+#include <libmesh/face_tree.hpp>
 #include <libmesh/intersect/ray_query.hpp>
 #include <libtree/parallel.hpp>
 
