@@ -1,0 +1,43 @@
+#include <libmesh/geometry/closest_point.hpp>
+#include <libmesh/geometry/detail/based_triangle.hpp>
+
+#include <cstddef>
+
+// One triangle needs no lanes: the baseline of the processor will do.
+#undef HWY_TARGET_INCLUDE
+#include <libmesh/geometry/detail/closest_lanes-inl.hpp>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace tf::detail::HWY_NAMESPACE {
+namespace {
+
+closest_on_triangle closest_on_one(const based_triangle& t, const point3& p) {
+    const hn::CappedTag<double, 1> d;
+    using lane = hn::Vec<decltype(d)>;
+    based_lanes<lane> of;
+    const point3 from = based_triangle::minus(p, t.corner);
+    for (std::size_t k = 0; k < 3; ++k) {
+        of.base[k] = hn::Set(d, t.base[k]);
+        of.height[k] = hn::Set(d, t.height[k]);
+        of.from[k] = hn::Set(d, from[k]);
+    }
+    of.apex = hn::Set(d, t.apex);
+    of.per_base = hn::Set(d, t.per_base);
+    of.per_height = hn::Set(d, t.per_height);
+    const auto found = closest_on(d, of);
+    return {t.at(hn::GetLane(found.s), hn::GetLane(found.t)), hn::GetLane(found.squared)};
+}
+
+}  // namespace
+}  // namespace tf::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+namespace tf {
+
+closest_on_triangle closest_point(const triangle3& t, const point3& p) {
+    return detail::HWY_STATIC_DISPATCH(closest_on_one)(detail::based_triangle(t), p);
+}
+
+}  // namespace tf

@@ -1,0 +1,303 @@
+#include <libmesh/detail/check_faces.hpp>
+#include <libmesh/geometry/closest_point.hpp>
+#include <libmesh/geometry/detail/based_triangle.hpp>
+#include <libmesh/nearness/closest_point_query.hpp>
+#include <libtree/build.hpp>
+#include <libtree/detail/morton_order.hpp>
+#include <libtree/detail/near_query.hpp>
+#include <libtree/nearness.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libmesh/nearness/closest_point_query.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Behind the two, as they are compiled for each target.
+#include <libmesh/geometry/detail/closest_lanes-inl.hpp>
+#include <libtree/detail/near_walk-inl.hpp>
+
+#ifndef TREEFORM_CLOSEST_POINT_QUERY_ONCE
+#define TREEFORM_CLOSEST_POINT_QUERY_ONCE
+namespace tf::detail {
+namespace {
+
+/// Rows of a block: the members of eight `based_triangle`s.
+enum row : std::size_t {
+    corner = 0,
+    base = 3,
+    height = 6,
+    apex = 9,
+    per_base = 10,
+    per_height = 11,
+    rows = 12
+};
+
+struct triangle_blocks {
+    const tree<3>* nodes;
+    const double* triangles;
+
+    [[nodiscard]] based_triangle at(std::size_t place) const {
+        const double* const slot = triangles + place / 8 * rows * 8 + place % 8;
+        based_triangle t;
+        for (std::size_t k = 0; k < 3; ++k) {
+            t.corner[k] = slot[(corner + k) * 8];
+            t.base[k] = slot[(base + k) * 8];
+            t.height[k] = slot[(height + k) * 8];
+        }
+        t.apex = slot[apex * 8];
+        t.per_base = slot[per_base * 8];
+        t.per_height = slot[per_height * 8];
+        return t;
+    }
+};
+
+/// The nearest so far.
+struct closest_so_far {
+    double squared;  ///< nothing further is of interest
+    std::uint32_t place = 0;
+    bool found = false;
+    double s = 0.0, t = 0.0;  ///< where on the triangle at `place`
+};
+
+}  // namespace
+}  // namespace tf::detail
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace tf::detail::HWY_NAMESPACE {
+namespace {
+
+struct closest_in_block {
+    alignas(64) double s[8];
+    alignas(64) double t[8];
+    alignas(64) double squared[8];
+};
+
+HWY_INLINE void closest_to_eight(const double* block, const point3& p, closest_in_block& found) {
+    const hn::CappedTag<double, 8> d;
+    using lanes = hn::Vec<decltype(d)>;
+    for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+        based_lanes<lanes> of;
+        for (std::size_t k = 0; k < 3; ++k) {
+            of.from[k] = hn::Sub(hn::Set(d, p[k]), hn::Load(d, block + (corner + k) * 8 + i));
+            of.base[k] = hn::Load(d, block + (base + k) * 8 + i);
+            of.height[k] = hn::Load(d, block + (height + k) * 8 + i);
+        }
+        of.apex = hn::Load(d, block + apex * 8 + i);
+        of.per_base = hn::Load(d, block + per_base * 8 + i);
+        of.per_height = hn::Load(d, block + per_height * 8 + i);
+        const auto closest = closest_on(d, of);
+        hn::Store(closest.s, d, found.s + i);
+        hn::Store(closest.t, d, found.t + i);
+        hn::Store(closest.squared, d, found.squared + i);
+    }
+}
+
+void search_closest(const triangle_blocks& blocks, const point3& p, const near_query<3>& framed,
+                    closest_so_far& best) {
+    strategy::depth_first::frontier<near_entry, near_depth> frontier;
+    const tree<3>& t = *blocks.nodes;
+    const std::uint32_t* const ids = t.ids().data();
+    const wide_node<3>* const boxes = t.level(t.levels() - 1).data();
+    const auto leaf = [&](std::uint32_t block, float& bound) {
+        alignas(64) float lower[8];
+        unsigned mask = near_mask(boxes[block], framed.low, framed.high, bound, lower);
+        if (mask == 0) return;
+        closest_in_block found;
+        closest_to_eight(blocks.triangles + std::size_t{block} * rows * 8, p, found);
+        for (; mask != 0; mask &= mask - 1) {
+            const auto slot = static_cast<std::uint32_t>(std::countr_zero(mask));
+            const double squared = found.squared[slot];
+            const std::uint32_t place = block * 8 + slot;
+            const bool nearer =
+                squared < best.squared ||
+                (squared == best.squared && (!best.found || ids[place] < ids[best.place]));
+            if (nearer) best = {squared, place, true, found.s[slot], found.t[slot]};
+        }
+        bound = framed.bound_of(best.squared);
+    };
+    walk_near(t, framed, framed.bound_of(best.squared), frontier, leaf);
+}
+
+}  // namespace
+}  // namespace tf::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tf {
+namespace detail {
+namespace {
+
+HWY_EXPORT(search_closest);
+
+constexpr const char* name = "closest_point_query";
+
+/// With the largest coordinate below 2^300, a query whose coordinates exceed 2^500 is as far from
+/// every point of the mesh, to 2^-200 of the distance.
+constexpr int largest_exponent = 300;
+constexpr double far_off = 0x1p500;
+
+double unit_for(double scale, double largest) {
+    if (largest == 0.0) return 1.0;
+    const int exponent = std::ilogb(largest);
+    const int at = exponent + std::ilogb(scale);
+    if (at < -largest_exponent) return std::ldexp(1.0, std::min(-exponent, 1000));
+    return at < largest_exponent ? scale : std::ldexp(1.0, largest_exponent - 1 - exponent);
+}
+
+point3 scaled(const point3& p, double unit) { return {p.x * unit, p.y * unit, p.z * unit}; }
+
+double largest_of(const point3& p) {
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+double largest_of(mesh_view mesh) {
+    constexpr std::size_t grain = std::size_t{1} << 14;
+    std::vector<double> largest(chunk_count(mesh.faces.size(), grain));
+    for_chunks(
+        mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+            for (std::size_t i = begin; i < end; ++i)
+                for (const std::uint32_t corner : mesh.faces[i])
+                    largest[chunk] = std::max(largest[chunk], largest_of(mesh.points[corner]));
+        });
+    return largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
+}
+
+bool finite(const point3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+double distance_between(const point3& a, const point3& b) {
+    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+void check_query(const point3& query, const std::string& which) {
+    if (!finite(query))
+        throw std::invalid_argument(std::string("tf::") + name + ": " + which + " is not finite");
+}
+
+/// A search with all lengths multiplied by a power of two.
+class closest_searcher {
+  public:
+    closest_searcher(const triangle_blocks& blocks, double unit) : blocks_(blocks), unit_(unit) {}
+
+    /// `limit`: a distance, inclusive.
+    [[nodiscard]] std::optional<mesh_point> operator()(const point3& query, double limit) const {
+        if (blocks_.nodes->size() == 0) return std::nullopt;
+        const point3 p = scaled(query, unit_);
+        if (!(largest_of(p) < far_off)) return as_good_as_any(query, limit);
+        const double reach = limit * unit_;
+        closest_so_far best{reach * reach};
+        const aabb<double, 3> at{{query.x, query.y, query.z}, {query.x, query.y, query.z}};
+        HWY_DYNAMIC_DISPATCH(search_closest)
+        (blocks_, p, near_query<3>(blocks_.nodes->frame(), at, unit_), best);
+        if (!best.found) return std::nullopt;
+        const double per_unit = 1.0 / unit_;
+        return mesh_point{blocks_.nodes->ids()[best.place], std::sqrt(best.squared) * per_unit,
+                          scaled(blocks_.at(best.place).at(best.s, best.t), per_unit)};
+    }
+
+  private:
+    [[nodiscard]] std::optional<mesh_point> as_good_as_any(const point3& query,
+                                                           double limit) const {
+        const auto ids = blocks_.nodes->ids();
+        const auto lowest = std::min_element(ids.begin(), ids.end());
+        const point3 p =
+            scaled(blocks_.at(static_cast<std::size_t>(lowest - ids.begin())).corner, 1.0 / unit_);
+        const double distance = distance_between(p, query);
+        if (!(distance <= limit)) return std::nullopt;
+        return mesh_point{*lowest, distance, p};
+    }
+
+    triangle_blocks blocks_;
+    double unit_;
+};
+
+/// Queries that one thread answers in a row.
+constexpr std::size_t queries_per_chunk = 256;
+
+}  // namespace
+}  // namespace detail
+
+closest_point_query::closest_point_query(mesh_view mesh) {
+    detail::check_faces(detail::name, mesh.points.size(), mesh.faces);
+    tree_ = build(mesh.faces, [&](const face& f) {
+        aabb<double, 3> box;
+        bool finite = true;
+        for (const std::uint32_t corner : f) {
+            box.include(mesh.points[corner]);
+            finite &= detail::finite(mesh.points[corner]);
+        }
+        return finite ? box : aabb<double, 3>();  // `include` overlooks NaN
+    });
+    const std::size_t blocks = chunk_count(tree_.size(), 8);
+    triangles_.resize(blocks * detail::rows * 8);
+    largest_ = detail::largest_of(mesh);
+    unit_ = detail::unit_for(tree_.frame().scale, largest_);
+    for_chunks(blocks, 512, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t place = begin * 8; place < end * 8; ++place) {
+            double* const slot = triangles_.data() + place / 8 * detail::rows * 8 + place % 8;
+            if (place >= tree_.size()) {
+                for (std::size_t row = 0; row < detail::rows; ++row) slot[row * 8] = 0.0;
+                continue;
+            }
+            const face& f = mesh.faces[tree_.ids()[place]];
+            const detail::based_triangle t({detail::scaled(mesh.points[f[0]], unit_),
+                                            detail::scaled(mesh.points[f[1]], unit_),
+                                            detail::scaled(mesh.points[f[2]], unit_)});
+            for (std::size_t k = 0; k < 3; ++k) {
+                slot[(detail::corner + k) * 8] = t.corner[k];
+                slot[(detail::base + k) * 8] = t.base[k];
+                slot[(detail::height + k) * 8] = t.height[k];
+            }
+            slot[detail::apex * 8] = t.apex;
+            slot[detail::per_base * 8] = t.per_base;
+            slot[detail::per_height * 8] = t.per_height;
+        }
+    });
+}
+
+std::optional<mesh_point> closest_point_query::nearest(const point3& query, double radius) const {
+    (void)detail::squared_radius("tf::closest_point_query", radius);
+    detail::check_query(query, "the query");
+    return detail::closest_searcher({&tree_, triangles_.data()}, unit_)(query, radius);
+}
+
+std::vector<std::optional<mesh_point>> closest_point_query::nearest(std::span<const point3> queries,
+                                                                    double radius) const {
+    (void)detail::squared_radius("tf::closest_point_query", radius);
+    for (std::size_t i = 0; i < queries.size(); ++i)
+        detail::check_query(queries[i], "query " + std::to_string(i));
+    const std::vector<std::uint32_t> order =
+        detail::morton_order<3>(queries.size(), [&](std::size_t i) {
+            return std::array<double, 3>{queries[i].x, queries[i].y, queries[i].z};
+        });
+    std::vector<std::optional<mesh_point>> found(queries.size());
+    const detail::closest_searcher search({&tree_, triangles_.data()}, unit_);
+    for_chunks(order.size(), detail::queries_per_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   // What was nearest to the query before is not far from this one. It was
+                   // rounded, and distances are: by some 2^-50 of the largest coordinate.
+                   const double slack = 0x1p-44 * largest_;
+                   std::optional<point3> near;
+                   for (std::size_t i = begin; i < end; ++i) {
+                       const point3& query = queries[order[i]];
+                       double limit = radius;
+                       if (near)
+                           limit = std::min(
+                               limit,
+                               detail::distance_between(*near, query) * (1.0 + 0x1p-40) + slack);
+                       found[order[i]] = search(query, limit);
+                       if (found[order[i]]) near = found[order[i]]->point;
+                   }
+               });
+    return found;
+}
+
+}  // namespace tf
+#endif

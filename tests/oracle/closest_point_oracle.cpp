@@ -1,0 +1,80 @@
+/// \file
+/// `tf::closest_point` against exact rational geometry: the stated error bound, on slivers,
+/// needles, degenerate triangles, far and mixed coordinates.
+
+#include <libmesh/geometry/closest_point.hpp>
+
+#include <doctest/doctest.h>
+#include <gmpxx.h>
+#include <support/stress_families.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace {
+
+using vec = std::array<mpq_class, 3>;
+
+vec exact(const tf::point3& p) { return {mpq_class(p.x), mpq_class(p.y), mpq_class(p.z)}; }
+vec minus(const vec& a, const vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+mpq_class dot(const vec& a, const vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+vec cross(const vec& a, const vec& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+mpq_class to_segment(const vec& p, const vec& a, const vec& b) {
+    const vec e = minus(b, a);
+    mpq_class t = 0;
+    if (dot(e, e) != 0) t = dot(minus(p, a), e) / dot(e, e);
+    if (t < 0) t = 0;
+    if (t > 1) t = 1;
+    vec gap = minus(p, a);
+    for (std::size_t k = 0; k < 3; ++k) gap[k] -= t * e[k];
+    return dot(gap, gap);
+}
+
+mpq_class to_triangle(const vec& p, const std::array<vec, 3>& t) {
+    mpq_class best =
+        std::min({to_segment(p, t[0], t[1]), to_segment(p, t[1], t[2]), to_segment(p, t[2], t[0])});
+    const vec n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+    const mpq_class square = dot(n, n);
+    if (square == 0) return best;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (dot(cross(minus(t[(i + 1) % 3], t[i]), minus(p, t[i])), n) < 0) return best;
+    const mpq_class height = dot(n, minus(p, t[0]));
+    return std::min(best, mpq_class(height * height / square));
+}
+
+double length(const tf::point3& a, const tf::point3& b) {
+    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+}  // namespace
+
+TEST_CASE("closest point: the distance is within its bound of the exact one") {
+    double worst = 0.0;
+    for (std::size_t family = 0; family < tf::test::stress_family_count; ++family) {
+        const auto which = static_cast<tf::test::stress_family>(family);
+        CAPTURE(tf::test::name_of(which));
+        tf::test::stress_stream stream(which, 1);
+        for (int i = 0; i < 4000; ++i) {
+            const auto [a, b] = stream.next();
+            const tf::point3 p = b[static_cast<std::size_t>(i) % 3];
+            double size = 0.0;
+            for (std::size_t j = 0; j < 3; ++j)
+                size = std::max({size, length(a[j], p), length(a[j], a[(j + 1) % 3])});
+            if (!(size > 1e-140 && size < 1e150)) continue;
+            const double found = std::sqrt(tf::closest_point(a, p).squared_distance);
+            // Scaled, as the exact square may not be a double.
+            mpq_class square = to_triangle(exact(p), {exact(a[0]), exact(a[1]), exact(a[2])});
+            square /= mpq_class(size) * mpq_class(size);
+            const double error = std::abs(found / size - std::sqrt(square.get_d()));
+            worst = std::max(worst, error * 0x1p53);
+            REQUIRE(error <= 8.0 * 0x1p-53);
+        }
+    }
+    MESSAGE("largest error in units of 2^-53 L: " << worst);
+}
