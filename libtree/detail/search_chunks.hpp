@@ -36,9 +36,9 @@ bool asks_to_stop(const Apply& apply, Args&&... args) {
     }
 }
 
-/// Runs every chunk of `search` with a state of its own, `on_block(state, block)` for each block,
-/// and returns the states in order. Where it returned true, the search stops there: that chunk's
-/// state is the last.
+/// Runs every chunk of `search` with a state of its own, `on_block(state, ...)` for each block that
+/// it visits, and returns the states in order. Where it returned true, the search stops there: that
+/// chunk's state is the last.
 template <class State, class Search, class OnBlock>
 [[nodiscard]] std::vector<State> search_states(const Search& search, const OnBlock& on_block) {
     static_assert(!std::is_same_v<State, bool>, "a vector of bool shares bytes between threads");
@@ -46,9 +46,9 @@ template <class State, class Search, class OnBlock>
     std::atomic<std::size_t> last{states.size()};  // the first chunk that asked to stop
     for_chunks(states.size(), 1, [&](std::size_t chunk, std::size_t, std::size_t) {
         State mine{};  // states of neighbours share cache lines
-        search.visit(chunk, [&](const candidate_block& block) {
+        search.visit(chunk, [&](const auto&... block) {
             if (chunk > last.load(std::memory_order_relaxed)) return false;
-            if (!on_block(mine, block)) return true;
+            if (!on_block(mine, block...)) return true;
             lower(last, chunk);
             return false;
         });
