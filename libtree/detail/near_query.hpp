@@ -22,53 +22,59 @@ inline float float_above(double x) {
     return up < limit ? up : limit;
 }
 
-/// A box, or a point as the box around it, that boxes of a tree are measured from.
+/// What a squared distance of boxes in a frame, in float, must exceed before nothing in them is as
+/// near as one found.
 ///
 /// A node test computes, in float and in any rounding mode, the sum over the axes of the squares of
-/// max(0, min - high, low - max). Let S be the exact squared distance of query and contents in the
-/// frame. Contents lie in the tree's box, the query between `low` and `high`, so the exact sum is
-/// at most S. With u = 2^-23, a difference, its square and the sums (D <= 3, fused or not) are off
-/// by a factor of at most (1 + u)^5 < 1 + 2^-20.6, and by 2^-126 for each flushed square or
-/// denormal read as zero, together below 1e-37. So the computed value s obeys
+/// max(0, min - high, low - max), for boxes rounded outward. Let S be the exact squared distance of
+/// their contents in the frame; the exact sum is at most S. With u = 2^-23, a difference, its
+/// square and the sums (D <= 3, fused or not) are off by a factor of at most (1 + u)^5 < 1 +
+/// 2^-20.6, and by 2^-126 for each flushed square or denormal read as zero, together below 1e-37.
+/// So the computed value s obeys
 ///   s <= S (1 + 2^-20.6) + 1e-37,
-/// and s > bound_of(best) proves S > best (1 + 2^-21): what is passed over is further than `best`,
+/// and s > bound(best) proves S > best (1 + 2^-21): what is passed over is further than `best`,
 /// even by a caller's own measure as long as that is not below the truth by more than 2^-22 of it.
 ///
-/// Beyond the range of float: `low` and `high` are cut to its limits. No side that faces them is
-/// stored further out, so where a cut one is used its difference is zero or an underestimate. When
-/// s overflows while the bound is finite, S > best as well; an infinite bound passes over nothing.
-/// Only where differences of coordinates overflow double before they do float, for frames of an
-/// extent beyond 1e267, would a cut side lie further out than the truth; there the bound stays
-/// infinite.
+/// When s overflows while the bound is finite, S > best as well; an infinite bound passes over
+/// nothing. Sides beyond the range of float are cut to its limits where they face inward. Only
+/// where differences of coordinates overflow double before they do float, for frames of an extent
+/// beyond 1e267, would a cut side lie further out than the truth; there the bound stays infinite.
+class near_bound {
+  public:
+    /// Squared distances will be those of coordinates times `unit`, a power of two.
+    explicit near_bound(double frame_scale, double unit = 1.0)
+        : scale_(frame_scale < 0x1p-890 ? std::numeric_limits<double>::infinity()
+                                        : frame_scale / unit) {}
+
+    /// Multiplied in two steps: the square of the scale may not be a double. Where a product
+    /// underflows, the last term is far larger than what is lost.
+    [[nodiscard]] float operator()(double squared) const {
+        const double scaled = squared * scale_ * scale_;
+        if (!(scaled < 3e38)) return std::numeric_limits<float>::infinity();
+        return static_cast<float>(scaled * (1.0 + 0x1p-19) + 3e-37);
+    }
+
+  private:
+    double scale_;
+};
+
+/// A box, or a point as the box around it, that boxes of a tree are measured from: as floats in the
+/// frame of the tree, rounded outward. Beyond the range of float they are cut to its limits; no
+/// side that faces them is stored further out.
 template <std::size_t D>
 class near_query {
   public:
-    /// Squared distances will be those of the caller's coordinates times `unit`, a power of two.
     near_query(const tree_frame<D>& frame, const aabb<double, D>& box, double unit = 1.0)
-        : scale_(frame.scale < least_scale ? std::numeric_limits<double>::infinity()
-                                           : frame.scale / unit) {
+        : bound_of(frame.scale, unit) {
         for (std::size_t k = 0; k < D; ++k) {
             low[k] = -float_above(-(box.min[k] - frame.origin[k]) * frame.scale);
             high[k] = float_above((box.max[k] - frame.origin[k]) * frame.scale);
         }
     }
 
-    /// What the sum for a box must exceed before nothing in it is as near as `squared`, a squared
-    /// distance in units of the caller. Multiplied in two steps: the square of the scale may not be
-    /// a double. Where a product underflows, the last term is far larger than what is lost.
-    [[nodiscard]] float bound_of(double squared) const {
-        const double scaled = squared * scale_ * scale_;
-        if (!(scaled < 3e38)) return std::numeric_limits<float>::infinity();
-        return static_cast<float>(scaled * (1.0 + 0x1p-19) + 3e-37);
-    }
-
     std::array<float, D> low;
     std::array<float, D> high;
-
-  private:
-    static constexpr double least_scale = 0x1p-890;
-
-    double scale_;
+    near_bound bound_of;
 };
 
 /// A node that is still to be opened, or passed over.

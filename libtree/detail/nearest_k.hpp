@@ -24,7 +24,7 @@ class nearest_k {
         if (!(one.squared_distance() <= bound_)) return;  // NaN is not
         if (kept_.size() == k_) {
             if (!nearer(one, furthest())) return;
-            if (!few()) std::pop_heap(kept_.begin(), kept_.end(), nearer<Neighbor>);
+            if (!few()) std::pop_heap(kept_.begin(), kept_.end(), order);
             kept_.pop_back();
         }
         kept_.push_back(std::move(one));
@@ -32,7 +32,7 @@ class nearest_k {
             for (auto at = kept_.end() - 1; at != kept_.begin() && nearer(*at, *(at - 1)); --at)
                 std::swap(*at, *(at - 1));
         else
-            std::push_heap(kept_.begin(), kept_.end(), nearer<Neighbor>);
+            std::push_heap(kept_.begin(), kept_.end(), order);
         if (kept_.size() == k_) bound_ = furthest().squared_distance();
     }
 
@@ -41,7 +41,7 @@ class nearest_k {
 
     /// Those kept, nearest first; nothing can be offered until the next `reset`.
     [[nodiscard]] std::vector<Neighbor>& sorted() {
-        if (!few()) std::sort_heap(kept_.begin(), kept_.end(), nearer<Neighbor>);
+        if (!few()) std::sort_heap(kept_.begin(), kept_.end(), order);
         return kept_;
     }
 
@@ -52,6 +52,9 @@ class nearest_k {
     }
 
   private:
+    /// By what `nearer` says of the type.
+    static constexpr auto order = [](const Neighbor& a, const Neighbor& b) { return nearer(a, b); };
+
     [[nodiscard]] bool few() const { return k_ <= 32; }
     [[nodiscard]] const Neighbor& furthest() const { return few() ? kept_.back() : kept_.front(); }
 

@@ -1,0 +1,127 @@
+#pragma once
+/// \file
+/// The walk through two trees towards their nearest pairs, cut into chunks for many threads.
+
+#include <libtree/detail/frame_map.hpp>
+#include <libtree/detail/function_ref.hpp>
+#include <libtree/detail/near_query.hpp>
+#include <libtree/export.hpp>
+#include <libtree/parallel.hpp>
+#include <libtree/transformed.hpp>
+#include <libtree/tree.hpp>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tf::detail {
+
+/// Two leaf blocks, and how far apart the boxes of their primitives are.
+struct block_pair {
+    std::uint32_t a;
+    std::uint32_t b;
+    const float (&squared)[8][8];  ///< of those present, as `near_bound` takes it
+    unsigned present_a;            ///< slots with a primitive that may be near, a bit each
+    unsigned present_b;
+    const near_bound& bound_of;
+
+    /// Whether slot i of a and slot j of b may be within `bound`, what `bound_of` says of a limit.
+    [[nodiscard]] bool within(std::size_t i, std::size_t j, float bound) const {
+        return (present_a >> i & present_b >> j & 1U) != 0 && squared[i][j] <= bound;
+    }
+};
+
+/// A pair of nodes that may hold near pairs; boxes in the common frame.
+template <std::size_t D>
+struct pair_entry {
+    struct side {
+        std::uint32_t index;
+        std::uint32_t level;
+        std::array<float, D> low;
+        std::array<float, D> high;
+    };
+    float lower;
+    side a;
+    side b;
+};
+
+/// What a visitor returns: the squared distance beyond which it wants no pair; it may only fall.
+using visit_blocks = function_ref<double(const block_pair&)>;
+
+template <std::size_t D>
+class TREEFORM_API pair_walk {
+  public:
+    pair_walk(const transformed<D>& a, const transformed<D>& b);
+
+    /// Walks depth first, the nearest children first, for a while: to the end when that is near.
+    /// Then cuts what is left into pairs of nodes, the nearest first.
+    void begin(double squared, visit_blocks visit);
+
+    [[nodiscard]] std::size_t chunks() const { return chunk_count(items_.size(), grain); }
+    /// Visits what is left in a chunk. The limit that `visit` returns is joined with `shared`,
+    /// which others may lower meanwhile; `stop` says when the rest is of no interest.
+    void visit(std::size_t chunk, const std::atomic<double>& shared, function_ref<bool()> stop,
+               visit_blocks visit) const;
+
+    struct context;
+
+  private:
+    static constexpr std::size_t grain = 4;
+    [[nodiscard]] context trees() const;
+
+    const tree<D>* a_;
+    const tree<D>* b_;
+    frame_map<D> map_a_;
+    frame_map<D> map_b_;
+    near_bound bound_of_;
+    std::vector<pair_entry<D>> items_;
+};
+
+extern template class pair_walk<2>;
+extern template class pair_walk<3>;
+
+/// Runs a walk on the threads at hand. Each chunk keeps its own `make(squared)`, which has a
+/// `bound()`; `visit(blocks, kept, limit)` fills it; `join(all, part)` joins the chunks in order.
+///
+/// The result depends on no timing: pairs are skipped only when strictly further than the bound of
+/// some chunk, which is never below the final one, so whatever belongs to the result is found. The
+/// order within a chunk is fixed. A bound of zero ends its own chunk and later ones only, and these
+/// are not joined.
+template <std::size_t D, class Make, class Visit, class Join>
+[[nodiscard]] auto walk_pairs(const transformed<D>& a, const transformed<D>& b, double squared,
+                              const Make& make, const Visit& visit, const Join& join) {
+    auto all = make(squared);
+    pair_walk<D> walk(a, b);
+    walk.begin(squared, [&](const block_pair& blocks) {
+        visit(blocks, all, squared);
+        return all.bound();
+    });
+    if (walk.chunks() == 0 || all.bound() == 0.0) return all;
+
+    std::atomic<double> shared{all.bound()};
+    std::atomic<std::size_t> last{walk.chunks() - 1};  // the first chunk that came down to zero
+    std::vector<decltype(all)> parts(walk.chunks(), make(all.bound()));
+    for_chunks(walk.chunks(), 1, [&](std::size_t chunk, std::size_t, std::size_t) {
+        auto& mine = parts[chunk];
+        const auto stop = [&] {
+            return mine.bound() == 0.0 || chunk > last.load(std::memory_order_relaxed);
+        };
+        walk.visit(chunk, shared, stop, [&](const block_pair& blocks) {
+            visit(blocks, mine, shared.load(std::memory_order_relaxed));
+            double seen = shared.load();
+            while (mine.bound() < seen && !shared.compare_exchange_weak(seen, mine.bound())) {
+            }
+            if (mine.bound() == 0.0) {
+                std::size_t first = last.load();
+                while (chunk < first && !last.compare_exchange_weak(first, chunk)) {
+                }
+            }
+            return mine.bound();
+        });
+    });
+    for (std::size_t chunk = 0; chunk <= last.load(); ++chunk) join(all, parts[chunk]);
+    return all;
+}
+
+}  // namespace tf::detail

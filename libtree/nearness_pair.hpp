@@ -1,0 +1,117 @@
+#pragma once
+/// \file
+/// Two trees: the nearest pair of primitives, one of each, and the k nearest.
+
+#include <libtree/detail/near_pair_walk.hpp>
+#include <libtree/detail/nearest_k.hpp>
+#include <libtree/neighbor.hpp>
+#include <libtree/transformed.hpp>
+#include <libtree/tree.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace tf {
+
+/// Two primitives, one of each tree, and what the caller's function said about them.
+template <class Answer = double>
+struct near_pair {
+    std::uint32_t a;
+    std::uint32_t b;
+    Answer answer;
+
+    [[nodiscard]] constexpr double squared_distance() const { return squared_distance_of(answer); }
+    friend bool operator==(const near_pair&, const near_pair&) = default;
+};
+
+/// The order of pairs: by distance, then by the numbers of a, then of b.
+template <class Answer>
+[[nodiscard]] constexpr bool nearer(const near_pair<Answer>& x, const near_pair<Answer>& y) {
+    const double of_x = x.squared_distance();
+    const double of_y = y.squared_distance();
+    if (of_x != of_y) return of_x < of_y;
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+}
+
+/// The k nearest pairs of a primitive of `a` and one of `b`, ascending by distance, then by their
+/// numbers; fewer when there are fewer within `radius` (not squared, inclusive).
+///
+/// `distance_of(a, b)` is the squared distance of two primitives, as in `nearest`; it is called by
+/// several threads at once, and for no pair twice. Either tree may count as moved
+/// (`tf::transformed`): then `distance_of` is about the moved primitives.
+///
+/// Nothing is passed over but pairs whose boxes prove them further than k found ones. Only a
+/// distance of exactly zero ends the search early: when more than k pairs touch, k of them are
+/// returned, the same in every run.
+///
+/// \throws std::invalid_argument when the radius is negative or NaN
+/// \cost   O(log N) nodes where the nearest pair is clear, more where much of both is about as near
+/// \same   on any number of threads
+/// \source Sajovic, Knez and Korez, tf::tree, section III-D, less its bound from above by the
+///         boxes, which their contents need not keep; the larger box is opened, eight at a time
+template <std::size_t D, class DistanceOf>
+[[nodiscard]] auto k_nearest_pairs(const transformed<D>& a, const transformed<D>& b, std::size_t k,
+                                   const DistanceOf& distance_of,
+                                   double radius = std::numeric_limits<double>::infinity());
+
+/// The nearest pair, none when a tree is empty or all are beyond the radius. See `k_nearest_pairs`.
+template <std::size_t D, class DistanceOf>
+[[nodiscard]] auto nearest_pair(const transformed<D>& a, const transformed<D>& b,
+                                const DistanceOf& distance_of,
+                                double radius = std::numeric_limits<double>::infinity()) {
+    auto pairs = k_nearest_pairs(a, b, 1, distance_of, radius);
+    return pairs.empty() ? std::nullopt : std::optional(std::move(pairs[0]));
+}
+
+template <std::size_t D, class DistanceOf>
+[[nodiscard]] auto nearest_pair(const tree<D>& a, const tree<D>& b, const DistanceOf& distance_of,
+                                double radius = std::numeric_limits<double>::infinity()) {
+    return nearest_pair(transformed<D>(a), transformed<D>(b), distance_of, radius);
+}
+
+template <std::size_t D, class DistanceOf>
+[[nodiscard]] auto k_nearest_pairs(const tree<D>& a, const tree<D>& b, std::size_t k,
+                                   const DistanceOf& distance_of,
+                                   double radius = std::numeric_limits<double>::infinity()) {
+    return k_nearest_pairs(transformed<D>(a), transformed<D>(b), k, distance_of, radius);
+}
+
+template <std::size_t D, class DistanceOf>
+[[nodiscard]] auto k_nearest_pairs(const transformed<D>& a, const transformed<D>& b, std::size_t k,
+                                   const DistanceOf& distance_of, double radius) {
+    if (!(radius >= 0.0))
+        throw std::invalid_argument("tf::k_nearest_pairs: the radius is negative or NaN");
+    using answer =
+        std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t, std::uint32_t>>;
+    const std::uint32_t* const ids_a = a.original().ids().data();
+    const std::uint32_t* const ids_b = b.original().ids().data();
+    using kept = detail::nearest_k<near_pair<answer>>;
+    const auto visit = [&](const detail::block_pair& blocks, kept& mine, double limit) {
+        float bound = blocks.bound_of(std::min(limit, mine.bound()));
+        for (std::uint32_t i = 0; i < 8; ++i)
+            for (std::uint32_t j = 0; j < 8; ++j) {
+                if (!blocks.within(i, j, bound)) continue;
+                const std::uint32_t of_a = ids_a[blocks.a * 8 + i];
+                const std::uint32_t of_b = ids_b[blocks.b * 8 + j];
+                mine.offer({of_a, of_b, distance_of(of_a, of_b)});
+                if (mine.bound() == 0.0) return;
+                bound = blocks.bound_of(std::min(limit, mine.bound()));
+            }
+    };
+    if (k == 0 || a.original().empty() || b.original().empty()) return kept(0, 0.0).sorted();
+    return detail::walk_pairs(
+               a, b, radius * radius, [&](double squared) { return kept(k, squared); }, visit,
+               [](kept& all, kept& part) {
+                   for (auto& one : part.sorted()) all.offer(std::move(one));
+               })
+        .sorted();
+}
+
+}  // namespace tf
