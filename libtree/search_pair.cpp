@@ -265,8 +265,8 @@ two_trees<D> in_one_frame(const transformed<D>& a, const transformed<D>& b) {
 
 // Where the search is cut: at the first level with enough pairs of nodes, in pieces of a few. Both
 // are constants, so that results depend on the trees alone.
-constexpr std::size_t enough_items = 2048;
-constexpr std::size_t items_per_chunk = 16;
+constexpr std::size_t enough_items = 1024;
+constexpr std::size_t items_per_chunk = 8;
 constexpr std::size_t full_block = max_candidates - 8;
 constexpr std::size_t small_block = 56;
 

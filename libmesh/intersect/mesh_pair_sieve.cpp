@@ -21,20 +21,35 @@ bool within(const triangle3& t, double limit) {
 void mesh_pair_sieve::add(const candidate_block& block) {
     output_.box_pairs += block.first.size();
     for (std::size_t i = 0; i < block.first.size(); ++i) {
+        prefetch(block, i);
         add_pair({input_.a.face_at(block.first[i]), input_.b.face_at(block.second[i])});
         if (count_ == pair_batch<6>::capacity) filter();
     }
     filter();
 }
 
+/// Faces and points are scattered over memory: what is needed some candidates later is asked for
+/// now. A corner may be no point; asking for what is nowhere is allowed.
+void mesh_pair_sieve::prefetch(const candidate_block& block, std::size_t i) const {
+    constexpr std::size_t faces_ahead = 24, points_ahead = 12;
+    if (i + faces_ahead < block.second.size())
+        input_.b.prefetch_face(block.second[i + faces_ahead]);
+    if (i + points_ahead < block.second.size())
+        input_.b.prefetch_points(block.second[i + points_ahead]);
+}
+
 void mesh_pair_sieve::add_pair(const face_numbers& pair) {
-    triangle3 a, b;
-    const bool has_a = input_.a.corners(pair.a, a);
+    constexpr double limit = largest_filtered_coordinate;
+    if (pair.a != last_a_) {
+        has_a_ = input_.a.corners(pair.a, corners_of_a_);
+        last_a_ = pair.a;
+    }
+    const triangle3& a = corners_of_a_;
+    triangle3 b;
     const bool has_b = input_.b.corners(pair.b, b);
-    if (!(has_a && has_b && within(a, largest_filtered_coordinate) &&
-          within(b, largest_filtered_coordinate))) {
+    if (!(has_a_ && has_b && within(a, limit) && within(b, limit))) {
         constexpr double largest = std::numeric_limits<double>::max();
-        const bool good_a = has_a && within(a, largest);
+        const bool good_a = has_a_ && within(a, largest);
         const bool good_b = has_b && within(b, largest);
         if (!good_a) bad_.in_a = std::min(bad_.in_a, pair.a);
         if (!good_b) bad_.in_b = std::min(bad_.in_b, pair.b);

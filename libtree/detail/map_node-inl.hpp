@@ -34,20 +34,25 @@ HWY_INLINE void map_lanes(const frame_map<D>& map, const wide_node<D>& from, wid
     const lanes largest = hn::Set(d, std::numeric_limits<float>::max());
     const lanes limit = hn::Set(d, map.limit);
     const auto in_use = hn::Le(hn::Load(d, from.min[0] + i), hn::Load(d, from.max[0] + i));
+    lanes min[D], max[D], reach[D];  // all read before anything is written
+    for (std::size_t j = 0; j < D; ++j) {
+        min[j] = hn::Min(hn::Load(d, from.min[j] + i), limit);
+        max[j] = hn::Max(hn::Load(d, from.max[j] + i), hn::Neg(limit));
+        reach[j] = hn::Max(hn::Abs(min[j]), hn::Abs(max[j]));
+    }
     for (std::size_t k = 0; k < D; ++k) {
         lanes low = hn::Set(d, map.offset[k]);
         lanes high = low;
         lanes slack = hn::Set(d, map.slack_offset[k]);
         for (std::size_t j = Diagonal ? k : 0; j < (Diagonal ? k + 1 : D); ++j) {
-            const lanes min = hn::Min(hn::Load(d, from.min[j] + i), limit);
-            const lanes max = hn::Max(hn::Load(d, from.max[j] + i), hn::Neg(limit));
-            const lanes reach = hn::Max(hn::Abs(min), hn::Abs(max));
+            // Of one end of the interval the greater part, of the other the lesser, whatever the
+            // sign of the factor. Not fused, so that every machine sees the same candidates.
             const lanes factor = hn::Set(d, map.linear[k][j]);
-            const bool turned = map.linear[k][j] < 0.0F;
-            // Not fused, so that every machine sees the same candidates.
-            low = hn::Add(hn::Mul(factor, turned ? max : min), low);
-            high = hn::Add(hn::Mul(factor, turned ? min : max), high);
-            slack = hn::Add(hn::Mul(hn::Set(d, map.slack[k][j]), reach), slack);
+            const lanes from_min = hn::Mul(factor, min[j]);
+            const lanes from_max = hn::Mul(factor, max[j]);
+            low = hn::Add(hn::Min(from_min, from_max), low);
+            high = hn::Add(hn::Max(from_min, from_max), high);
+            slack = hn::Add(hn::Mul(hn::Set(d, map.slack[k][j]), reach[j]), slack);
         }
         low = hn::Sub(low, slack);
         high = hn::Add(high, slack);

@@ -3,6 +3,7 @@
 /// What the searches for pairs of faces do around their chunks: progress, and joining the outputs.
 
 #include <libmesh/intersect/detail/pair_sieve.hpp>
+#include <libmesh/intersect/detail/sort_pairs.hpp>
 #include <libtree/progress.hpp>
 
 #include <algorithm>
@@ -64,10 +65,12 @@ void join_outputs(std::vector<sieve_output>& found, std::size_t limit, Result& r
         result.predicates += output.predicates;
     }
     const std::size_t kept = std::min(limit, total);
-    const auto end = result.pairs.begin() + static_cast<std::ptrdiff_t>(kept);
-    std::nth_element(result.pairs.begin(), end, result.pairs.end());
-    std::sort(result.pairs.begin(), end);
-    result.pairs.resize(kept);
+    if (kept < total) {
+        const auto end = result.pairs.begin() + static_cast<std::ptrdiff_t>(kept);
+        std::nth_element(result.pairs.begin(), end, result.pairs.end());
+        result.pairs.resize(kept);
+    }
+    sort_pairs(result.pairs);
 }
 
 }  // namespace tf::detail

@@ -37,6 +37,13 @@ class mesh_side {
         return true;
     }
 
+    /// Ask memory for what `corners` reads, the face first and its points some time later.
+    void prefetch_face(std::uint32_t place) const { __builtin_prefetch(&mesh_.faces[ids_[place]]); }
+    void prefetch_points(std::uint32_t place) const {
+        const face& f = mesh_.faces[ids_[place]];
+        for (const std::uint32_t corner : f) __builtin_prefetch(mesh_.points.data() + corner);
+    }
+
   private:
     mesh_view mesh_;
     std::span<const std::uint32_t> ids_;
@@ -69,6 +76,7 @@ class mesh_pair_sieve {
     struct face_numbers {
         std::uint32_t a, b;
     };
+    void prefetch(const candidate_block& block, std::size_t i) const;
     void add_pair(const face_numbers& pair);
     void filter();
     void decide(const face_numbers& pair, const triangle3& a, const triangle3& b);
@@ -78,6 +86,10 @@ class mesh_pair_sieve {
     const mesh_pair_input& input_;
     sieve_output& output_;
     bad_faces& bad_;
+    /// The face of `a` last looked at: candidates of one face follow each other.
+    std::uint32_t last_a_ = bad_faces::none;
+    bool has_a_ = false;
+    triangle3 corners_of_a_;
     std::size_t count_ = 0;  ///< pairs in the batch
     std::array<face_numbers, pair_batch<6>::capacity> pairs_;
     pair_batch<6> batch_;
