@@ -2,6 +2,7 @@
 /// Measures treeform beside its peers; tests/bench/run.sh builds and calls it.
 
 #include "bench/measure.hpp"
+#include "bench/page.hpp"
 #include "bench/report.hpp"
 #include "bench/workload.hpp"
 
@@ -49,13 +50,15 @@ void measure_all(const bench::setting& setting, const std::vector<std::string>& 
     bench::write_machine(folder);
     bench::csv_report csv(folder);
     bench::table table;
+    bench::page page(bench::machine_name());
     for (const bench::workload& workload : bench::workloads()) {
         if (!ids.empty() && std::ranges::find(ids, workload.id) == ids.end()) continue;
         fmt::print("\n== {}  {}\n", workload.id, workload.title);
+        std::vector<bench::outcome> outcomes;
         workload.contests(setting, [&](const bench::contest& contest) {
             const std::size_t size = contest.size();
             std::vector<bench::measured> results = bench::measure(contest, setting);
-            for (std::size_t i = 0; i < results.size(); ++i) {
+            for (std::size_t i = 0; contest.with_memory && i < results.size(); ++i) {
                 std::vector<std::string> command = this_command;
                 command.insert(command.end(),
                                {"--peak-of", key_of(contest, contest.contestants[i]), workload.id});
@@ -63,7 +66,10 @@ void measure_all(const bench::setting& setting, const std::vector<std::string>& 
             }
             csv.add(workload.id, contest, size, results);
             table.add(contest, size, results);
+            outcomes.push_back({contest.name, size, contest.unit, std::move(results)});
         });
+        page.add(workload, outcomes);
+        page.write(folder);  // each time: a run that is cut short leaves what it has
     }
 }
 
@@ -78,7 +84,7 @@ int run(int argc, char** argv) {
     app.add_option("ID", ids, "workloads, such as B1; all when none is named");
     app.add_flag("--quick", quick, "smaller models, within three minutes");
     app.add_flag("--tiny", tiny, "only see that everything runs");
-    app.add_option("--out", folder, "folder of bench.csv and machine.txt");
+    app.add_option("--out", folder, "folder of bench.csv, machine.txt and index.html");
     app.add_option("--models", setting.models_dir, "folder of real models");
     app.add_option("--cache", setting.cache_dir, "folder for models and files made here")
         ->required();

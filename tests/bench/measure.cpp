@@ -59,9 +59,9 @@ double median_of(const std::vector<double>& sorted) {
     return sorted.size() % 2 == 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
 }
 
-int repetitions(effort effort, double seconds) {
+int repetitions(effort effort, double seconds, int long_runs) {
     if (effort == effort::tiny) return 2;
-    return seconds < 0.05 ? 20 : 5;
+    return seconds < 0.05 ? 20 : long_runs;
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ std::vector<measured> measure(const contest& contest, const setting& setting) {
         benchmark::RegisterBenchmark(std::to_string(jobs.size() - 1).c_str(), timed)
             ->UseManualTime()
             ->Iterations(1)
-            ->Repetitions(repetitions(setting.effort, warm_up));
+            ->Repetitions(repetitions(setting.effort, warm_up, contest.long_runs));
     }
     collector times;
     benchmark::RunSpecifiedBenchmarks(&times, ".");

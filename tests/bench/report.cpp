@@ -44,7 +44,7 @@ std::string joined(const std::vector<figure>& figures) {
 
 void print_block(const contest& contest, std::size_t size, const std::vector<measured>& results) {
     const auto print_row = [](const auto&... cells) {
-        fmt::print("  {:<22}{:>4}{:>11}{:>11}{:>11}{:>5}{:>10}{:>9}{:>9}{:>9}\n", cells...);
+        fmt::print("  {:<30}{:>4}{:>11}{:>11}{:>11}{:>5}{:>10}{:>9}{:>9}{:>9}\n", cells...);
     };
     const auto value = [&](double seconds) {
         return fmt::format("{:.4g}", value_of(contest.unit, seconds));
@@ -123,7 +123,7 @@ void csv_report::add(const std::string& id, const contest& contest, std::size_t 
 void table::add(const contest& contest, std::size_t size, const std::vector<measured>& results) {
     const bool serial = std::all_of(results.begin(), results.end(),
                                     [](const auto& row) { return row.threads == 1; });
-    if (!serial) {
+    if (!serial || results.size() > 4) {
         print_block(contest, size, results);
     } else {
         const std::string columns = heads_of(contest, size, results);
@@ -132,6 +132,16 @@ void table::add(const contest& contest, std::size_t size, const std::vector<meas
         print_line(contest, results);
     }
     std::fflush(stdout);
+}
+
+std::string machine_name() {
+#ifdef __clang__
+    const std::string compiler = "clang " + std::to_string(__clang_major__);
+#else
+    const std::string compiler = fmt::format("g++ {}.{}", __GNUC__, __GNUC_MINOR__);
+#endif
+    return fmt::format("{}, {} threads, {}", field("/proc/cpuinfo", "model name"), thread_count(),
+                       compiler);
 }
 
 void write_machine(const std::string& folder) {
@@ -155,7 +165,8 @@ void write_machine(const std::string& folder) {
          << "treeform " << TREEFORM_VERSION_MAJOR << '.' << TREEFORM_VERSION_MINOR << '.'
          << TREEFORM_VERSION_PATCH << '\n'
          << cgal_name() << '\n'
-         << assimp_name() << '\n';
+         << assimp_name() << '\n'
+         << fcl_name() << '\n';
 }
 
 }  // namespace tf::bench

@@ -25,8 +25,8 @@ class csv_report {
     std::ofstream file_;
 };
 
-/// Prints contests as they come: a block each, or a line each where all contestants run on one
-/// thread. Times are medians; a block has the fastest and the slowest run too. Behind them stands
+/// Prints contests as they come: a block each, or a line each where up to four contestants
+/// run on one thread. Times are medians; a block has the fastest and the slowest run too. Behind them stands
 /// how many times as long as treeform it took.
 class table {
   public:
@@ -35,6 +35,9 @@ class table {
   private:
     std::string columns_;  ///< heads of the lines printed last
 };
+
+/// Processor, threads at hand and compiler, in a line.
+[[nodiscard]] std::string machine_name();
 
 /// Writes DIR/machine.txt: processor, threads, memory, compiler, versions of the peers.
 void write_machine(const std::string& folder);

@@ -3,8 +3,8 @@
 #
 # Sets itself up on a bare Debian 12 (as root or with sudo), builds Release with default flags in
 # build/bench, runs the workloads named by id (all when none is), prints a table, and writes
-# DIR/bench.csv and DIR/machine.txt (default: build/bench/results). --quick ends within three
-# minutes, once built. Close other programs first.
+# DIR/bench.csv, DIR/machine.txt and, with pictures, DIR/index.html (default: build/bench/results).
+# --quick ends within a few minutes, once built. Close other programs first.
 #
 #   TREEFORM_MODELS_DIR=DIR    real models; without it the bunny of a Debian package serves for all
 #   TREEFORM_BENCH_CACHE=DIR   for the larger models made of them (default: a folder of your own in
@@ -33,7 +33,7 @@ while (($#)); do
 done
 
 tools/install_packages.sh g++ cmake ninja-build doctest-dev libbenchmark-dev libcgal-dev \
-    libgmp-dev libmpfr-dev libassimp-dev libtbb-dev libhwy-dev libcli11-dev libfmt-dev
+    libgmp-dev libmpfr-dev libassimp-dev libtbb-dev libhwy-dev libcli11-dev libfmt-dev libfcl-dev libnanoflann-dev
 
 if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache

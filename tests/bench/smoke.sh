@@ -7,6 +7,8 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$1" --tiny --cache "$scratch/cache" --out "$scratch/out"
 [[ -s $scratch/out/machine.txt ]]
+[[ -s $scratch/out/index.html ]]
+for picture in "$scratch"/out/*.svg; do [[ $(tail -n 1 "$picture") == "</svg>" ]]; done
 
 awk -F, '
     function bad(why) { printf "bench.csv, line %d: %s: %s\n", NR, why, $0; failed = 1 }
@@ -20,7 +22,7 @@ awk -F, '
     $5 == "treeform" && $9 != "" && $9 != 0 { bad("treeform is wrong") }
     { ids[$1] = 1 }
     END {
-        split("B1 B5 B8 B9", wanted, " ")
+        split("B1 B5 B8 B9 F2 F5 F6", wanted, " ")
         for (i in wanted) if (!(wanted[i] in ids)) { print "no row of " wanted[i]; failed = 1 }
         exit failed
     }' "$scratch/out/bench.csv"

@@ -63,14 +63,21 @@ struct contest {
     std::function<std::size_t()> size;  ///< of the input; triangles, pairs, points
     bench::unit unit{};
     std::vector<contestant> contestants{};
+    bool with_memory = true;  ///< whether a process of its own measures the peak of each
+    int long_runs = 5;        ///< how often what takes 50 ms or more is timed
 };
 
 using contest_visitor = std::function<void(const contest&)>;
+
+struct outcome;  // page.hpp
+struct section;
 
 struct workload {
     std::string id;
     std::string title;
     void (*contests)(const setting&, const contest_visitor&);
+    /// Makes the workload's part of the page; none where the table says it all.
+    section (*draw)(const std::vector<outcome>& outcomes, const std::string& machine) = nullptr;
 };
 
 /// All workloads, in the order of their ids.

@@ -1,3 +1,4 @@
+#include "bench/page.hpp"
 #include "bench/workload.hpp"
 
 #include <array>
@@ -10,6 +11,13 @@ void tree_build(const setting& setting, const contest_visitor& visit);          
 void self_intersections(const setting& setting, const contest_visitor& visit);  // b5
 void files(const setting& setting, const contest_visitor& visit);               // b8
 void predicates(const setting& setting, const contest_visitor& visit);          // b9
+void build_by_peers(const setting& setting, const contest_visitor& visit);      // f2
+void build_by_threads(const setting& setting, const contest_visitor& visit);    // f5
+void strategies(const setting& setting, const contest_visitor& visit);          // f6
+
+section draw_build_by_peers(const std::vector<outcome>& outcomes, const std::string& machine);
+section draw_build_by_threads(const std::vector<outcome>& outcomes, const std::string& machine);
+section draw_strategies(const std::vector<outcome>& outcomes, const std::string& machine);
 
 std::span<const workload> workloads() {
     static const std::array all{
@@ -18,6 +26,10 @@ std::span<const workload> workloads() {
                  self_intersections},
         workload{"B8", "files: read and write, page cache warm", files},
         workload{"B9", "predicates and triangle pairs, by family of hard cases", predicates},
+        workload{"F2", "tree build beside CGAL and FCL, by size", build_by_peers,
+                 draw_build_by_peers},
+        workload{"F5", "tree build by threads", build_by_threads, draw_build_by_threads},
+        workload{"F6", "tree build by selection algorithm", strategies, draw_strategies},
     };
     return all;
 }

@@ -8,5 +8,6 @@ namespace tf::bench {
 
 [[nodiscard]] std::string cgal_name();    ///< "CGAL 5.5.1"
 [[nodiscard]] std::string assimp_name();  ///< "assimp 5.2.5"
+[[nodiscard]] std::string fcl_name();     ///< "FCL 0.7.0"
 
 }  // namespace tf::bench
