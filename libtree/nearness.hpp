@@ -6,6 +6,7 @@
 #include <libtree/aabb.hpp>
 #include <libtree/detail/function_ref.hpp>
 #include <libtree/detail/nearest_k.hpp>
+#include <libtree/detail/squared_radius.hpp>
 #include <libtree/export.hpp>
 #include <libtree/neighbor.hpp>
 #include <libtree/strategy/nearness_order.hpp>
@@ -17,8 +18,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -31,7 +30,8 @@ using nearness_strategy =
     std::variant<strategy::depth_first, strategy::top_k_sorted, strategy::priority_queue>;
 
 struct nearness_options {
-    /// Largest distance (not squared) of an answer, inclusive.
+    /// Largest distance of an answer, not squared: the root of its squared distance is at most
+    /// this.
     double radius = std::numeric_limits<double>::infinity();
     nearness_strategy strategy{};
 };
@@ -66,13 +66,6 @@ template <std::size_t D, nearness_query<D> Query>
         }
     }
     return box;
-}
-
-/// \throws std::invalid_argument unless 0 <= radius
-[[nodiscard]] inline double squared_radius(const char* function, double radius) {
-    if (!(radius >= 0.0))
-        throw std::invalid_argument(std::string(function) + ": the radius is negative or NaN");
-    return radius * radius;
 }
 
 /// The answer for a primitive that is asked about often: nearer, or as near with a lower number.

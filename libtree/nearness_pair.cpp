@@ -167,17 +167,16 @@ void walk(const Context& in, std::vector<pair_entry<D>>& stack, double squared, 
 }
 
 template <std::size_t D, class Context>
-void begin_walk(const Context& in, double squared, visit_blocks visit,
+void begin_walk(const Context& in, double squared, function_ref<bool()> stop, visit_blocks visit,
                 std::vector<pair_entry<D>>& items) {
     // To stop after this many pairs of nodes, and to leave as many for the threads.
     constexpr std::size_t budget = 2048;
     constexpr std::size_t enough = 1024;
     double limit = squared;
     items = {roots_of<D>(in)};
-    walk(
-        in, items, squared, budget, nullptr, [&] { return limit == 0.0; },
-        [&](const block_pair& blocks) { return limit = visit(blocks); });
-    if (limit == 0.0) items.clear();
+    walk(in, items, squared, budget, nullptr, stop,
+         [&](const block_pair& blocks) { return limit = visit(blocks); });
+    if (stop()) items.clear();
     const float bound = in.bound_of(limit);
     bool opened = true;
     while (opened && items.size() < enough) {
@@ -210,13 +209,13 @@ void visit_items(const Context& in, const pair_entry<D>* first, const pair_entry
     }
 }
 
-void begin_2(const pair_walk<2>::context& in, double squared, visit_blocks visit,
-             std::vector<pair_entry<2>>& items) {
-    begin_walk(in, squared, visit, items);
+void begin_2(const pair_walk<2>::context& in, double squared, function_ref<bool()> stop,
+             visit_blocks visit, std::vector<pair_entry<2>>& items) {
+    begin_walk(in, squared, stop, visit, items);
 }
-void begin_3(const pair_walk<3>::context& in, double squared, visit_blocks visit,
-             std::vector<pair_entry<3>>& items) {
-    begin_walk(in, squared, visit, items);
+void begin_3(const pair_walk<3>::context& in, double squared, function_ref<bool()> stop,
+             visit_blocks visit, std::vector<pair_entry<3>>& items) {
+    begin_walk(in, squared, stop, visit, items);
 }
 void visit_2(const pair_walk<2>::context& in, const pair_entry<2>* first, const pair_entry<2>* last,
              const std::atomic<double>& shared, function_ref<bool()> stop, visit_blocks visit) {
@@ -243,12 +242,12 @@ HWY_EXPORT(visit_3);
 }  // namespace
 
 template <std::size_t D>
-pair_walk<D>::pair_walk(const transformed<D>& a, const transformed<D>& b)
+pair_walk<D>::pair_walk(const transformed<D>& a, const transformed<D>& b, double unit)
     : a_(&a.original()), b_(&b.original()), bound_of_(1.0) {
     const tree_frame<D> frame = common_frame(a_->frame(), a.by(), b_->frame(), b.by());
     map_a_ = map_into(a_->frame(), a.by(), frame);
     map_b_ = map_into(b_->frame(), b.by(), frame);
-    bound_of_ = near_bound(frame.scale);
+    bound_of_ = near_bound(frame.scale, unit);
 }
 
 template <std::size_t D>
@@ -257,12 +256,12 @@ typename pair_walk<D>::context pair_walk<D>::trees() const {
 }
 
 template <std::size_t D>
-void pair_walk<D>::begin(double squared, visit_blocks visit) {
+void pair_walk<D>::begin(double squared, function_ref<bool()> stop, visit_blocks visit) {
     if (a_->empty() || b_->empty()) return;
     if constexpr (D == 2)
-        HWY_DYNAMIC_DISPATCH(begin_2)(trees(), squared, visit, items_);
+        HWY_DYNAMIC_DISPATCH(begin_2)(trees(), squared, stop, visit, items_);
     else
-        HWY_DYNAMIC_DISPATCH(begin_3)(trees(), squared, visit, items_);
+        HWY_DYNAMIC_DISPATCH(begin_3)(trees(), squared, stop, visit, items_);
 }
 
 template <std::size_t D>

@@ -4,6 +4,7 @@
 
 #include <libtree/detail/near_pair_walk.hpp>
 #include <libtree/detail/nearest_k.hpp>
+#include <libtree/detail/squared_radius.hpp>
 #include <libtree/neighbor.hpp>
 #include <libtree/transformed.hpp>
 #include <libtree/tree.hpp>
@@ -13,7 +14,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -86,8 +86,7 @@ template <std::size_t D, class DistanceOf>
 template <std::size_t D, class DistanceOf>
 [[nodiscard]] auto k_nearest_pairs(const transformed<D>& a, const transformed<D>& b, std::size_t k,
                                    const DistanceOf& distance_of, double radius) {
-    if (!(radius >= 0.0))
-        throw std::invalid_argument("tf::k_nearest_pairs: the radius is negative or NaN");
+    const double squared = detail::squared_radius("tf::k_nearest_pairs", radius);
     using answer =
         std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t, std::uint32_t>>;
     const std::uint32_t* const ids_a = a.original().ids().data();
@@ -101,13 +100,14 @@ template <std::size_t D, class DistanceOf>
                 const std::uint32_t of_a = ids_a[blocks.a * 8 + i];
                 const std::uint32_t of_b = ids_b[blocks.b * 8 + j];
                 mine.offer({of_a, of_b, distance_of(of_a, of_b)});
-                if (mine.bound() == 0.0) return;
+                if (mine.done()) return;
                 bound = blocks.bound_of(std::min(limit, mine.bound()));
             }
     };
     if (k == 0 || a.original().empty() || b.original().empty()) return kept(0, 0.0).sorted();
     return detail::walk_pairs(
-               a, b, radius * radius, [&](double squared) { return kept(k, squared); }, visit,
+               a, b, 1.0, kept(k, squared), visit,
+               [&](const kept& all) { return kept(k, all.bound()); },
                [](kept& all, kept& part) {
                    for (auto& one : part.sorted()) all.offer(std::move(one));
                })

@@ -1,10 +1,13 @@
 #include <libtree/detail/morton_order.hpp>
 #include <libtree/detail/nearest_k.hpp>
-#include <libtree/nearness.hpp>
+#include <libtree/detail/squared_radius.hpp>
+#include <libtree/neighbor.hpp>
 #include <libtree/point_search.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <string>
 
 #undef HWY_TARGET_INCLUDE
@@ -154,6 +157,8 @@ void dispatch(const point_blocks<3>& points, const point_query<3>& query,
     HWY_DYNAMIC_DISPATCH(all_of_3)(points, query, framed, kept);
 }
 
+constexpr const char* name = "tf::point_search";
+
 /// The frame's scale, unless coordinates are so large or so small in it that squares might leave
 /// the range of double.
 double unit_for(double scale, double largest) {
@@ -178,7 +183,7 @@ class point_searcher {
         point_query<D> scaled{query, unit_for(scale, largest)};
         for (double& x : scaled.at) x *= scaled.unit;
         const double reach = std::min(radius_, limit) * scaled.unit;
-        kept_.reset(reach * reach);
+        kept_.reset(squared_limit(reach));
         const near_query<D> framed(points_.nodes->frame(), {query, query}, scaled.unit);
         if (points_.nodes->size() != 0) dispatch(points_, scaled, framed, kept_);
         const double per_unit = 1.0 / scaled.unit;  // a power of two as well
@@ -194,13 +199,11 @@ class point_searcher {
 };
 
 template <std::size_t D>
-void check_query(const std::array<double, D>& query, const std::string& name) {
+void check_query(const std::array<double, D>& query, const std::string& which) {
     for (const double x : query)
         if (!std::isfinite(x))
-            throw std::invalid_argument("tf::point_search: " + name + " is not finite");
+            throw std::invalid_argument(std::string(name) + ": " + which + " is not finite");
 }
-
-void check_radius(double radius) { (void)squared_radius("tf::point_search", radius); }
 
 /// How far the kth point can be from a query when it is `furthest` from the query before: by the
 /// triangle inequality, with room for every rounding.
@@ -222,7 +225,7 @@ template <std::size_t D, class MakeKept>
 neighbor_lists<near_point> lists_of(const point_blocks<D>& points, double largest,
                                     std::span<const std::array<double, D>> queries, double radius,
                                     std::size_t k, const MakeKept& make_kept) {
-    check_radius(radius);
+    check_radius(name, radius);
     for (std::size_t i = 0; i < queries.size(); ++i)
         check_query(queries[i], "query " + std::to_string(i));
     const auto order = morton_order<D>(queries.size(), [&](std::size_t i) { return queries[i]; });
@@ -267,7 +270,7 @@ neighbor_lists<near_point> lists_of(const point_blocks<D>& points, double larges
 template <std::size_t D, class Kept>
 std::vector<near_point> list_of(const point_blocks<D>& points, double largest,
                                 const std::array<double, D>& query, double radius, Kept kept) {
-    check_radius(radius);
+    check_radius(name, radius);
     check_query(query, "the query");
     std::vector<near_point> found;
     point_searcher<D, Kept> searcher(points, largest, radius, kept);

@@ -5,7 +5,7 @@
 #include <libtree/build.hpp>
 #include <libtree/detail/morton_order.hpp>
 #include <libtree/detail/near_query.hpp>
-#include <libtree/nearness.hpp>
+#include <libtree/detail/squared_radius.hpp>
 #include <libtree/parallel.hpp>
 
 #include <algorithm>
@@ -192,7 +192,7 @@ class closest_searcher {
         const point3 p = scaled(query, unit_);
         if (!(largest_of(p) < far_off)) return as_good_as_any(query, limit);
         const double reach = limit * unit_;
-        closest_so_far best{reach * reach};
+        closest_so_far best{squared_limit(reach)};
         const aabb<double, 3> at{{query.x, query.y, query.z}, {query.x, query.y, query.z}};
         HWY_DYNAMIC_DISPATCH(search_closest)
         (blocks_, p, near_query<3>(blocks_.nodes->frame(), at, unit_), best);
@@ -263,14 +263,14 @@ closest_point_query::closest_point_query(mesh_view mesh) {
 }
 
 std::optional<mesh_point> closest_point_query::nearest(const point3& query, double radius) const {
-    (void)detail::squared_radius("tf::closest_point_query", radius);
+    detail::check_radius("tf::closest_point_query", radius);
     detail::check_query(query, "the query");
     return detail::closest_searcher({&tree_, triangles_.data()}, unit_)(query, radius);
 }
 
 std::vector<std::optional<mesh_point>> closest_point_query::nearest(std::span<const point3> queries,
                                                                     double radius) const {
-    (void)detail::squared_radius("tf::closest_point_query", radius);
+    detail::check_radius("tf::closest_point_query", radius);
     for (std::size_t i = 0; i < queries.size(); ++i)
         detail::check_query(queries[i], "query " + std::to_string(i));
     const std::vector<std::uint32_t> order =

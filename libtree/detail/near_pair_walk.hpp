@@ -52,11 +52,13 @@ using visit_blocks = function_ref<double(const block_pair&)>;
 template <std::size_t D>
 class TREEFORM_API pair_walk {
   public:
-    pair_walk(const transformed<D>& a, const transformed<D>& b);
+    /// Squared distances will be those of coordinates times `unit`, a power of two.
+    pair_walk(const transformed<D>& a, const transformed<D>& b, double unit);
 
     /// Walks depth first, the nearest children first, for a while: to the end when that is near.
     /// Then cuts what is left into pairs of nodes, the nearest first.
-    void begin(double squared, visit_blocks visit);
+    /// `stop` says, after each visit, when nothing is of interest any more.
+    void begin(double squared, function_ref<bool()> stop, visit_blocks visit);
 
     [[nodiscard]] std::size_t chunks() const { return chunk_count(items_.size(), grain); }
     /// Visits what is left in a chunk. The limit that `visit` returns is joined with `shared`,
@@ -81,38 +83,42 @@ class TREEFORM_API pair_walk {
 extern template class pair_walk<2>;
 extern template class pair_walk<3>;
 
-/// Runs a walk on the threads at hand. Each chunk keeps its own `make(squared)`, which has a
-/// `bound()`; `visit(blocks, kept, limit)` fills it; `join(all, part)` joins the chunks in order.
+/// Runs a walk on the threads at hand. `all` is what is kept, and has a `bound()`, a squared
+/// distance, and a `done()`, when zero is reached; `visit(blocks, kept, limit)` fills it;
+/// `fork(all)` makes an empty one with its bound for each chunk, and `join(all, part)` joins these
+/// in order.
 ///
 /// The result depends on no timing: pairs are skipped only when strictly further than the bound of
 /// some chunk, which is never below the final one, so whatever belongs to the result is found. The
-/// order within a chunk is fixed. A bound of zero ends its own chunk and later ones only, and these
-/// are not joined.
-template <std::size_t D, class Make, class Visit, class Join>
-[[nodiscard]] auto walk_pairs(const transformed<D>& a, const transformed<D>& b, double squared,
-                              const Make& make, const Visit& visit, const Join& join) {
-    auto all = make(squared);
-    pair_walk<D> walk(a, b);
-    walk.begin(squared, [&](const block_pair& blocks) {
-        visit(blocks, all, squared);
+/// order within a chunk is fixed. A chunk that is `done()`, at zero, ends itself and later ones
+/// only, and these are not joined.
+template <std::size_t D, class Kept, class Visit, class Fork, class Join>
+[[nodiscard]] Kept walk_pairs(const transformed<D>& a, const transformed<D>& b, double unit,
+                              Kept all, const Visit& visit, const Fork& fork, const Join& join) {
+    pair_walk<D> walk(a, b, unit);
+    const double first_bound = all.bound();
+    const auto visit_first = [&](const block_pair& blocks) {
+        visit(blocks, all, first_bound);
         return all.bound();
-    });
-    if (walk.chunks() == 0 || all.bound() == 0.0) return all;
+    };
+    walk.begin(
+        first_bound, [&] { return all.done(); }, visit_first);
+    if (walk.chunks() == 0 || all.done()) return all;
 
     std::atomic<double> shared{all.bound()};
-    std::atomic<std::size_t> last{walk.chunks() - 1};  // the first chunk that came down to zero
-    std::vector<decltype(all)> parts(walk.chunks(), make(all.bound()));
+    std::atomic<std::size_t> last{walk.chunks() - 1};  // the first chunk that was done
+    std::vector<Kept> parts(walk.chunks(), fork(all));
     for_chunks(walk.chunks(), 1, [&](std::size_t chunk, std::size_t, std::size_t) {
-        auto& mine = parts[chunk];
+        Kept& mine = parts[chunk];
         const auto stop = [&] {
-            return mine.bound() == 0.0 || chunk > last.load(std::memory_order_relaxed);
+            return mine.done() || chunk > last.load(std::memory_order_relaxed);
         };
         walk.visit(chunk, shared, stop, [&](const block_pair& blocks) {
             visit(blocks, mine, shared.load(std::memory_order_relaxed));
             double seen = shared.load();
             while (mine.bound() < seen && !shared.compare_exchange_weak(seen, mine.bound())) {
             }
-            if (mine.bound() == 0.0) {
+            if (mine.done()) {
                 std::size_t first = last.load();
                 while (chunk < first && !last.compare_exchange_weak(first, chunk)) {
                 }

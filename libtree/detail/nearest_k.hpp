@@ -39,6 +39,9 @@ class nearest_k {
     /// The largest squared distance at which one more would be kept.
     [[nodiscard]] double bound() const { return bound_; }
 
+    /// Whether no other offer can be nearer: all that are wanted are at distance zero.
+    [[nodiscard]] bool done() const { return kept_.size() == k_ && bound_ <= 0.0; }
+
     /// Those kept, nearest first; nothing can be offered until the next `reset`.
     [[nodiscard]] std::vector<Neighbor>& sorted() {
         if (!few()) std::sort_heap(kept_.begin(), kept_.end(), order);

@@ -110,6 +110,13 @@ TEST_CASE("nearest pair: the radius is inclusive") {
     };
     CHECK(tf::nearest_pair(tree_a, tree_b, between, 5.0));
     CHECK(!tf::nearest_pair(tree_a, tree_b, between, std::nextafter(5.0, 0.0)));
+    const boxes<2> grid = test::box_family<2>("grid", 300, 1);
+    const auto tree = tf::build(grid, test::itself);
+    const auto among = [&](std::uint32_t i, std::uint32_t j) {
+        return squared_between(grid[i], grid[j]) + (i < 290 ? 1.0 : 0.0);
+    };
+    CHECK(tf::nearest_pair(tree, tree, among, 0.0)->answer == 0.0);
+    CHECK(tf::k_nearest_pairs(tree, tree, 10, among, 0.0).size() == 10);
     CHECK_THROWS_AS((void)tf::nearest_pair(tree_a, tree_b, between, -1.0), std::invalid_argument);
 }
 

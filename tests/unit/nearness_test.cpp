@@ -32,7 +32,7 @@ answers by_brute_force(const boxes<D>& of, const tf::aabb<double, D>& query,
     answers all;
     for (std::uint32_t i = 0; i < of.size(); ++i) {
         const double squared = squared_between(of[i], query);
-        if (squared <= radius * radius) all.push_back({i, squared});
+        if (std::sqrt(squared) <= radius) all.push_back({i, squared});
     }
     std::sort(all.begin(), all.end(), tf::nearer<tf::neighbor<double>>);
     return all;
