@@ -97,11 +97,6 @@ using lanes_mask = hn::Mask<lanes_tag>;
 
 struct vec {
     lanes x, y, z;
-
-    // Spelt out: a constructor that the compiler makes is not compiled for the target, and GCC then
-    // refuses to inline those of the vectors of NEON into it.
-    vec() {}  // NOLINT(modernize-use-equals-default)
-    vec(lanes at_x, lanes at_y, lanes at_z) : x(at_x), y(at_y), z(at_z) {}
 };
 
 template <std::size_t Corners>
@@ -124,9 +119,6 @@ lanes dot(const vec& a, const vec& b) {
 /// Which lanes lie certainly ahead of a plane, and which certainly behind.
 struct sides {
     lanes_mask ahead, behind;
-
-    sides() {}  // NOLINT(modernize-use-equals-default) as for `vec`
-    sides(lanes_mask in_front, lanes_mask at_back) : ahead(in_front), behind(at_back) {}
 };
 
 /// The plane through the origin along u and v: its normal, and the permanent of each component.
