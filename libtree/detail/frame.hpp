@@ -46,9 +46,9 @@ template <class Box>
     using scalar = typename Box::scalar;
     bool finite = true;
     for (std::size_t k = 0; k < Box::dimensions; ++k)
-        finite &= (box.min[k] <= box.max[k]) &
-                  (box.min[k] >= std::numeric_limits<scalar>::lowest()) &
-                  (box.max[k] <= std::numeric_limits<scalar>::max());
+        finite = finite && box.min[k] <= box.max[k] &&
+                 box.min[k] >= std::numeric_limits<scalar>::lowest() &&
+                 box.max[k] <= std::numeric_limits<scalar>::max();
     return finite;
 }
 
