@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <stdexcept>
 
 namespace tf {
@@ -54,7 +57,8 @@ class placed_mesh {
     double unit_;
 };
 
-/// The nearest pair so far, and the direction between its points.
+/// The nearest pair so far, and the direction between the points of the last pair looked at: of two
+/// that are further apart than the nearest, neighbours of theirs often are so along the same line.
 struct nearest_so_far {
     double squared;
     bool found = false;
@@ -81,7 +85,6 @@ struct nearest_so_far {
 
   private:
     void direct(const closest_between_triangles& one) {
-        if (found && !(one.squared_distance < squared)) return;
         has_direction = true;
         origin = one.on_a;
         const double length = std::sqrt(one.squared_distance);
@@ -89,66 +92,97 @@ struct nearest_so_far {
     }
 };
 
-/// How far a triangle reaches along a direction n from an origin, and how far it is from there.
-struct span_along {
-    double least = 0.0, most = 0.0, reach = 0.0;
+/// Eight triangles, those of a leaf block that matter.
+struct eight_triangles {
+    std::array<triangle3, 8> of;
+    double at[3][3][8] = {};  ///< corner, axis, triangle
 
-    span_along() = default;
-    span_along(const triangle3& t, const point3& n, const point3& origin) {
-        least = std::numeric_limits<double>::infinity();
-        most = -least;
-        for (const point3& p : t) {
-            const double x = p.x - origin.x, y = p.y - origin.y, z = p.z - origin.z;
-            const double along = n.x * x + n.y * y + n.z * z;
-            least = std::min(least, along);
-            most = std::max(most, along);
-            reach = std::max(reach, std::abs(x) + std::abs(y) + std::abs(z));
+    eight_triangles(const placed_mesh& mesh, std::size_t block, unsigned wanted) {
+        for (; wanted != 0; wanted &= wanted - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(wanted));
+            of[i] = mesh.triangle(mesh.face_at(block * 8 + i));
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    at[corner][axis][i] = of[i][corner][axis];
         }
     }
 };
 
-/// Whether two triangles are further apart than `distance` along a direction of about unit length.
-/// It is off by some 2^-50 of it, and so are the products in proportion to `reach`.
-bool beyond(const span_along& a, const span_along& b, double distance) {
-    return b.least - a.most > distance * (1.0 + 0x1p-40) + 0x1p-45 * (a.reach + b.reach);
+/// How far eight triangles reach along a direction n from an origin, and, at most, from there.
+struct spans_along {
+    double least[8], most[8], reach[8];
+
+    void look(const eight_triangles& t, const point3& n, const point3& origin) {
+        for (std::size_t i = 0; i < 8; ++i) {
+            least[i] = std::numeric_limits<double>::infinity();
+            most[i] = -least[i];
+            reach[i] = 0.0;
+        }
+        for (const auto& corner : t.at)
+            for (std::size_t i = 0; i < 8; ++i) {
+                const double x = corner[0][i] - origin.x;
+                const double y = corner[1][i] - origin.y;
+                const double z = corner[2][i] - origin.z;
+                const double along = n.x * x + n.y * y + n.z * z;
+                least[i] = along < least[i] ? along : least[i];
+                most[i] = most[i] < along ? along : most[i];
+                reach[i] += std::abs(x) + std::abs(y) + std::abs(z);
+            }
+    }
+};
+
+/// The pairs of slots within `bound`: bit j of element i.
+std::array<unsigned, 8> pairs_within(const detail::block_pair& blocks, float bound) {
+    std::array<unsigned, 8> pairs{};
+    for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t j = 0; j < 8; ++j)
+            pairs[i] |= static_cast<unsigned>(blocks.within(i, j, bound)) << j;
+    return pairs;
 }
 
 void visit(const placed_mesh& a, const placed_mesh& b, const detail::block_pair& blocks,
            nearest_so_far& best, double limit) {
-    std::array<triangle3, 8> in_a, in_b;
-    std::array<span_along, 8> along_a, along_b;
-    for (std::size_t i = 0; i < 8; ++i) {
-        if ((blocks.present_a >> i & 1U) != 0)
-            in_a[i] = a.triangle(a.face_at(std::size_t{blocks.a} * 8 + i));
-        if ((blocks.present_b >> i & 1U) != 0)
-            in_b[i] = b.triangle(b.face_at(std::size_t{blocks.b} * 8 + i));
-    }
-    const auto look_along = [&] {
-        for (std::size_t i = 0; i < 8; ++i) {
-            if ((blocks.present_a >> i & 1U) != 0)
-                along_a[i] = span_along(in_a[i], best.direction, best.origin);
-            if ((blocks.present_b >> i & 1U) != 0)
-                along_b[i] = span_along(in_b[i], best.direction, best.origin);
-        }
-    };
-    if (best.has_direction) look_along();
     limit = std::min(limit, best.squared);
     float bound = blocks.bound_of(limit);
     double distance = std::sqrt(limit);
-    for (std::size_t i = 0; i < 8; ++i)
-        for (std::size_t j = 0; j < 8; ++j) {
-            if (!blocks.within(i, j, bound)) continue;
-            if (best.has_direction && beyond(along_a[i], along_b[j], distance)) continue;
-            const double before = best.squared;
+    const std::array<unsigned, 8> pairs = pairs_within(blocks, bound);
+    unsigned rows = 0, columns = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+        rows |= static_cast<unsigned>(pairs[i] != 0) << i;
+        columns |= pairs[i];
+    }
+    if (rows == 0) return;
+
+    const eight_triangles in_a(a, blocks.a, rows);
+    const eight_triangles in_b(b, blocks.b, columns);
+    spans_along along_a, along_b;
+    const auto look_along = [&] {
+        along_a.look(in_a, best.direction, best.origin);
+        along_b.look(in_b, best.direction, best.origin);
+    };
+    // Whether two are further apart than `distance` along the direction, whose length is 1 to
+    // 2^-50; products are off by less than that in proportion to `reach`.
+    const auto beyond = [&](std::size_t i, std::size_t j) {
+        return along_b.least[j] - along_a.most[i] >
+               distance * (1.0 + 0x1p-40) + 0x1p-45 * (along_a.reach[i] + along_b.reach[j]);
+    };
+    if (best.has_direction) look_along();
+    for (; rows != 0; rows &= rows - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(rows));
+        for (unsigned rest = pairs[i]; rest != 0; rest &= rest - 1) {
+            const auto j = static_cast<std::size_t>(std::countr_zero(rest));
+            if (!(blocks.squared[i][j] <= bound)) continue;
+            if (best.has_direction && beyond(i, j)) continue;
             best.offer(a.face_at(std::size_t{blocks.a} * 8 + i),
-                       b.face_at(std::size_t{blocks.b} * 8 + j), closest_points(in_a[i], in_b[j]));
+                       b.face_at(std::size_t{blocks.b} * 8 + j),
+                       closest_points(in_a.of[i], in_b.of[j]));
             if (best.done()) return;
-            if (!(best.squared < before)) continue;
-            look_along();
+            if (best.has_direction) look_along();
             limit = std::min(limit, best.squared);
             bound = blocks.bound_of(limit);
             distance = std::sqrt(limit);
         }
+    }
 }
 
 void check_tree(mesh_view mesh, const transformed<3>& tree) {
