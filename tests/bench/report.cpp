@@ -166,7 +166,8 @@ void write_machine(const std::string& folder) {
          << TREEFORM_VERSION_PATCH << '\n'
          << cgal_name() << '\n'
          << assimp_name() << '\n'
-         << fcl_name() << '\n';
+         << fcl_name() << '\n'
+         << nanoflann_name() << '\n';
 }
 
 }  // namespace tf::bench

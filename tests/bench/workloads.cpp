@@ -5,23 +5,34 @@
 
 namespace tf::bench {
 
-// One file each, named by the id. A new workload is a file, a declaration, a line below, and a line
-// in CMakeLists.txt.
-void tree_build(const setting& setting, const contest_visitor& visit);          // b1
-void self_intersections(const setting& setting, const contest_visitor& visit);  // b5
-void files(const setting& setting, const contest_visitor& visit);               // b8
-void predicates(const setting& setting, const contest_visitor& visit);          // b9
-void build_by_peers(const setting& setting, const contest_visitor& visit);      // f2
-void build_by_threads(const setting& setting, const contest_visitor& visit);    // f5
-void strategies(const setting& setting, const contest_visitor& visit);          // f6
+// One file each, named by the id. A new workload is a file, a line of each list here, and a line in
+// CMakeLists.txt.
+#define TREEFORM_WORKLOAD(name) void name(const setting& setting, const contest_visitor& visit)
+TREEFORM_WORKLOAD(tree_build);              // b1
+TREEFORM_WORKLOAD(near_pairs_from_arrays);  // b3
+TREEFORM_WORKLOAD(self_intersections);      // b5
+TREEFORM_WORKLOAD(files);                   // b8
+TREEFORM_WORKLOAD(predicates);              // b9
+TREEFORM_WORKLOAD(build_by_peers);          // f2
+TREEFORM_WORKLOAD(build_by_threads);        // f5
+TREEFORM_WORKLOAD(strategies);              // f6
+TREEFORM_WORKLOAD(near_pairs_given_trees);  // f7
+#undef TREEFORM_WORKLOAD
 
-section draw_build_by_peers(const std::vector<outcome>& outcomes, const std::string& machine);
-section draw_build_by_threads(const std::vector<outcome>& outcomes, const std::string& machine);
-section draw_strategies(const std::vector<outcome>& outcomes, const std::string& machine);
+#define TREEFORM_DRAWING(name) \
+    section name(const std::vector<outcome>& outcomes, const std::string& machine)
+TREEFORM_DRAWING(draw_near_pairs_from_arrays);
+TREEFORM_DRAWING(draw_build_by_peers);
+TREEFORM_DRAWING(draw_build_by_threads);
+TREEFORM_DRAWING(draw_strategies);
+TREEFORM_DRAWING(draw_near_pairs);
+#undef TREEFORM_DRAWING
 
 std::span<const workload> workloads() {
     static const std::array all{
         workload{"B1", "tree build: triangles as arrays -> tree, boxes included", tree_build},
+        workload{"B3", "near pairs of points: arrays -> pairs, tree included",
+                 near_pairs_from_arrays, draw_near_pairs_from_arrays},
         workload{"B5", "self-intersections: arrays -> classified pairs, tree included",
                  self_intersections},
         workload{"B8", "files: read and write, page cache warm", files},
@@ -30,6 +41,8 @@ std::span<const workload> workloads() {
                  draw_build_by_peers},
         workload{"F5", "tree build by threads", build_by_threads, draw_build_by_threads},
         workload{"F6", "tree build by selection algorithm", strategies, draw_strategies},
+        workload{"F7", "near pairs of points, trees given", near_pairs_given_trees,
+                 draw_near_pairs},
     };
     return all;
 }
