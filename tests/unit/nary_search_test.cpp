@@ -31,7 +31,7 @@ id_pairs sorted(const std::vector<id_pairs>& parts) {
 
 template <std::size_t D>
 void check(const std::string& name, const tf::tree_config& config) {
-    for (const std::size_t count : {0, 1, 5, 300}) {
+    for (const std::size_t count : {0UL, 1UL, 5UL, 300UL}) {
         CAPTURE(name);
         CAPTURE(count);
         const boxes<D> a = box_family<D>(name, count, 1), b = box_family<D>("random", 150, 2);

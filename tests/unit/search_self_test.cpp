@@ -29,7 +29,7 @@ void check(const boxes<D>& of) {
 
 TEST_CASE("search_self_all: finds the pairs that brute force finds, ascending") {
     for (const std::string& name : test::box_families)
-        for (const std::size_t count : {0, 1, 2, 8, 9, 300}) {
+        for (const std::size_t count : {0UL, 1UL, 2UL, 8UL, 9UL, 300UL}) {
             CAPTURE(name);
             CAPTURE(count);
             check(box_family<3>(name, count, count));
@@ -38,7 +38,7 @@ TEST_CASE("search_self_all: finds the pairs that brute force finds, ascending") 
 }
 
 TEST_CASE("search_self_all: a box that is infinite in the frame of the tree meets no empty slot") {
-    for (const std::size_t count : {1, 3, 11, 70}) {
+    for (const std::size_t count : {1UL, 3UL, 11UL, 70UL}) {
         boxes<3> of = box_family<3>("tiny", count, count);
         of[0] = {{-1e308, -1e308, -1e308}, {1e308, 1e308, 1e308}};
         of[count - 1] = of[0];

@@ -68,7 +68,7 @@ struct ball {
 
 TEST_CASE("search: finds what brute force finds, by box and by check, in 3D") {
     for (const std::string& name : test::box_families)
-        for (const std::size_t count : {0, 1, 9, 700}) {
+        for (const std::size_t count : {0UL, 1UL, 9UL, 700UL}) {
             CAPTURE(name);
             CAPTURE(count);
             check_boxes<3>(name, count);
@@ -76,7 +76,7 @@ TEST_CASE("search: finds what brute force finds, by box and by check, in 3D") {
 }
 TEST_CASE("search: finds what brute force finds, by box and by check, in 2D") {
     for (const std::string& name : test::box_families)
-        for (const std::size_t count : {1, 8, 300}) {
+        for (const std::size_t count : {1UL, 8UL, 300UL}) {
             CAPTURE(name);
             CAPTURE(count);
             check_boxes<2>(name, count);
