@@ -56,7 +56,15 @@ class TREEFORM_API point_search {
     /// \throws std::invalid_argument naming the first point that is not finite
     /// \same   on any number of threads
     template <std::ranges::random_access_range Points>
-    requires(!std::same_as<Points, point_search>) explicit point_search(const Points& points);
+    requires(!std::same_as<Points, point_search>) explicit point_search(const Points& points)
+        : tree_(build(points, [](const auto& p) {
+              aabb<double, D> box;
+              for (std::size_t k = 0; k < D; ++k)
+                  box.min[k] = box.max[k] = static_cast<double>(p[k]);
+              return box;
+          })) {
+        copy(points);
+    }
 
     [[nodiscard]] std::size_t size() const { return tree_.size(); }
     [[nodiscard]] const tree<D>& points_tree() const { return tree_; }
@@ -87,17 +95,6 @@ class TREEFORM_API point_search {
     detail::buffer<double> coordinates_;
     double largest_ = 0.0;  ///< magnitude of a coordinate
 };
-
-template <std::size_t D>
-template <std::ranges::random_access_range Points>
-requires(!std::same_as<Points, point_search<D>>) point_search<D>::point_search(const Points& points)
-    : tree_(build(points, [](const auto& p) {
-          aabb<double, D> box;
-          for (std::size_t k = 0; k < D; ++k) box.min[k] = box.max[k] = static_cast<double>(p[k]);
-          return box;
-      })) {
-    copy(points);
-}
 
 template <std::size_t D>
 template <class Points>

@@ -63,8 +63,8 @@ struct top_k_sorted {
         /// `children`: how many the node has, pushed or not.
         void close(std::size_t children) {
             const std::size_t pushed = stack_.size() - bottom_;
-            const std::size_t k = std::min(k_ != 0 ? k_ : pushed + children, stack_.size());
-            std::sort(stack_.end() - static_cast<std::ptrdiff_t>(k), stack_.end(),
+            const std::size_t top = std::min(k_ != 0 ? k_ : pushed + children, stack_.size());
+            std::sort(stack_.end() - static_cast<std::ptrdiff_t>(top), stack_.end(),
                       [](const Entry& a, const Entry& b) { return a.lower > b.lower; });
         }
 

@@ -73,8 +73,9 @@ TEST_CASE("closest point query: the radius is inclusive") {
 
 TEST_CASE("closest point query: the answer is that of a loop over all faces, to the last bit") {
     test::random source(4);
-    for (const auto& [name, mesh] : meshes()) {
-        CAPTURE(name);
+    for (const auto& named : meshes()) {
+        CAPTURE(named.first);
+        const tf::mesh& mesh = named.second;
         const tf::closest_point_query query(mesh);
         std::vector<tf::point3> queries = queries_around(source, 300, 8.0);
         for (const tf::point3& p : queries_around(source, 300, 1.0)) queries.push_back(p);
