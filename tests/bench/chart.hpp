@@ -55,9 +55,9 @@ struct heat_map {
     bench::caption caption;
     std::string x_label;
     std::string y_label;
-    std::vector<std::string> columns;
-    std::vector<std::string> rows;
-    std::vector<std::vector<double>> values;  ///< [rows][columns], 0 for none
+    std::vector<std::string> columns{};
+    std::vector<std::string> rows{};
+    std::vector<std::vector<double>> values{};  ///< [rows][columns], 0 for none
 };
 
 /// The picture as the text of an SVG file that needs nothing else. Every mark has its value as a

@@ -9,6 +9,7 @@ namespace tf::bench {
 // CMakeLists.txt.
 #define TREEFORM_WORKLOAD(name) void name(const setting& setting, const contest_visitor& visit)
 TREEFORM_WORKLOAD(tree_build);              // b1
+TREEFORM_WORKLOAD(poses_by_peers);          // b2
 TREEFORM_WORKLOAD(near_pairs_from_arrays);  // b3
 TREEFORM_WORKLOAD(self_intersections);      // b5
 TREEFORM_WORKLOAD(files);                   // b8
@@ -17,20 +18,27 @@ TREEFORM_WORKLOAD(build_by_peers);          // f2
 TREEFORM_WORKLOAD(build_by_threads);        // f5
 TREEFORM_WORKLOAD(strategies);              // f6
 TREEFORM_WORKLOAD(near_pairs_given_trees);  // f7
+TREEFORM_WORKLOAD(arities);                 // f8
+TREEFORM_WORKLOAD(poses);                   // t1
 #undef TREEFORM_WORKLOAD
 
 #define TREEFORM_DRAWING(name) \
     section name(const std::vector<outcome>& outcomes, const std::string& machine)
+TREEFORM_DRAWING(draw_poses_by_peers);
 TREEFORM_DRAWING(draw_near_pairs_from_arrays);
 TREEFORM_DRAWING(draw_build_by_peers);
 TREEFORM_DRAWING(draw_build_by_threads);
 TREEFORM_DRAWING(draw_strategies);
 TREEFORM_DRAWING(draw_near_pairs);
+TREEFORM_DRAWING(draw_arities);
+TREEFORM_DRAWING(draw_poses);
 #undef TREEFORM_DRAWING
 
 std::span<const workload> workloads() {
     static const std::array all{
         workload{"B1", "tree build: triangles as arrays -> tree, boxes included", tree_build},
+        workload{"B2", "two models in random positions, beside FCL and CGAL, trees given",
+                 poses_by_peers, draw_poses_by_peers},
         workload{"B3", "near pairs of points: arrays -> pairs, tree included",
                  near_pairs_from_arrays, draw_near_pairs_from_arrays},
         workload{"B5", "self-intersections: arrays -> classified pairs, tree included",
@@ -43,6 +51,9 @@ std::span<const workload> workloads() {
         workload{"F6", "tree build by selection algorithm", strategies, draw_strategies},
         workload{"F7", "near pairs of points, trees given", near_pairs_given_trees,
                  draw_near_pairs},
+        workload{"F8", "sorted stack against heap, by arity and leaf size", arities, draw_arities},
+        workload{"T1", "two models in random positions, beside the paper, trees given", poses,
+                 draw_poses},
     };
     return all;
 }
