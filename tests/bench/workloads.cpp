@@ -11,6 +11,7 @@ namespace tf::bench {
 TREEFORM_WORKLOAD(tree_build);              // b1
 TREEFORM_WORKLOAD(poses_by_peers);          // b2
 TREEFORM_WORKLOAD(near_pairs_from_arrays);  // b3
+TREEFORM_WORKLOAD(nearness);                // b4
 TREEFORM_WORKLOAD(self_intersections);      // b5
 TREEFORM_WORKLOAD(files);                   // b8
 TREEFORM_WORKLOAD(predicates);              // b9
@@ -26,6 +27,7 @@ TREEFORM_WORKLOAD(poses);                   // t1
     section name(const std::vector<outcome>& outcomes, const std::string& machine)
 TREEFORM_DRAWING(draw_poses_by_peers);
 TREEFORM_DRAWING(draw_near_pairs_from_arrays);
+TREEFORM_DRAWING(draw_nearness);
 TREEFORM_DRAWING(draw_build_by_peers);
 TREEFORM_DRAWING(draw_build_by_threads);
 TREEFORM_DRAWING(draw_strategies);
@@ -41,6 +43,8 @@ std::span<const workload> workloads() {
                  poses_by_peers, draw_poses_by_peers},
         workload{"B3", "near pairs of points: arrays -> pairs, tree included",
                  near_pairs_from_arrays, draw_near_pairs_from_arrays},
+        workload{"B4", "nearest point of a mesh, nearest points of a cloud", nearness,
+                 draw_nearness},
         workload{"B5", "self-intersections: arrays -> classified pairs, tree included",
                  self_intersections},
         workload{"B8", "files: read and write, page cache warm", files},
