@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,11 +35,14 @@ template <class T, std::size_t D>
                               const tree_frame<D>& frame) {
     // The exact image of the box lies within one rounding of what is computed here; a slot that
     // holds the computed one without any slack was not rounded outward.
+    // An infinite side holds everything, also what overflows here.
+    constexpr float infinity = std::numeric_limits<float>::infinity();
     for (std::size_t k = 0; k < D; ++k) {
         const double lo = (static_cast<double>(box.min[k]) - frame.origin[k]) * frame.scale;
         const double hi = (static_cast<double>(box.max[k]) - frame.origin[k]) * frame.scale;
-        if (!(static_cast<double>(node.min[k][slot]) < lo)) return false;
-        if (!(static_cast<double>(node.max[k][slot]) > hi)) return false;
+        const float min = node.min[k][slot], max = node.max[k][slot];
+        if (!(static_cast<double>(min) < lo) && min != -infinity) return false;
+        if (!(static_cast<double>(max) > hi) && max != infinity) return false;
     }
     return true;
 }

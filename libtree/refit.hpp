@@ -1,0 +1,140 @@
+#pragma once
+/// \file
+/// New boxes for a tree whose primitives have moved: the order of its leaves stays.
+
+#include <libtree/build.hpp>
+#include <libtree/detail/node_bounds.hpp>
+#include <libtree/detail/refit_levels.hpp>
+#include <libtree/export.hpp>
+#include <libtree/parallel.hpp>
+#include <libtree/tree.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <ranges>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tf {
+
+/// [N] where each primitive is in leaf order: the inverse of `tree.ids()`.
+///
+/// \pre  the tree is as `build` made it
+/// \same on any number of threads
+template <std::size_t D>
+[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> places_of(const tree<D>& tree);
+
+/// What a tree costs to search: the sum of the extents of all node boxes over those of the whole.
+/// A random plane (in 2D: line) that meets the box of the whole tree opens so many nodes on
+/// average. 1 for a tree that is one node, or whose primitives are all one point.
+///
+/// To bound what refits lose, compare with the figure after the build: searches open more nodes
+/// in about that ratio, and from 1.3 on a rebuild pays within some searches of all primitives.
+///
+/// \cost O(N / 8)
+/// \same on any number of threads
+/// \source Crofton: the planes that meet a convex body measure as its mean width, which is
+///         proportional to the sum of the extents of a box. Goldsmith and Salmon, Automatic
+///         Creation of Object Hierarchies for Ray Tracing, IEEE CG&A 7 (1987), for lines
+template <std::size_t D>
+[[nodiscard]] TREEFORM_API double relative_extent(const tree<D>& tree);
+
+namespace detail {
+
+[[noreturn]] inline void refuse_refit(std::size_t element) {
+    throw std::invalid_argument("tf::refit: the box of element " + std::to_string(element) +
+                                " is empty or not finite");
+}
+
+/// Calls `write(writer, i)` for i in [0, count), which `put`s boxes until one is not sound, and
+/// returns the lowest primitive whose box was not, or `no_primitive`.
+template <std::size_t D, class Write>
+[[nodiscard]] std::uint32_t write_in_chunks(tree<D>& tree, std::size_t count, std::size_t grain,
+                                            const Write& write) {
+    std::vector<std::uint32_t> bad(chunk_count(count, grain), no_primitive);
+    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        slot_writer<D> writer(tree);
+        bool sound = true;
+        for (std::size_t i = begin; i < end && sound; ++i) sound = write(writer, i);
+        if (!sound || !writer.flush()) bad[chunk] = tree.ids()[writer.bad_place()];
+    });
+    return bad.empty() ? no_primitive : *std::min_element(bad.begin(), bad.end());
+}
+
+/// Writes the boxes `box_of(id)` of the primitives in `slots` and corrects the levels above; slots
+/// without a primitive stay. Returns as `write_in_chunks`.
+template <std::size_t D, class BoxOf>
+[[nodiscard]] std::uint32_t refit_slots(tree<D>& tree, std::span<const leaf_slots> slots,
+                                        const BoxOf& box_of) {
+    const auto write = [&](slot_writer<D>& writer, std::size_t i) {
+        for (unsigned rest = slots[i].slots; rest != 0; rest &= rest - 1) {
+            const std::uint32_t place =
+                8 * slots[i].block + static_cast<std::uint32_t>(std::countr_zero(rest));
+            const std::uint32_t id = tree.ids()[place];
+            if (id != no_primitive && !writer.put(place, box_of(id))) return false;
+        }
+        return true;
+    };
+    const std::uint32_t bad = write_in_chunks(tree, slots.size(), 1024, write);
+    lift_blocks(tree, slots);
+    return bad;
+}
+
+}  // namespace detail
+
+/// Gives every primitive of `tree` the box that `make_aabb` now makes for its element of `range`.
+/// The order of the leaves stays, and so does the frame: the tree is right for any boxes, and as
+/// good as before where neighbours stay neighbours (`relative_extent` tells). With the boxes it
+/// was built with, it stays as it is.
+///
+/// \pre    `range` has the size of the tree
+/// \throws std::invalid_argument naming an element whose box is not finite or is empty; some of
+///         the others then have their new boxes, and a refit with sound ones mends the tree
+/// \cost   O(N), about a fifth of a build
+/// \same   on any number of threads; `make_aabb` is called once an element
+/// \source van den Bergen, Efficient Collision Detection of Complex Deformable Models using AABB
+///         Trees, JGT 2 (1997)
+template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
+requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
+void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb) {
+    const auto write = [&](detail::slot_writer<D>& writer, std::size_t place) {
+        return writer.put(static_cast<std::uint32_t>(place),
+                          make_aabb(std::ranges::begin(
+                              range)[static_cast<std::ranges::range_difference_t<const Range>>(
+                              tree.ids()[place])]));
+    };
+    const std::uint32_t bad =
+        detail::write_in_chunks(tree, tree.size(), std::size_t{1} << 13, write);
+    detail::lift_all(tree);
+    if (bad != detail::no_primitive) detail::refuse_refit(bad);
+}
+
+/// The same for the primitives at `places` of the leaf order (`places_of`) only: what is not named
+/// keeps its box. Any order, and a place may come more than once.
+///
+/// \throws std::invalid_argument also for a place that is not in the tree, naming it; nothing has
+///         changed then
+/// \cost   O(P log N) for P places, none but them and their ancestors being touched; O(N / 8)
+///         bytes are swept where P is above N / 128
+template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
+requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
+void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb,
+           std::span<const std::uint32_t> places) {
+    for (const std::uint32_t place : places)
+        if (place >= tree.size())
+            throw std::invalid_argument("tf::refit: place " + std::to_string(place) +
+                                        " is not in the tree");
+    const std::uint32_t bad = detail::refit_slots(
+        tree, std::span<const detail::leaf_slots>(detail::slots_at(places, tree.size())),
+        [&](std::uint32_t id) {
+            return make_aabb(std::ranges::begin(
+                range)[static_cast<std::ranges::range_difference_t<const Range>>(id)]);
+        });
+    if (bad != detail::no_primitive) detail::refuse_refit(bad);
+}
+
+}  // namespace tf
