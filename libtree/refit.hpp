@@ -10,13 +10,15 @@
 #include <libtree/tree.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 namespace tf {
@@ -65,21 +67,71 @@ template <std::size_t D, class Write>
     return bad.empty() ? no_primitive : *std::min_element(bad.begin(), bad.end());
 }
 
-/// Writes the boxes `box_of(id)` of the primitives in `slots` and corrects the levels above; slots
-/// without a primitive stay. Returns as `write_in_chunks`.
+/// The boxes of the elements of a range, which are asked for in the order of the leaves.
+template <class Range, class MakeBox>
+struct element_boxes {
+    const Range& range;
+    const MakeBox& make_aabb;
+
+    decltype(auto) element(std::size_t i) const {
+        return std::ranges::begin(
+            range)[static_cast<std::ranges::range_difference_t<const Range>>(i)];
+    }
+    auto operator()(std::uint32_t id) const { return make_aabb(element(id)); }
+
+    /// Elements come from anywhere in memory: those that are objects are asked for early.
+    void prefetch(std::uint32_t id) const {
+        if constexpr (std::is_lvalue_reference_v<decltype(element(id))>) {
+            const char* const first = reinterpret_cast<const char*>(std::addressof(element(id)));
+            __builtin_prefetch(first);
+            __builtin_prefetch(first + sizeof(element(id)) - 1);
+        }
+    }
+};
+template <class Range, class MakeBox>
+element_boxes(const Range&, const MakeBox&) -> element_boxes<Range, MakeBox>;
+
+/// Writes all boxes and corrects the levels above. Returns as `write_in_chunks`.
+template <std::size_t D, class BoxOf>
+[[nodiscard]] std::uint32_t refit_all(tree<D>& tree, const BoxOf& box_of) {
+    constexpr std::size_t ahead = 24;
+    const std::span<const std::uint32_t> ids = tree.ids();
+    const std::uint32_t bad = write_in_chunks(
+        tree, tree.size(), std::size_t{1} << 13, [&](slot_writer<D>& writer, std::size_t place) {
+            if (place + ahead < ids.size()) box_of.prefetch(ids[place + ahead]);
+            return writer.put(static_cast<std::uint32_t>(place), box_of(ids[place]));
+        });
+    lift_all(tree);
+    return bad;
+}
+
+/// Calls `visit(place)` for the places of `slots` until it returns false, and returns whether it
+/// never did.
+template <class Visit>
+bool for_places(const leaf_slots& slots, const Visit& visit) {
+    for (unsigned rest = slots.slots; rest != 0; rest &= rest - 1)
+        if (!visit(8 * slots.block + static_cast<std::uint32_t>(std::countr_zero(rest))))
+            return false;
+    return true;
+}
+
+/// The same for the primitives in `slots` only; slots without a primitive stay.
 template <std::size_t D, class BoxOf>
 [[nodiscard]] std::uint32_t refit_slots(tree<D>& tree, std::span<const leaf_slots> slots,
                                         const BoxOf& box_of) {
-    const auto write = [&](slot_writer<D>& writer, std::size_t i) {
-        for (unsigned rest = slots[i].slots; rest != 0; rest &= rest - 1) {
-            const std::uint32_t place =
-                8 * slots[i].block + static_cast<std::uint32_t>(std::countr_zero(rest));
-            const std::uint32_t id = tree.ids()[place];
-            if (id != no_primitive && !writer.put(place, box_of(id))) return false;
-        }
-        return true;
-    };
-    const std::uint32_t bad = write_in_chunks(tree, slots.size(), 1024, write);
+    constexpr std::size_t ahead = 12;
+    const std::span<const std::uint32_t> ids = tree.ids();
+    const std::uint32_t bad =
+        write_in_chunks(tree, slots.size(), 1024, [&](slot_writer<D>& writer, std::size_t i) {
+            if (i + ahead < slots.size())
+                for_places(slots[i + ahead], [&](std::uint32_t place) {
+                    if (ids[place] != no_primitive) box_of.prefetch(ids[place]);
+                    return true;
+                });
+            return for_places(slots[i], [&](std::uint32_t place) {
+                return ids[place] == no_primitive || writer.put(place, box_of(ids[place]));
+            });
+        });
     lift_blocks(tree, slots);
     return bad;
 }
@@ -94,22 +146,14 @@ template <std::size_t D, class BoxOf>
 /// \pre    `range` has the size of the tree
 /// \throws std::invalid_argument naming an element whose box is not finite or is empty; some of
 ///         the others then have their new boxes, and a refit with sound ones mends the tree
-/// \cost   O(N), about a fifth of a build
+/// \cost   O(N), about a third of a build
 /// \same   on any number of threads; `make_aabb` is called once an element
 /// \source van den Bergen, Efficient Collision Detection of Complex Deformable Models using AABB
 ///         Trees, JGT 2 (1997)
 template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
 void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb) {
-    const auto write = [&](detail::slot_writer<D>& writer, std::size_t place) {
-        return writer.put(static_cast<std::uint32_t>(place),
-                          make_aabb(std::ranges::begin(
-                              range)[static_cast<std::ranges::range_difference_t<const Range>>(
-                              tree.ids()[place])]));
-    };
-    const std::uint32_t bad =
-        detail::write_in_chunks(tree, tree.size(), std::size_t{1} << 13, write);
-    detail::lift_all(tree);
+    const std::uint32_t bad = detail::refit_all(tree, detail::element_boxes{range, make_aabb});
     if (bad != detail::no_primitive) detail::refuse_refit(bad);
 }
 
@@ -128,12 +172,9 @@ void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb,
         if (place >= tree.size())
             throw std::invalid_argument("tf::refit: place " + std::to_string(place) +
                                         " is not in the tree");
-    const std::uint32_t bad = detail::refit_slots(
-        tree, std::span<const detail::leaf_slots>(detail::slots_at(places, tree.size())),
-        [&](std::uint32_t id) {
-            return make_aabb(std::ranges::begin(
-                range)[static_cast<std::ranges::range_difference_t<const Range>>(id)]);
-        });
+    const std::vector<detail::leaf_slots> slots = detail::slots_at(places, tree.size());
+    const std::uint32_t bad =
+        detail::refit_slots<D>(tree, slots, detail::element_boxes{range, make_aabb});
     if (bad != detail::no_primitive) detail::refuse_refit(bad);
 }
 

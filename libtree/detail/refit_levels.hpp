@@ -7,10 +7,10 @@
 #include <libtree/tree.hpp>
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace tf::detail {
