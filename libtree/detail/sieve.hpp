@@ -15,9 +15,9 @@ namespace tf::detail {
 /// the top down, by selection, so that every part gets its exact number.
 ///
 /// \pre    `plan` has so many rounds left
-/// \cost   O(count) expected; each bracket that misses its cut costs another pass, at most one a
-/// node \same   on any number of threads \source Men, Shen, Gu and Sun, Parallel kd-tree with Batch
-/// Updates, SIGMOD 2025 (the sieve),
+/// \cost   O(count) expected; a bracket that misses its cut costs another pass, at most one a node
+/// \same   on any number of threads
+/// \source the sieve of Men, Shen, Gu and Sun, Parallel kd-tree with Batch Updates, SIGMOD 2025,
 ///         made exact by brackets as in Floyd and Rivest, CACM 18 (1975)
 void sieve(const split_record* from, split_record* to, const split_plan& plan,
            const split_part& part);
