@@ -19,7 +19,8 @@ struct aabb {
     std::array<T, D> min = filled(std::numeric_limits<T>::infinity());
     std::array<T, D> max = filled(-std::numeric_limits<T>::infinity());
 
-    /// Grows to hold `point`, anything with [].
+    /// Grows to hold `point`, anything with [], its coordinates rounded to T: a box of float around
+    /// points of double may miss them by a rounding. A coordinate that is NaN changes nothing.
     template <class Point>
     constexpr void include(const Point& point) {
         for (std::size_t i = 0; i < D; ++i)

@@ -38,7 +38,8 @@ concept box_maker = requires(const F& make_aabb, Element element) {
     { make_aabb(element).min.size() } -> std::convertible_to<std::size_t>;
 };
 
-/// Builds trees and keeps the memory between builds. Not for two threads at once.
+/// Builds trees and keeps the memory between builds, 24 bytes an element of the largest. Not for
+/// two threads at once. A build that throws leaves `tree` to be rebuilt, not to be searched.
 template <std::size_t D>
 class builder {
   public:
@@ -68,9 +69,11 @@ class builder {
 ///
 /// \throws std::invalid_argument naming the element whose box is not finite or is empty, or when
 ///         the range holds more than `tree<D>::max_size` elements
-/// \cost   O(N log N) expected time; about 56 bytes an element at its peak in space, 32 of them
-/// kept \same   on any number of threads; a random-access range is read in parallel, `make_aabb` is
-///         called up to twice an element
+/// \cost   O(N log N) expected time; in space about 56 bytes an element at the peak, of which the
+///         tree keeps 32, and the boxes of a range without random access
+/// \same   on any number of threads; a random-access range of known size is read in parallel,
+///         `make_aabb` being called up to twice an element and by several threads at once; any
+///         other is read once, in order
 /// \source Sajovic, Knez and Korez, tf::tree, Algorithm 1; the selection after Floyd and Rivest
 template <class Strategy = strategy::bracketed_select, std::ranges::input_range Range,
           class MakeBox>

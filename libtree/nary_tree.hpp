@@ -150,7 +150,7 @@ class nary_builder {
 /// \throws std::invalid_argument for an inner size outside 2 ... 16 or a leaf size of 0, or naming
 ///         the element whose box is empty or not finite
 /// \cost   O(N log N) expected time with a selection in linear time
-/// \same   on any number of threads
+/// \same   on any number of threads; `make_aabb` is called once an element, in order
 /// \source Sajovic, Knez and Korez, tf::tree, Algorithm 1
 template <partition_strategy Strategy = strategy::nth_element, std::ranges::input_range Range,
           class MakeBox>

@@ -70,7 +70,7 @@ template <std::size_t D, class Queries, class Search>
 /// [Q] `nearest` for each of `queries`, in their order; `distance_of(query, id)` gets the number of
 /// the query as well, and is called by several threads at once.
 ///
-/// \throws std::invalid_argument as `nearest`
+/// \throws std::invalid_argument as `nearest`, naming the query
 /// \cost   O(Q) beyond the searches, which run in parallel and in the order of space, so that each
 ///         finds in the cache what the one before has read, and is bounded by its answer
 /// \same   on any number of threads: as calling `nearest` for each

@@ -61,7 +61,9 @@ template <std::size_t D, class DistanceOf>
                                    const DistanceOf& distance_of,
                                    double radius = std::numeric_limits<double>::infinity());
 
-/// The nearest pair, none when a tree is empty or all are beyond the radius. See `k_nearest_pairs`.
+/// The nearest pair, of equally near ones that of the lowest numbers, but of those at distance zero
+/// any, the same in every run; none when a tree is empty or all are beyond the radius. See
+/// `k_nearest_pairs`.
 template <std::size_t D, class DistanceOf>
 [[nodiscard]] auto nearest_pair(const transformed<D>& a, const transformed<D>& b,
                                 const DistanceOf& distance_of,

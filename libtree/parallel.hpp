@@ -16,7 +16,8 @@ namespace tf {
 
 /// Runs `body(begin, end, chunk)` once for each piece [begin, end) of [0, count) of `grain`
 /// elements (the last may be shorter), in any order, on the threads at hand. `chunk` counts the
-/// pieces from 0. Returns when all are done; an exception of a body is passed on to the caller.
+/// pieces from 0. Returns when all are done; an exception of a body is passed on to the caller, one
+/// of them when several throw, and chunks not yet begun may then be left out.
 ///
 /// \pre  grain > 0
 /// \cost a few microseconds a call beyond the first chunk; loops of one chunk run in place

@@ -67,6 +67,7 @@ class TREEFORM_API point_search {
     }
 
     [[nodiscard]] std::size_t size() const { return tree_.size(); }
+    /// The tree over the points, which lives as long as this; its ids are their numbers.
     [[nodiscard]] const tree<D>& points_tree() const { return tree_; }
 
     /// The nearest point, none when all are beyond the radius.

@@ -145,9 +145,12 @@ template <std::floating_point T, std::size_t D, class HitOf>
 }
 
 /// Whether there is any hit: `first_hit` that stops at whichever it finds. `hit_of` is asked for
-/// fewer primitives, and may return a bool as well.
+/// fewer primitives, and may return a bool as well: whether the ray meets it within
+/// [t_min, t_max].
 ///
 /// \throws std::invalid_argument as `visit_along`
+/// \cost   at most that of `all_hits`
+/// \same   as `first_hit` in its answer; which primitives are asked may depend on the processor
 template <std::floating_point T, std::size_t D, class HitOf>
 [[nodiscard]] bool any_hit(const tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
     const double t_min = static_cast<double>(ray.t_min);

@@ -1,8 +1,9 @@
 #pragma once
 /// \file
 /// Search of a tree by a box, or by anything that can be held against a box. With the headers
-/// included here, all searches: `search` and `search_broad`, `search_any`, `search_all` of one tree
-/// and of two, `search_self`, `search_self_broad`, `search_self_any`, `search_self_all`.
+/// included here, all searches: `search`, `search_broad`, `search_any`, `search_all` of one tree
+/// and of two; `search_self`, `search_self_broad`, `search_self_any`, `search_self_all`; and
+/// `search_any_broad` of two trees.
 
 #include <libtree/aabb.hpp>
 #include <libtree/candidates.hpp>

@@ -71,9 +71,10 @@ class TREEFORM_API pair_search {
 
 /// Calls `apply(state, a, b)` for every pair of a primitive `a` of the first tree and `b` of the
 /// second whose boxes overlap. Returns the states, one a chunk, in an order that depends on the
-/// trees alone: no state is shared between threads. Where `apply` returns true (it may return
-/// nothing), the search stops: the state it was given is the last of those returned, and they hold
-/// what one thread would have found.
+/// trees alone: no state is shared between threads, `apply` is called by several. A state is made
+/// by `State{}` and moved. Where `apply` returns true (it may return nothing), the search stops:
+/// the state it was given is the last of those returned, and they hold what one thread would have
+/// found.
 ///
 /// Either side may be `transformed{tree, map}`.
 template <class State, placed_tree A, placed_tree B, class Apply>
@@ -90,7 +91,8 @@ template <class State, placed_tree A, placed_tree B, class Apply>
         });
 }
 
-/// The same by blocks of candidates, `apply(state, block)`: for those who test several at once.
+/// The same by blocks of candidates, `apply(state, block)`: for those who test several at once. A
+/// block names places in leaf order, not ids.
 template <class State, placed_tree A, placed_tree B, class Apply>
 [[nodiscard]] std::vector<State> search_broad(const A& a, const B& b, const Apply& apply) {
     return detail::search_states<State>(pair_search<A::dimensions>(a, b),
@@ -102,8 +104,8 @@ template <class State, placed_tree A, placed_tree B, class Apply>
 /// Whether `accept(block)` is true for some block of candidates; it is called from several threads,
 /// and no more once one is known.
 ///
-/// Looks at some thousand candidates on one thread before it cuts the search for all: a collision
-/// that is easy to find costs no more than the way down to it.
+/// A block may be handed out twice. Looks at some thousand candidates on one thread before it cuts
+/// the search for all: a collision that is easy to find costs no more than the way down to it.
 template <placed_tree A, placed_tree B, class Accept>
 [[nodiscard]] bool search_any_broad(const A& a, const B& b, const Accept& accept) {
     constexpr std::size_t serially = 4096;
@@ -119,7 +121,7 @@ template <placed_tree A, placed_tree B, class Accept>
 }
 
 /// The same by pairs: whether `accept(a, b)` is true for some pair of primitives whose boxes
-/// overlap.
+/// overlap. `accept` is called from several threads, and may be asked about a pair twice.
 template <placed_tree A, placed_tree B, class Accept>
 [[nodiscard]] bool search_any(const A& a, const B& b, const Accept& accept) {
     const transformed<A::dimensions> first(a), second(b);

@@ -47,9 +47,10 @@ class TREEFORM_API self_search {
 
 /// Calls `apply(state, a, b)` for every pair of primitives a, b of the range the tree was built
 /// over whose boxes overlap, a at the earlier place in leaf order. Returns the states, one a chunk,
-/// in an order that depends on the tree alone: no state is shared between threads. Where `apply`
-/// returns true (it may return nothing), the search stops: the state it was given is the last of
-/// those returned, and they hold what one thread would have found.
+/// in an order that depends on the tree alone: no state is shared between threads, `apply` is
+/// called by several. A state is made by `State{}` and moved. Where `apply` returns true (it may
+/// return nothing), the search stops: the state it was given is the last of those returned, and
+/// they hold what one thread would have found.
 template <class State, std::size_t D, class Apply>
 [[nodiscard]] std::vector<State> search_self(const tree<D>& tree, const Apply& apply) {
     const auto id = tree.ids();
@@ -62,7 +63,8 @@ template <class State, std::size_t D, class Apply>
         });
 }
 
-/// The same by blocks of candidates, `apply(state, block)`: for those who test several at once.
+/// The same by blocks of candidates, `apply(state, block)`: for those who test several at once. A
+/// block names places in leaf order, not ids.
 template <class State, std::size_t D, class Apply>
 [[nodiscard]] std::vector<State> search_self_broad(const tree<D>& tree, const Apply& apply) {
     return detail::search_states<State>(self_search<D>(tree),

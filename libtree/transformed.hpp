@@ -11,8 +11,9 @@
 namespace tf {
 
 /// A tree whose contents count as moved by an affine map: `search(transformed{tree, map}, other,
-/// ...)`. Boxes are moved when a search opens their node, and grow by the turning of boxes: none
-/// for a translation or a quarter turn, up to sqrt(D) in each direction otherwise.
+/// ...)`. Boxes are moved when a search opens their node, and grow by the turning of boxes: not for
+/// a translation or a quarter turn; under another rotation, to at most sqrt(D) times their longest
+/// side in each direction.
 ///
 /// The moved boxes hold the exact images of the primitives, and also the images that
 /// `transform::operator()` rounds to double; so both those who decide on exact images and those

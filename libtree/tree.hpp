@@ -23,9 +23,10 @@ struct alignas(64) wide_node {
 };
 
 /// How tree boxes lie in space: a coordinate x of axis k is stored as (x - origin[k]) * scale,
-/// rounded outward to float. Boxes about a local origin stay tight however far the model is from
-/// the origin of its own coordinates, and a power-of-two scale keeps tiny and huge models away
-/// from the ends of the range of float.
+/// rounded outward to float; a box of a primitive besides grows by up to 2^-13 of half its extent
+/// on each side. Boxes about a local origin stay tight however far the model is from the origin of
+/// its own coordinates, and a power-of-two scale keeps tiny and huge models away from the ends of
+/// the range of float.
 template <std::size_t D>
 struct tree_frame {
     std::array<double, D> origin{};
@@ -41,7 +42,8 @@ struct tree_frame {
 /// of ids()[8i + s]. On the levels above, node i holds the boxes of its children, nodes
 /// 8i ... 8i+7 of the level below. Level 0 is the root. So a node of level l covers the places
 /// [i * capacity(l), (i + 1) * capacity(l)), as far as there are any, and every level has an eighth
-/// of the nodes of the next: at most 32 bytes a primitive in space, ids included, whatever N is.
+/// of the nodes of the next: 32 bytes a primitive in space, 23 in the plane, ids included, and one
+/// node of a level that is not full. The tree refers to nothing; copies are deep.
 ///
 /// \source the balanced n-ary layout of Sajovic, Knez and Korez, tf::tree, section III-A, with
 ///         boxes stored in their parent and no offsets; packed as by Kamel and Faloutsos, On
@@ -52,7 +54,8 @@ class tree {
     static constexpr std::size_t dimensions = D;
     static constexpr std::size_t width = wide_node<D>::width;
 
-    /// An empty tree over `size` primitives; `build` fills it.
+    /// A tree over nothing, to be searched (nothing is found) and rebuilt. It has no memory, so no
+    /// nodes to look at before `reset`.
     tree() = default;
 
     /// Takes the shape for `size` primitives; memory is reused, contents are not.
@@ -81,7 +84,7 @@ class tree {
     [[nodiscard]] std::size_t capacity(unsigned level) const {
         return std::size_t{1} << (3 * (levels_ - level));
     }
-    /// At least the root, which an empty tree has, too.
+    /// At least the root, which a tree built over nothing has, too.
     [[nodiscard]] std::size_t nodes_in_level(unsigned level) const {
         return level == 0 ? 1 : (size_ + capacity(level) - 1) / capacity(level);
     }

@@ -9,8 +9,8 @@
 #define TREEFORM_VERSION_MINOR 1
 #define TREEFORM_VERSION_PATCH 0
 
-/// The number of a version, for comparisons: `#if TREEFORM_VERSION >= TREEFORM_VERSION_OF(1, 2,
-/// 0)`.
+/// The number of a version, for comparisons:
+/// `#if TREEFORM_VERSION >= TREEFORM_VERSION_OF(1, 2, 0)`.
 #define TREEFORM_VERSION_OF(major, minor, patch) ((major)*1000000 + (minor)*1000 + (patch))
 
 /// The version of the headers.
