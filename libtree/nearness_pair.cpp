@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libtree/nearness_pair.cpp"
@@ -142,17 +141,17 @@ pair_entry<D> roots_of(const Context& in) {
     return {0.0F, whole(in.a, in.map_a), whole(in.b, in.map_b)};
 }
 
-/// Depth first from `stack` until it is empty or `budget` pairs have been looked at.
+/// Depth first until `stack` is empty.
 template <std::size_t D, class Context>
-void walk(const Context& in, std::vector<pair_entry<D>>& stack, double squared, std::size_t budget,
-          const std::atomic<double>* shared, function_ref<bool()> stop, visit_blocks visit) {
-    double limit = squared;
+void walk(const Context& in, std::vector<pair_entry<D>>& stack, const std::atomic<double>& shared,
+          function_ref<bool()> stop, visit_blocks visit) {
+    double limit = shared.load();
     float bound = in.bound_of(limit);
-    for (; !stack.empty() && budget != 0; --budget) {
+    while (!stack.empty()) {
         const pair_entry<D> at = stack.back();
         stack.pop_back();
-        if (shared != nullptr && shared->load(std::memory_order_relaxed) < limit) {
-            limit = shared->load(std::memory_order_relaxed);
+        if (shared.load(std::memory_order_relaxed) < limit) {
+            limit = shared.load(std::memory_order_relaxed);
             bound = in.bound_of(limit);
         }
         if (!(at.lower <= bound)) continue;
@@ -166,17 +165,79 @@ void walk(const Context& in, std::vector<pair_entry<D>>& stack, double squared, 
     }
 }
 
+/// Pairs of nodes, the nearest on top. The heap moves only keys.
+template <std::size_t D>
+class nearest_first_queue {
+  public:
+    void push(const pair_entry<D>& entry) {
+        keys_.push_back({entry.lower, static_cast<std::uint32_t>(entries_.size())});
+        entries_.push_back(entry);
+        std::push_heap(keys_.begin(), keys_.end(), further);
+    }
+    [[nodiscard]] bool empty() const { return keys_.empty(); }
+    pair_entry<D> pop() {
+        std::pop_heap(keys_.begin(), keys_.end(), further);
+        const std::uint32_t index = keys_.back().index;
+        keys_.pop_back();
+        return entries_[index];
+    }
+
+  private:
+    struct key {
+        float lower;
+        std::uint32_t index;
+    };
+    static bool further(const key& x, const key& y) {
+        return x.lower != y.lower ? x.lower > y.lower : x.index > y.index;
+    }
+    std::vector<key> keys_;
+    std::vector<pair_entry<D>> entries_;
+};
+
+/// Straight down to a first pair of leaf blocks, for a first bound; then best first, which opens
+/// the fewest nodes and is soon near the final bound. Leaves what is left in `items`.
+template <std::size_t D, class Context>
+void walk_best_first(const Context& in, double squared, std::size_t budget,
+                     function_ref<bool()> stop, visit_blocks visit,
+                     std::vector<pair_entry<D>>& items) {
+    float bound = in.bound_of(squared);
+    nearest_first_queue<D> queue;
+    std::vector<pair_entry<D>> below;
+    const auto look_at = [&](const pair_entry<D>& at) {
+        if (is_last(in.a, in.b, at))
+            bound = std::min(bound, in.bound_of(visit_last(in, at, bound, visit)));
+        else
+            open_larger(in, at, bound, below);
+    };
+    for (below = {roots_of<D>(in)}; !below.empty();) {
+        const pair_entry<D> nearest = below.back();
+        below.pop_back();
+        for (const pair_entry<D>& other : below) queue.push(other);
+        below.clear();
+        look_at(nearest);
+    }
+    for (; !queue.empty() && budget != 0 && !stop(); --budget) {
+        const pair_entry<D> at = queue.pop();
+        if (!(at.lower <= bound)) return;
+        look_at(at);
+        for (const pair_entry<D>& child : below) queue.push(child);
+        below.clear();
+    }
+    while (!queue.empty() && !stop()) items.push_back(queue.pop());
+}
+
 template <std::size_t D, class Context>
 void begin_walk(const Context& in, double squared, function_ref<bool()> stop, visit_blocks visit,
                 std::vector<pair_entry<D>>& items) {
-    // To stop after this many pairs of nodes, and to leave as many for the threads.
-    constexpr std::size_t budget = 2048;
-    constexpr std::size_t enough = 1024;
+    // Enough for a bound near the final one; then depth first, which stays near in memory, in a few
+    // large pieces.
+    constexpr std::size_t budget = 64;
+    constexpr std::size_t enough = 64;
     double limit = squared;
-    items = {roots_of<D>(in)};
-    walk(in, items, squared, budget, nullptr, stop,
-         [&](const block_pair& blocks) { return limit = visit(blocks); });
-    if (stop()) items.clear();
+    items.clear();
+    walk_best_first(
+        in, squared, budget, stop, [&](const block_pair& blocks) { return limit = visit(blocks); },
+        items);
     const float bound = in.bound_of(limit);
     bool opened = true;
     while (opened && items.size() < enough) {
@@ -204,8 +265,7 @@ void visit_items(const Context& in, const pair_entry<D>* first, const pair_entry
     stack.reserve(192);
     for (; first != last && !stop(); ++first) {
         stack.assign(1, *first);
-        walk(in, stack, shared.load(), std::numeric_limits<std::size_t>::max(), &shared, stop,
-             visit);
+        walk(in, stack, shared, stop, visit);
     }
 }
 

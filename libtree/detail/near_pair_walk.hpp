@@ -55,9 +55,9 @@ class TREEFORM_API pair_walk {
     /// Squared distances will be those of coordinates times `unit`, a power of two.
     pair_walk(const transformed<D>& a, const transformed<D>& b, double unit);
 
-    /// Walks depth first, the nearest children first, for a while: to the end when that is near.
-    /// Then cuts what is left into pairs of nodes, the nearest first.
-    /// `stop` says, after each visit, when nothing is of interest any more.
+    /// Walks best first for a while: to the end when that is near. Then cuts what is left into
+    /// pairs of nodes, the nearest first, to be searched depth first. `stop` says, after each
+    /// visit, when nothing is of interest any more.
     void begin(double squared, function_ref<bool()> stop, visit_blocks visit);
 
     [[nodiscard]] std::size_t chunks() const { return chunk_count(items_.size(), grain); }
@@ -69,7 +69,7 @@ class TREEFORM_API pair_walk {
     struct context;
 
   private:
-    static constexpr std::size_t grain = 4;
+    static constexpr std::size_t grain = 1;
     [[nodiscard]] context trees() const;
 
     const tree<D>* a_;
