@@ -105,29 +105,6 @@ std::string sentence(const std::vector<outcome>& outcomes, const std::string& su
     return text;
 }
 
-bar_chart chart_of(const std::vector<outcome>& outcomes, const std::string& suffix,
-                   const caption& caption) {
-    bar_chart chart{.caption = caption, .y = {"us a position", true}};
-    for (const outcome& outcome : outcomes) {
-        if (!outcome.name.ends_with(suffix)) continue;
-        chart.groups.push_back(outcome.name.substr(0, outcome.name.find('/')));
-        for (std::size_t i = 0; i < outcome.rows.size(); ++i) {
-            const measured& row = outcome.rows[i];
-            if (chart.groups.size() == 1)
-                chart.series.push_back({row.threads > 1
-                                            ? fmt::format("{}, {} threads", row.who, row.threads)
-                                            : row.who,
-                                        {},
-                                        row.threads > 1 ? 6
-                                        : row.who.ends_with("RSS") && !row.who.ends_with("OBBRSS")
-                                            ? 5
-                                            : tone_of(row.who)});
-            chart.series.at(i).values.push_back(*outcome.value(row.who, row.threads));
-        }
-    }
-    return chart;
-}
-
 }  // namespace
 
 void poses_by_peers(const setting& setting, const contest_visitor& visit) {
@@ -154,17 +131,19 @@ void poses_by_peers(const setting& setting, const contest_visitor& visit) {
 }
 
 section draw_poses_by_peers(const std::vector<outcome>& outcomes, const std::string& machine) {
-    return {
-        .paper = "",
-        .ours = fmt::format("of the largest models, {}; {}; {}; one thread.",
-                            sentence(outcomes, "/collide", "a collision"),
-                            sentence(outcomes, "/intersect", "finding all intersecting pairs"),
-                            sentence(outcomes, "/nearest", "the nearest points")),
-        .pictures = {
-            {"b2_collide.svg", svg(chart_of(outcomes, "/collide", {"Collision", machine}))},
-            {"b2_intersect.svg",
-             svg(chart_of(outcomes, "/intersect", {"All intersecting pairs", machine}))},
-            {"b2_nearest.svg", svg(chart_of(outcomes, "/nearest", {"Nearest points", machine}))}}};
+    return {.paper = "",
+            .ours = fmt::format("of the largest models, {}; {}; {}; one thread.",
+                                sentence(outcomes, "/collide", "a collision"),
+                                sentence(outcomes, "/intersect", "finding all intersecting pairs"),
+                                sentence(outcomes, "/nearest", "the nearest points")),
+            .pictures = {
+                {"b2_collide.svg",
+                 svg(bars_by_contest(outcomes, "/collide", {"Collision", machine}, "treeform"))},
+                {"b2_intersect.svg",
+                 svg(bars_by_contest(outcomes, "/intersect", {"All intersecting pairs", machine},
+                                     "treeform"))},
+                {"b2_nearest.svg", svg(bars_by_contest(outcomes, "/nearest",
+                                                       {"Nearest points", machine}, "treeform"))}}};
 }
 
 }  // namespace tf::bench

@@ -310,28 +310,6 @@ contest build_contest(std::size_t count) {
                              }}}};
 }
 
-bar_chart chart_of(const std::vector<outcome>& outcomes, const std::string& suffix,
-                   const caption& caption, const std::string& y_label) {
-    bar_chart chart{.caption = caption, .y = {y_label}};
-    for (const outcome& outcome : outcomes) {
-        if (!outcome.name.ends_with(suffix)) continue;
-        chart.groups.push_back(outcome.name.substr(0, outcome.name.find('/')));
-        for (std::size_t i = 0; i < outcome.rows.size(); ++i) {
-            const measured& row = outcome.rows[i];
-            if (chart.groups.size() == 1)
-                chart.series.push_back({row.threads > 1
-                                            ? fmt::format("{}, {} threads", row.who, row.threads)
-                                            : row.who,
-                                        {},
-                                        i > 0 && row.who != "paper top_k" && tone_of(row.who) <= 2
-                                            ? static_cast<int>(i % 5) + 4
-                                            : tone_of(row.who)});
-            chart.series.at(i).values.push_back(*outcome.value(row.who, row.threads));
-        }
-    }
-    return chart;
-}
-
 /// "treeform takes 1 us a query, 2.0 times as fast as ..." of the last contest of the kind.
 std::string sentence(const std::vector<outcome>& outcomes, const std::string& suffix,
                      const std::string& what) {
@@ -367,20 +345,20 @@ void nearness(const setting& setting, const contest_visitor& visit) {
 }
 
 section draw_nearness(const std::vector<outcome>& outcomes, const std::string& machine) {
-    return {.paper = "",
-            .ours = fmt::format("on one thread, {}; {}; {}.",
-                                sentence(outcomes, closest_name, "the nearest point of a mesh"),
-                                sentence(outcomes, k_nearest_name, "the ten nearest points"),
-                                sentence(outcomes, build_name, "their tree")),
-            .pictures = {
-                {"b4_closest_point.svg",
-                 svg(chart_of(outcomes, closest_name,
-                              {"Nearest point of a mesh, tree given", machine}, "us a query"))},
-                {"b4_k_nearest.svg",
-                 svg(chart_of(outcomes, k_nearest_name, {"Ten nearest points, tree given", machine},
-                              "us a query"))},
-                {"b4_build.svg",
-                 svg(chart_of(outcomes, build_name, {"Tree over points", machine}, "ms"))}}};
+    return {
+        .paper = "",
+        .ours = fmt::format("on one thread, {}; {}; {}.",
+                            sentence(outcomes, closest_name, "the nearest point of a mesh"),
+                            sentence(outcomes, k_nearest_name, "the ten nearest points"),
+                            sentence(outcomes, build_name, "their tree")),
+        .pictures = {
+            {"b4_closest_point.svg",
+             svg(bars_by_contest(outcomes, closest_name,
+                                 {"Nearest point of a mesh, tree given", machine}))},
+            {"b4_k_nearest.svg", svg(bars_by_contest(outcomes, k_nearest_name,
+                                                     {"Ten nearest points, tree given", machine}))},
+            {"b4_build.svg",
+             svg(bars_by_contest(outcomes, build_name, {"Tree over points", machine}))}}};
 }
 
 }  // namespace tf::bench

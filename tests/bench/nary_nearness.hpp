@@ -68,15 +68,16 @@ template <class Strategy, class T, std::size_t D, class BoxDistance, class Dista
 }
 
 /// Calls `visit(c, d)` for the pairs of nodes below `x` of `a` and `y` of `b`, not both of them
-/// leaves, until it returns false, as Algorithm 2 of the paper does. Returns whether it never did.
+/// leaves, until it returns false, as Algorithm 2 of the paper does; all c of a d in a row. Returns
+/// whether it never did.
 template <class T, std::size_t D, class Visit>
 bool visit_below(const nary_tree<T, D>& a, const nary_tree<T, D>& b, std::uint32_t x,
                  std::uint32_t y, const Visit& visit) {
     const auto& of_x = a.nodes[x];
     const auto& of_y = b.nodes[y];
     const bool keep_x = of_x.axis < 0, keep_y = of_y.axis < 0;
-    for (std::uint32_t i = 0; i < (keep_x ? 1 : of_x.size); ++i)
-        for (std::uint32_t j = 0; j < (keep_y ? 1 : of_y.size); ++j)
+    for (std::uint32_t j = 0; j < (keep_y ? 1 : of_y.size); ++j)
+        for (std::uint32_t i = 0; i < (keep_x ? 1 : of_x.size); ++i)
             if (!visit(keep_x ? x : of_x.offset + i, keep_y ? y : of_y.offset + j)) return false;
     return true;
 }

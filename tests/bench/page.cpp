@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace tf::bench {
 namespace {
@@ -34,6 +36,27 @@ std::string html_table(const std::vector<std::vector<std::string>>& table) {
         text += "</tr>\n";
     }
     return text + "</table></div>\n";
+}
+
+/// A series without values for each contestant; who has a colour of his own gets it first.
+std::vector<bar_series> series_of(const std::vector<measured>& rows) {
+    std::array<bool, 9> used{};
+    std::vector<bar_series> all;
+    for (const measured& row : rows) {
+        const int tone = tone_of(row.who);
+        const bool free = !std::exchange(used.at(static_cast<std::size_t>(tone)), true);
+        all.push_back(
+            {row.threads > 1 ? fmt::format("{}, {} threads", row.who, row.threads) : row.who,
+             {},
+             free ? tone : 0});
+    }
+    for (bar_series& series : all) {
+        if (series.tone != 0) continue;
+        const auto next = std::find(used.begin() + 1, used.end(), false);
+        series.tone = next == used.end() ? 8 : static_cast<int>(next - used.begin());
+        if (next != used.end()) *next = true;
+    }
+    return all;
 }
 
 void write_file(const std::string& path, std::string_view text) {
@@ -88,6 +111,33 @@ void page::write(const std::string& folder) const {
 std::string compared(double own, double other) {
     return own <= other ? fmt::format("{:.1f} times as fast as", other / own)
                         : fmt::format("{:.1f} times as slow as", own / other);
+}
+
+bar_chart bars_by_contest(std::span<const outcome> outcomes, const std::string& suffix,
+                          const caption& caption, const std::string& base) {
+    bar_chart chart{.caption = caption, .y = {}};
+    for (const outcome& outcome : outcomes) {
+        if (!outcome.name.ends_with(suffix)) continue;
+        if (chart.series.empty()) chart.series = series_of(outcome.rows);
+        chart.y.label = outcome.unit.name;
+        std::string group = outcome.name.substr(0, outcome.name.size() - suffix.size());
+        double scale = 1;
+        if (!base.empty()) {
+            const double of_base = outcome.value(base).value_or(1);
+            group += fmt::format(" ({:.3g} {})", of_base, outcome.unit.name);
+            scale = 1 / of_base;
+        }
+        chart.groups.push_back(std::move(group));
+        for (std::size_t i = 0; i < chart.series.size(); ++i) {
+            const measured& row = outcome.rows.at(i);
+            chart.series[i].values.push_back(scale * *outcome.value(row.who, row.threads));
+        }
+    }
+    if (!base.empty()) {
+        chart.y = {"time / that of " + base, true};
+        chart.line = 1;
+    }
+    return chart;
 }
 
 std::vector<curve> curves_by_size(std::span<const outcome> outcomes) {

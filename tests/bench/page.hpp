@@ -58,6 +58,13 @@ class page {
 /// "5.2 times as fast as", "1.3 times as slow as": `other` and `own` are times.
 [[nodiscard]] std::string compared(double own, double other);
 
+/// A group of bars for each contest whose name ends with `suffix`, a bar for each contestant, no
+/// two of one colour. All contests have the same contestants. With `base`, bars are multiples of
+/// the time of the contestant of that name on one thread, which stands below the group.
+[[nodiscard]] bar_chart bars_by_contest(std::span<const outcome> outcomes,
+                                        const std::string& suffix, const caption& caption,
+                                        const std::string& base = {});
+
 /// A curve of each contestant over the sizes of the contests, threads in its name where some ran
 /// with several.
 [[nodiscard]] std::vector<curve> curves_by_size(std::span<const outcome> outcomes);

@@ -73,6 +73,26 @@ class box_mover {
     transform<3> pose_;
 };
 
+/// Moves a box when it is not the one it moved last: the searches take the second tree's boxes one
+/// after the other, each with several of the first tree.
+class last_mover {
+  public:
+    explicit last_mover(const transform<3>& pose) : move_(pose) {}
+
+    [[nodiscard]] const box& operator()(const box& given) {
+        if (&given != last_) {
+            last_ = &given;
+            moved_ = move_(given);
+        }
+        return moved_;
+    }
+
+  private:
+    box_mover move_;
+    const box* last_ = nullptr;
+    box moved_;
+};
+
 triangle3 triangle_of(const mesh& mesh, std::uint32_t f) {
     const face& corners = mesh.faces[f];
     return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
@@ -97,15 +117,11 @@ auto faces_meet(const paper_trees& trees, const transform<3>& pose) {
     };
 }
 
-auto boxes_meet(const box_mover& mover) {
-    return [&mover](const box& a, const box& b) { return overlaps(a, mover(b)); };
-}
-
 template <class Strategy>
 ask_pose paper_distance_by(const scene& scene, const tree_config& config,
                            std::uint64_t* inspected) {
     return [trees = paper_trees_of(scene, config), inspected](const transform<3>& pose) {
-        const box_mover mover(pose);
+        last_mover mover(pose);
         std::uint64_t boxes = 0;
         double best = std::numeric_limits<double>::infinity();
         const double squared = nary_nearest_pair<Strategy>(
@@ -153,9 +169,11 @@ ask_pose own_distance(const scene& scene) {
 
 ask_pose paper_collide(const scene& scene) {
     return [trees = paper_trees_of(scene)](const transform<3>& pose) {
-        const box_mover mover(pose);
-        return nary_any_pair(trees->tree_a, trees->tree_b, boxes_meet(mover),
-                             faces_meet(*trees, pose))
+        last_mover mover(pose);
+        return nary_any_pair(
+                   trees->tree_a, trees->tree_b,
+                   [&](const box& a, const box& b) { return overlaps(a, mover(b)); },
+                   faces_meet(*trees, pose))
                    ? 1.0
                    : 0.0;
     };
@@ -166,10 +184,12 @@ ask_pose paper_intersect(const scene& scene) {
         const box_mover mover(pose);
         const auto meet = faces_meet(*trees, pose);
         using list = std::vector<id_pair>;
-        const auto found = search<list>(trees->tree_a, trees->tree_b, boxes_meet(mover),
-                                        [&](list& mine, std::uint32_t i, std::uint32_t j) {
-                                            if (meet(i, j)) mine.emplace_back(i, j);
-                                        });
+        const auto found = search<list>(
+            trees->tree_a, trees->tree_b,
+            [&](const box& a, const box& b) { return overlaps(a, mover(b)); },
+            [&](list& mine, std::uint32_t i, std::uint32_t j) {
+                if (meet(i, j)) mine.emplace_back(i, j);
+            });
         std::size_t count = 0;
         for (const list& part : found) count += part.size();
         return static_cast<double>(count);

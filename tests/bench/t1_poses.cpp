@@ -129,23 +129,6 @@ double mean_ratio(const std::vector<outcome>& outcomes, const std::string& suffi
     return std::exp(sum / std::max(count, 1.0));
 }
 
-bar_chart chart_of(const std::vector<outcome>& outcomes, const std::string& suffix,
-                   const caption& caption) {
-    bar_chart chart{.caption = caption, .y = {"us a position"}};
-    for (const outcome& outcome : outcomes) {
-        if (!outcome.name.ends_with(suffix)) continue;
-        const std::string pair = outcome.name.substr(0, outcome.name.find('/'));
-        chart.groups.push_back(pair);
-        for (const measured& row : outcome.rows) {
-            if (std::ranges::find(chart.series, row.who, &bar_series::name) == chart.series.end())
-                chart.series.push_back({row.who, {}, row.who == heap ? 6 : tone_of(row.who)});
-            std::ranges::find(chart.series, row.who, &bar_series::name)
-                ->values.push_back(*outcome.value(row.who));
-        }
-    }
-    return chart;
-}
-
 }  // namespace
 
 void poses(const setting& setting, const contest_visitor& visit) {
@@ -180,13 +163,14 @@ section draw_poses(const std::vector<outcome>& outcomes, const std::string& mach
             "stack finds nearest points 1.7 to 3 times as fast as the heap while it "
             "inspects 1.37 times the boxes (10,000 positions, searches on six cores).",
         .ours = ours,
-        .pictures = {{"t1_collide.svg",
-                      svg(chart_of(outcomes, "/collide", {"Collision, one thread", machine}))},
+        .pictures = {{"t1_collide.svg", svg(bars_by_contest(outcomes, "/collide",
+                                                            {"Collision, one thread", machine}))},
                      {"t1_intersect.svg",
-                      svg(chart_of(outcomes, "/intersect",
-                                   {"All intersecting pairs, one thread", machine}))},
-                     {"t1_nearest.svg", svg(chart_of(outcomes, "/nearest",
-                                                     {"Nearest points, one thread", machine}))}},
+                      svg(bars_by_contest(outcomes, "/intersect",
+                                          {"All intersecting pairs, one thread", machine}))},
+                     {"t1_nearest.svg",
+                      svg(bars_by_contest(outcomes, "/nearest",
+                                          {"Nearest points, one thread", machine}))}},
         .table = table_of(outcomes)};
 }
 
