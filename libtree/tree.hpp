@@ -68,7 +68,7 @@ class tree {
         nodes_.resize(level_begin(levels_));
     }
 
-    /// Primitives in the tree; a tree holds fewer than 2^32 - 8.
+    /// Primitives in the tree, at most `max_size`.
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] bool empty() const { return size_ == 0; }
     static constexpr std::size_t max_size = 0xFFFFFFF8;
