@@ -177,7 +177,8 @@ template <std::size_t D, nearness_query<D> Query, class DistanceOf>
                             if (one.squared_distance() <= bound) found.push_back(std::move(one));
                             return bound;
                         });
-    std::sort(found.begin(), found.end(), nearer<neighbor<answer>>);
+    std::sort(found.begin(), found.end(),
+              [](const auto& a, const auto& b) { return nearer(a, b); });
     return found;
 }
 

@@ -83,9 +83,10 @@ search_statistics visit_query(const tree<D>& tree, const Query& query, const AtL
         [&](const wide_node<D>& node, std::size_t count) {
             unsigned mask = 0;
             for (std::size_t slot = 0; slot < count; ++slot)
-                mask |= static_cast<unsigned>(
-                            static_cast<bool>(query(box_in_space(tree.frame(), node, slot))))
-                        << slot;
+                if (node.min[0][slot] <= node.max[0][slot])  // else all below has been removed
+                    mask |= static_cast<unsigned>(
+                                static_cast<bool>(query(box_in_space(tree.frame(), node, slot))))
+                            << slot;
             return mask;
         },
         at_leaf);
