@@ -22,14 +22,14 @@ struct shapes {
 shapes shapes_for(effort effort) {
     if (effort == effort::tiny) return {{2, 16}, {1, 4}};
     if (effort == effort::quick) return {{2, 4, 8, 16}, {2, 4, 8}};
-    return {{2, 3, 4, 5, 6, 8, 10, 12, 14, 16}, {1, 2, 4, 8, 16}};
+    return {{2, 3, 4, 6, 8, 12, 16}, {1, 2, 4, 8, 16}};
 }
 
 scene_name scene_for(effort effort) {
     if (effort == effort::tiny) return {{"", "2k", 2'000}, {"", "3k", 3'000}, 3};
     return {{"clean/armadillo_29k.obj", "50k", 50'000},
             {"open/bunny_69k.obj", "70k", 70'000},
-            effort == effort::quick ? 10U : 100U};
+            effort == effort::quick ? 10U : 40U};
 }
 
 constexpr const char* top_k = "paper top_k";

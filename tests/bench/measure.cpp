@@ -61,6 +61,7 @@ double median_of(const std::vector<double>& sorted) {
 
 int repetitions(effort effort, double seconds, int long_runs) {
     if (effort == effort::tiny) return 2;
+    if (seconds > 10) return 1;
     return seconds < 0.05 ? 20 : long_runs;
 }
 

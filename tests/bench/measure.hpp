@@ -25,7 +25,7 @@ struct measured {
 
 /// The times of all contestants, in their order. Each runs once to warm up, then all run in an
 /// interleaved random order: 20 times those that take less than 50 ms, `long_runs` times the others
-/// (2 and 2 with the least effort).
+/// (2 and 2 with the least effort), and once what takes more than 10 s.
 [[nodiscard]] std::vector<measured> measure(const contest& contest, const setting& setting);
 
 /// Largest resident set of this process while `contestant` runs once, its input included, what it

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 namespace tf::bench {
 namespace {
@@ -119,8 +120,8 @@ auto faces_meet(const paper_trees& trees, const transform<3>& pose) {
 
 template <class Strategy>
 ask_pose paper_distance_by(const scene& scene, const tree_config& config,
-                           std::uint64_t* inspected) {
-    return [trees = paper_trees_of(scene, config), inspected](const transform<3>& pose) {
+                           std::shared_ptr<box_count> counted) {
+    return [trees = paper_trees_of(scene, config), counted](const transform<3>& pose) {
         last_mover mover(pose);
         std::uint64_t boxes = 0;
         double best = std::numeric_limits<double>::infinity();
@@ -138,7 +139,10 @@ ask_pose paper_distance_by(const scene& scene, const tree_config& config,
                     best = std::min(best, closest_points(a, b).squared_distance);
                 return best;
             });
-        if (inspected) *inspected += boxes;
+        if (counted) {
+            counted->boxes += boxes;
+            ++counted->poses;
+        }
         return std::sqrt(squared);
     };
 }
@@ -197,10 +201,10 @@ ask_pose paper_intersect(const scene& scene) {
 }
 
 ask_pose paper_distance(const scene& scene, open_by order, const tree_config& config,
-                        std::uint64_t* inspected) {
+                        std::shared_ptr<box_count> counted) {
     return order == open_by::top_k
-               ? paper_distance_by<strategy::top_k_sorted>(scene, config, inspected)
-               : paper_distance_by<strategy::priority_queue>(scene, config, inspected);
+               ? paper_distance_by<strategy::top_k_sorted>(scene, config, std::move(counted))
+               : paper_distance_by<strategy::priority_queue>(scene, config, std::move(counted));
 }
 
 }  // namespace tf::bench

@@ -6,6 +6,7 @@
 #include <libtree/tree_config.hpp>
 
 #include <cstdint>
+#include <memory>
 
 namespace tf::bench {
 
@@ -20,9 +21,14 @@ namespace tf::bench {
 [[nodiscard]] ask_pose paper_intersect(const scene& scene);
 
 enum class open_by { top_k, heap };
-/// `inspected`, where given, counts pairs of boxes whose distance was taken.
+/// What a search has cost so far.
+struct box_count {
+    std::uint64_t boxes = 0;  ///< pairs of boxes whose distance was taken
+    std::uint64_t poses = 0;
+};
+/// `counted`, where given, grows with each answer.
 [[nodiscard]] ask_pose paper_distance(const scene& scene, open_by order,
                                       const tree_config& config = {},
-                                      std::uint64_t* inspected = nullptr);
+                                      std::shared_ptr<box_count> counted = nullptr);
 
 }  // namespace tf::bench

@@ -54,15 +54,11 @@ using ask_pose = std::function<double(const transform<3>&)>;
 /// Makes what answers a question about a scene; trees are built here and not timed.
 using make_asker = std::function<ask_pose(const scene&)>;
 
-/// Asks about all positions. The error is the number of answers that are off, by more than 1e-9 for
-/// distances.
+/// Asks about all positions. The error is the number of answers that are not as expected, by more
+/// than 1e-9 for distances, of those that are expected.
 [[nodiscard]] job pose_job(const shared_scene& scene, pose_question question,
                            const make_asker& make, const std::function<pose_answers()>& expected);
-/// All answers, as a `pose_job` finds them.
-[[nodiscard]] pose_answers answers_of(const scene& scene, pose_question question,
-                                      const make_asker& make);
-
-/// The same, found once and only when asked for.
+/// The answers for the first positions, up to 100, found once and only when asked for.
 [[nodiscard]] std::function<pose_answers()> answered_once(
     const std::function<shared_scene()>& given, pose_question question, const make_asker& make);
 
