@@ -124,15 +124,26 @@ std::vector<std::uint32_t> dynamic_tree<D>::insert(std::span<const box_type> box
     const std::size_t again = std::min(free_.size(), boxes.size());
     std::copy_n(free_.rbegin(), again, ids.begin());
     free_.resize(free_.size() - again);
-    for (std::size_t i = again; i < ids.size(); ++i)
-        ids[i] = static_cast<std::uint32_t>(boxes_.size() + (i - again));
-    boxes_.resize(boxes_.size() + (ids.size() - again));
-    where_.resize(boxes_.size());
+    for (std::size_t i = again; i < ids.size(); ++i) ids[i] = static_cast<std::uint32_t>(id_end_++);
+    make_room(id_end_);
     for_chunks(ids.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) boxes_[ids[i]] = boxes[i];
     });
     settle(ids, std::vector<std::vector<std::uint32_t>>(parts_.size()));
     return ids;
+}
+
+/// For at least `ids` ids, growing by half, which makes the copies O(1) an id.
+template <std::size_t D>
+void dynamic_tree<D>::make_room(std::size_t ids) {
+    const std::size_t now = boxes_.size();
+    if (ids <= now) return;
+    detail::buffer<box_type> boxes(std::max(ids, now + now / 2));
+    detail::buffer<location> where(boxes.size());
+    std::copy_n(boxes_.data(), now, boxes.data());
+    std::copy_n(where_.data(), now, where.data());
+    boxes_ = std::move(boxes);
+    where_ = std::move(where);
 }
 
 template <std::size_t D>

@@ -4,6 +4,7 @@
 /// are in dynamic_search.hpp.
 
 #include <libtree/aabb.hpp>
+#include <libtree/detail/buffer.hpp>
 #include <libtree/detail/node_bounds.hpp>
 #include <libtree/export.hpp>
 #include <libtree/parallel.hpp>
@@ -92,12 +93,12 @@ class TREEFORM_API dynamic_tree {
     }
 
     /// Primitives that are there.
-    [[nodiscard]] std::size_t size() const { return boxes_.size() - free_.size(); }
+    [[nodiscard]] std::size_t size() const { return id_end_ - free_.size(); }
     [[nodiscard]] bool empty() const { return size() == 0; }
     /// Ids are below this: the length of an array that has an element for each.
-    [[nodiscard]] std::size_t id_end() const { return boxes_.size(); }
+    [[nodiscard]] std::size_t id_end() const { return id_end_; }
     [[nodiscard]] bool contains(std::uint32_t id) const {
-        return id < where_.size() && where_[id].place != detail::no_primitive;
+        return id < id_end_ && where_[id].place != detail::no_primitive;
     }
     /// \pre contains(id)
     [[nodiscard]] const box_type& box(std::uint32_t id) const { return boxes_[id]; }
@@ -125,6 +126,7 @@ class TREEFORM_API dynamic_tree {
     template <class Range, class MakeBox>
     static std::vector<box_type> boxes_of(const Range& range, const MakeBox& make_aabb);
 
+    void make_room(std::size_t ids);
     void check_ids(const char* function, std::span<const std::uint32_t> ids) const;
     void vacate(std::uint32_t id);
     void settle(std::vector<std::uint32_t> pending,
@@ -132,8 +134,9 @@ class TREEFORM_API dynamic_tree {
     void dissolve(part& from, std::vector<std::uint32_t>& to);
     void build_part(const std::vector<std::uint32_t>& ids);
 
-    std::vector<box_type> boxes_;      ///< by id
-    std::vector<location> where_;      ///< by id
+    std::size_t id_end_ = 0;
+    detail::buffer<box_type> boxes_;   ///< by id, with room for more
+    detail::buffer<location> where_;   ///< by id, with room for more
     std::vector<std::uint32_t> free_;  ///< ids that are not in use
     std::vector<part> parts_;          ///< those not in use have no slots
     update_statistics statistics_;

@@ -79,8 +79,8 @@ std::size_t write_boxes(tree<D>& tree, const box_block<D>& boxes,
 }
 
 template <std::size_t D>
-void lift_all(tree<D>& tree) {
-    for (unsigned level = tree.levels() - 1; level > 0; --level)
+void lift_inner(tree<D>& tree) {
+    for (unsigned level = tree.levels() - 1; level-- > 1;)
         for_chunks(tree.nodes_in_level(level), 8 * nodes_per_chunk,
                    [&](std::size_t begin, std::size_t end, std::size_t) {
                        for (std::size_t node = begin; node < end; ++node) lift(tree, level, node);
@@ -88,24 +88,24 @@ void lift_all(tree<D>& tree) {
 }
 
 template <std::size_t D>
-void lift_blocks(tree<D>& tree, std::span<const leaf_slots> changed) {
+void lift_inner(tree<D>& tree, std::span<const leaf_slots> changed) {
     std::vector<std::uint32_t> nodes(changed.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = changed[i].block;
-    for (unsigned level = tree.levels() - 1; level > 0; --level) {
+    for (unsigned level = tree.levels() - 1; level-- > 1;) {
+        to_parents(nodes);
         for_chunks(nodes.size(), nodes_per_chunk,
                    [&](std::size_t begin, std::size_t end, std::size_t) {
                        for (std::size_t i = begin; i < end; ++i) lift(tree, level, nodes[i]);
                    });
-        to_parents(nodes);
     }
 }
 
 template std::size_t write_boxes(tree<2>&, const box_block<2>&, std::span<const std::uint32_t>);
 template std::size_t write_boxes(tree<3>&, const box_block<3>&, std::span<const std::uint32_t>);
-template void lift_all(tree<2>&);
-template void lift_all(tree<3>&);
-template void lift_blocks(tree<2>&, std::span<const leaf_slots>);
-template void lift_blocks(tree<3>&, std::span<const leaf_slots>);
+template void lift_inner(tree<2>&);
+template void lift_inner(tree<3>&);
+template void lift_inner(tree<2>&, std::span<const leaf_slots>);
+template void lift_inner(tree<3>&, std::span<const leaf_slots>);
 
 }  // namespace detail
 

@@ -53,16 +53,18 @@ namespace detail {
 }
 
 /// Calls `write(writer, i)` for i in [0, count), which `put`s boxes until one is not sound, and
-/// returns the lowest primitive whose box was not, or `no_primitive`.
-template <std::size_t D, class Write>
+/// `lift_blocks(begin, end)` for each chunk, as long as its leaf blocks are in the cache. Returns
+/// the lowest primitive that a chunk had to stop at, or `no_primitive`.
+template <std::size_t D, class Write, class Lift>
 [[nodiscard]] std::uint32_t write_in_chunks(tree<D>& tree, std::size_t count, std::size_t grain,
-                                            const Write& write) {
+                                            const Write& write, const Lift& lift_blocks) {
     std::vector<std::uint32_t> bad(chunk_count(count, grain), no_primitive);
     for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         slot_writer<D> writer(tree);
         bool sound = true;
         for (std::size_t i = begin; i < end && sound; ++i) sound = write(writer, i);
         if (!sound || !writer.flush()) bad[chunk] = tree.ids()[writer.bad_place()];
+        lift_blocks(begin, end);
     });
     return bad.empty() ? no_primitive : *std::min_element(bad.begin(), bad.end());
 }
@@ -97,11 +99,17 @@ template <std::size_t D, class BoxOf>
     constexpr std::size_t ahead = 24;
     const std::span<const std::uint32_t> ids = tree.ids();
     const std::uint32_t bad = write_in_chunks(
-        tree, tree.size(), std::size_t{1} << 13, [&](slot_writer<D>& writer, std::size_t place) {
+        tree, tree.size(), std::size_t{1} << 13,
+        [&](slot_writer<D>& writer, std::size_t place) {
             if (place + ahead < ids.size()) box_of.prefetch(ids[place + ahead]);
             return writer.put(static_cast<std::uint32_t>(place), box_of(ids[place]));
+        },
+        [&](std::size_t begin, std::size_t end) {
+            if (tree.levels() == 1) return;
+            for (std::size_t block = begin / 8; 8 * block < end; ++block)
+                lift(tree, tree.levels() - 1, block);
         });
-    lift_all(tree);
+    lift_inner(tree);
     return bad;
 }
 
@@ -121,18 +129,29 @@ template <std::size_t D, class BoxOf>
                                         const BoxOf& box_of) {
     constexpr std::size_t ahead = 12;
     const std::span<const std::uint32_t> ids = tree.ids();
-    const std::uint32_t bad =
-        write_in_chunks(tree, slots.size(), 1024, [&](slot_writer<D>& writer, std::size_t i) {
-            if (i + ahead < slots.size())
-                for_places(slots[i + ahead], [&](std::uint32_t place) {
-                    if (ids[place] != no_primitive) box_of.prefetch(ids[place]);
-                    return true;
-                });
+    const wide_node<D>* const leaves = tree.level_data(tree.levels() - 1);
+    const auto prefetch = [&](const leaf_slots& later) {
+        const char* const leaf = reinterpret_cast<const char*>(leaves + later.block);
+        for (std::size_t line = 0; line < sizeof(wide_node<D>); line += 64)
+            __builtin_prefetch(leaf + line, 1);
+        for_places(later, [&](std::uint32_t place) {
+            if (ids[place] != no_primitive) box_of.prefetch(ids[place]);
+            return true;
+        });
+    };
+    const std::uint32_t bad = write_in_chunks(
+        tree, slots.size(), 1024,
+        [&](slot_writer<D>& writer, std::size_t i) {
+            if (i + ahead < slots.size()) prefetch(slots[i + ahead]);
             return for_places(slots[i], [&](std::uint32_t place) {
                 return ids[place] == no_primitive || writer.put(place, box_of(ids[place]));
             });
+        },
+        [&](std::size_t begin, std::size_t end) {
+            if (tree.levels() == 1) return;
+            for (std::size_t i = begin; i < end; ++i) lift(tree, tree.levels() - 1, slots[i].block);
         });
-    lift_blocks(tree, slots);
+    lift_inner(tree, slots);
     return bad;
 }
 

@@ -33,11 +33,12 @@ template <std::size_t D>
 [[nodiscard]] TREEFORM_API std::size_t write_boxes(tree<D>& tree, const box_block<D>& boxes,
                                                    std::span<const std::uint32_t> places);
 
-/// Corrects all levels above the leaf blocks; `lift_blocks` where only `changed` have changed.
+/// Corrects the levels above those that hold the boxes of leaf blocks: all of them, or what is
+/// above the blocks that have changed.
 template <std::size_t D>
-TREEFORM_API void lift_all(tree<D>& tree);
+TREEFORM_API void lift_inner(tree<D>& tree);
 template <std::size_t D>
-TREEFORM_API void lift_blocks(tree<D>& tree, std::span<const leaf_slots> changed);
+TREEFORM_API void lift_inner(tree<D>& tree, std::span<const leaf_slots> changed);
 
 /// Gathers boxes with their places and writes them a block at a time.
 template <std::size_t D>
