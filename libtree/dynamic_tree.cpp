@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cassert>
 #include <optional>
 #include <stdexcept>
@@ -36,6 +37,17 @@ std::optional<std::uint32_t> repeated(std::span<const std::uint32_t> ids, std::s
         seen[id] = true;
     }
     return std::nullopt;
+}
+
+/// Sorts different ids, all below `end`.
+void sort(std::vector<std::uint32_t>& ids, std::size_t end) {
+    if (ids.size() < end / 128) return std::sort(ids.begin(), ids.end());
+    std::vector<std::uint64_t> seen(chunk_count(end, 64));
+    for (const std::uint32_t id : ids) seen[id / 64] |= std::uint64_t{1} << id % 64;
+    auto to = ids.begin();
+    for (std::uint32_t word = 0; word < seen.size(); ++word)
+        for (std::uint64_t rest = seen[word]; rest != 0; rest &= rest - 1)
+            *to++ = 64 * word + static_cast<std::uint32_t>(std::countr_zero(rest));
 }
 
 /// The first i in [0, count) for which `is_bad(i)`; `count` when there is none.
@@ -204,12 +216,11 @@ void dynamic_tree<D>::check_ids(const char* function, std::span<const std::uint3
     if (const auto twice = repeated(ids, id_end())) refuse(*twice, " twice");
 }
 
+/// The slot is emptied when its tree is refitted, in leaf order.
 template <std::size_t D>
 void dynamic_tree<D>::vacate(std::uint32_t id) {
     const auto [from, place] = std::exchange(where_[id], {0, detail::no_primitive});
-    tree<D>& boxes = parts_[from].boxes;
-    boxes.ids_data()[place] = detail::no_primitive;
-    detail::clear_slot(boxes.level_data(boxes.levels() - 1)[place / 8], place % 8);
+    parts_[from].boxes.ids_data()[place] = detail::no_primitive;
     --parts_[from].live;
     ++statistics_.vacated;
 }
@@ -232,7 +243,9 @@ void dynamic_tree<D>::settle(std::vector<std::uint32_t> pending,
         const std::vector<detail::leaf_slots> slots = detail::slots_at(touched[i], boxes.size());
         (void)detail::refit_slots<D>(boxes, slots, boxes_by_id<D>{boxes_.data()});
     }
-    if (!pending.empty()) build_part(pending);
+    if (pending.empty()) return;
+    sort(pending, id_end_);  // a build reads the boxes in this order
+    build_part(pending);
 }
 
 /// Takes the primitives of a tree, in leaf order.

@@ -123,13 +123,13 @@ bool for_places(const leaf_slots& slots, const Visit& visit) {
     return true;
 }
 
-/// The same for the primitives in `slots` only; slots without a primitive stay.
+/// The same for the primitives in `slots` only; slots without a primitive are emptied.
 template <std::size_t D, class BoxOf>
 [[nodiscard]] std::uint32_t refit_slots(tree<D>& tree, std::span<const leaf_slots> slots,
                                         const BoxOf& box_of) {
     constexpr std::size_t ahead = 12;
     const std::span<const std::uint32_t> ids = tree.ids();
-    const wide_node<D>* const leaves = tree.level_data(tree.levels() - 1);
+    wide_node<D>* const leaves = tree.level_data(tree.levels() - 1);
     const auto prefetch = [&](const leaf_slots& later) {
         const char* const leaf = reinterpret_cast<const char*>(leaves + later.block);
         for (std::size_t line = 0; line < sizeof(wide_node<D>); line += 64)
@@ -144,7 +144,9 @@ template <std::size_t D, class BoxOf>
         [&](slot_writer<D>& writer, std::size_t i) {
             if (i + ahead < slots.size()) prefetch(slots[i + ahead]);
             return for_places(slots[i], [&](std::uint32_t place) {
-                return ids[place] == no_primitive || writer.put(place, box_of(ids[place]));
+                if (ids[place] != no_primitive) return writer.put(place, box_of(ids[place]));
+                clear_slot(leaves[place / 8], place % 8);
+                return true;
             });
         },
         [&](std::size_t begin, std::size_t end) {
