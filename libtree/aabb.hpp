@@ -20,7 +20,8 @@ struct aabb {
     std::array<T, D> max = filled(-std::numeric_limits<T>::infinity());
 
     /// Grows to hold `point`, anything with [], its coordinates rounded to T: a box of float around
-    /// points of double may miss them by a rounding. A coordinate that is NaN changes nothing.
+    /// points of double may miss them by a rounding. A coordinate that is NaN makes the box one
+    /// that holds nothing and that `build` refuses, whatever else is included.
     template <class Point>
     constexpr void include(const Point& point) {
         for (std::size_t i = 0; i < D; ++i)
@@ -43,7 +44,7 @@ struct aabb {
     /// By value: std::min returns a reference, which becomes a branch nobody can predict.
     constexpr void widen(std::size_t i, T low, T high) {
         min[i] = low < min[i] ? low : min[i];
-        max[i] = max[i] < high ? high : max[i];
+        max[i] = (max[i] < high) | (high != high) ? high : max[i];  // NaN stays
     }
 
     static constexpr std::array<T, D> filled(T value) {
@@ -59,6 +60,18 @@ template <class T, std::size_t D>
     for (std::size_t i = 0; i < D; ++i)
         if (!(a.min[i] <= b.max[i] && b.min[i] <= a.max[i])) return false;
     return true;
+}
+
+/// The box of the points that two boxes have in common; empty when there are none.
+template <class T, std::size_t D>
+[[nodiscard]] constexpr aabb<T, D> common_box(const aabb<T, D>& a, const aabb<T, D>& b) {
+    if (!overlaps(a, b)) return {};
+    aabb<T, D> common;
+    for (std::size_t i = 0; i < D; ++i) {
+        common.min[i] = a.min[i] < b.min[i] ? b.min[i] : a.min[i];
+        common.max[i] = a.max[i] < b.max[i] ? a.max[i] : b.max[i];
+    }
+    return common;
 }
 
 }  // namespace tf
