@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 namespace tf {
 
@@ -26,9 +27,9 @@ struct transform {
     [[nodiscard]] constexpr Point operator()(const Point& point) const {
         Point moved = point;
         for (std::size_t k = 0; k < D; ++k) {
-            double sum = rows[k][0] * point[0];
-            for (std::size_t j = 1; j < D; ++j) sum += rows[k][j] * point[j];
-            moved[k] = sum + rows[k][D];
+            double sum = rows[k][0] * static_cast<double>(point[0]);
+            for (std::size_t j = 1; j < D; ++j) sum += rows[k][j] * static_cast<double>(point[j]);
+            moved[k] = static_cast<std::remove_cvref_t<decltype(moved[k])>>(sum + rows[k][D]);
         }
         return moved;
     }

@@ -61,6 +61,7 @@ template <std::size_t D, class T>
     };
     if (tree.size() != boxes.size() || tree.ids().size() != boxes.size()) return "wrong size";
     if (!detail::is_permutation(tree.ids())) return "ids are no permutation";
+    if (tree.empty()) return std::nullopt;
     const auto is_clear = [](const wide_node<D>& node, std::size_t slot) {
         for (std::size_t k = 0; k < D; ++k)
             if (!(node.min[k][slot] > node.max[k][slot])) return false;

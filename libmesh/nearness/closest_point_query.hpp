@@ -33,8 +33,7 @@ struct mesh_point {
 ///
 /// Queries are const and may run on any threads. `radius` is inclusive and not squared.
 ///
-/// \cost 128 bytes a face. A query opens O(log F) nodes where the nearest point is clear, more
-/// where
+/// \cost 128 bytes a face. A query opens O(log F) nodes where the nearest point is clear, more when
 ///       much of the mesh is about as far; many when it is further off than 1e5 times the extent
 class TREEFORM_API closest_point_query {
   public:
@@ -44,8 +43,8 @@ class TREEFORM_API closest_point_query {
     closest_point_query() = default;
 
     /// Copies what it needs.
-    /// \throws std::invalid_argument naming the face with a corner that is no point or is not
-    /// finite \same   on any number of threads
+    /// \throws std::invalid_argument naming the face with a corner that is no point or not finite
+    /// \same   on any number of threads
     explicit closest_point_query(mesh_view mesh);
 
     [[nodiscard]] std::size_t size() const { return tree_.size(); }

@@ -16,7 +16,7 @@ template <class Neighbor>
 class nearest_k {
   public:
     nearest_k(std::size_t k, double squared_radius) : k_(k) {
-        kept_.reserve(k);
+        kept_.reserve(std::min<std::size_t>(k, 4096));  // a caller may ask for all there are
         reset(squared_radius);
     }
 

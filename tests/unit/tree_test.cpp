@@ -199,6 +199,25 @@ TEST_CASE("build: refuses a box that is empty or not finite and names the elemen
     CHECK_THROWS_AS((void)tf::build(empty_box, itself), std::invalid_argument);
 }
 
+TEST_CASE("build: refuses a box around a point with a coordinate that is NaN") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const std::size_t corner : {0U, 1U, 2U}) {
+        std::array<std::array<double, 3>, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+        triangle[corner][1] = nan;
+        CHECK_THROWS_AS((void)tf::build(std::vector(1, triangle),
+                                        [](const auto& t) {
+                                            tf::aabb<double, 3> box;
+                                            for (const auto& p : t) box.include(p);
+                                            return box;
+                                        }),
+                        std::invalid_argument);
+    }
+}
+
+TEST_CASE("tree: one that was never built is well formed over nothing") {
+    CHECK(!tf::why_malformed(tf::tree<3>(), std::span<const tf::aabb<double, 3>>()));
+}
+
 TEST_CASE("build: refuses an arity or a leaf size that makes no tree") {
     const boxes<2> of = family<2>("random", 10, 2);
     CHECK_THROWS_AS((void)tf::build(of, itself, {.inner_size = 1}), std::invalid_argument);
