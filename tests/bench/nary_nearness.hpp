@@ -82,14 +82,15 @@ bool visit_below(const nary_tree<T, D>& a, const nary_tree<T, D>& b, std::uint32
     return true;
 }
 
-/// Calls `visit(i, j)` for the primitives of two leaves until it returns false.
+/// Calls `visit(i, j)` for the primitives of two leaves until it returns false; all i of a j in a
+/// row.
 template <class T, std::size_t D, class Visit>
 bool visit_leaves(const nary_tree<T, D>& a, const nary_tree<T, D>& b, std::uint32_t x,
                   std::uint32_t y, const Visit& visit) {
     const auto& of_x = a.nodes[x];
     const auto& of_y = b.nodes[y];
-    for (std::uint32_t i = 0; i < of_x.size; ++i)
-        for (std::uint32_t j = 0; j < of_y.size; ++j)
+    for (std::uint32_t j = 0; j < of_y.size; ++j)
+        for (std::uint32_t i = 0; i < of_x.size; ++i)
             if (!visit(a.ids[of_x.offset + i], b.ids[of_y.offset + j])) return false;
     return true;
 }

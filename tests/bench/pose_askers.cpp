@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace tf::bench {
@@ -125,6 +126,9 @@ ask_pose paper_distance_by(const scene& scene, const tree_config& config,
         last_mover mover(pose);
         std::uint64_t boxes = 0;
         double best = std::numeric_limits<double>::infinity();
+        std::optional<std::uint32_t> last;  // the face of the second mesh that `placed` is
+        triangle3 placed;
+        box box_of_placed;
         const double squared = nary_nearest_pair<Strategy>(
             trees->tree_a, trees->tree_b,
             [&](const box& a, const box& b) {
@@ -132,11 +136,15 @@ ask_pose paper_distance_by(const scene& scene, const tree_config& config,
                 return squared_distance(a, mover(b));
             },
             [&](std::uint32_t i, std::uint32_t j) {
+                if (j != last) {
+                    last = j;
+                    placed = moved(triangle_of(*trees->b, j), pose);
+                    box_of_placed = box_of(placed);
+                }
                 const triangle3 a = triangle_of(*trees->a, i);
-                const triangle3 b = moved(triangle_of(*trees->b, j), pose);
                 // Most pairs of a leaf are told by their boxes not to be the nearest.
-                if (squared_distance(box_of(a), box_of(b)) < best)
-                    best = std::min(best, closest_points(a, b).squared_distance);
+                if (squared_distance(box_of(a), box_of_placed) < best)
+                    best = std::min(best, closest_points(a, placed).squared_distance);
                 return best;
             });
         if (counted) {
