@@ -44,7 +44,8 @@ struct aabb {
     /// By value: std::min returns a reference, which becomes a branch nobody can predict.
     constexpr void widen(std::size_t i, T low, T high) {
         min[i] = low < min[i] ? low : min[i];
-        max[i] = (max[i] < high) | (high != high) ? high : max[i];  // NaN stays
+        const bool higher = (max[i] < high) | (high != high);  // NaN stays
+        max[i] = higher ? high : max[i];
     }
 
     static constexpr std::array<T, D> filled(T value) {

@@ -60,7 +60,7 @@ boxes<D> moved(boxes<D> of, double by) {
 
 TEST_CASE("build_within: keeps the elements whose boxes meet the box, and no others") {
     for (const std::string& name : test::box_families)
-        for (const std::size_t count : {0, 1, 9, 500}) {
+        for (const std::size_t count : {0U, 1U, 9U, 500U}) {
             CAPTURE(name);
             CAPTURE(count);
             check_family<2>(name, count);

@@ -545,11 +545,10 @@ TEST_CASE("dynamic_tree: builds cost what the documentation says, one by one and
     // Batches of a tenth that go anywhere: with each third one all is built.
     tf::dynamic_tree<3> large(box_family<3>("random", 10'000, 22), itself);
     const auto before = large.statistics().built;
-    for (int batch = 0; batch < 30; ++batch) {
+    for (std::uint32_t batch = 0; batch < 30; ++batch) {
         ids which;
         for (std::uint32_t id = 0; id < 1000; ++id) which.push_back(id * 10 + batch % 10);
-        large.move(which, box_family<3>("random", 1000, 23 + static_cast<std::uint64_t>(batch)),
-                   itself);
+        large.move(which, box_family<3>("random", 1000, 23 + batch), itself);
     }
     CHECK(large.statistics().built - before <= 30 * 10'000 / 2);
 }

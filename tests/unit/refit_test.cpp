@@ -72,7 +72,7 @@ void check_partial(std::size_t count, std::size_t changed, std::uint64_t seed) {
 
 TEST_CASE("refit: with the boxes of the build nothing changes, with others all is well formed") {
     for (const std::string& name : test::box_families)
-        for (const std::size_t count : {0, 1, 8, 9, 64, 65, 1000, 5000}) {
+        for (const std::size_t count : {0U, 1U, 8U, 9U, 64U, 65U, 1000U, 5000U}) {
             CAPTURE(name);
             CAPTURE(count);
             check_against_build<2>(name, count);
@@ -81,7 +81,7 @@ TEST_CASE("refit: with the boxes of the build nothing changes, with others all i
 }
 
 TEST_CASE("refit: of some primitives, few or many, is that of all when only they have changed") {
-    for (const std::size_t count : {1, 9, 100, 3000, 40'000})
+    for (const std::size_t count : {1UL, 9UL, 100UL, 3000UL, 40000UL})
         for (const std::size_t changed : {0UL, 1UL, 2UL, count / 300, count / 10, count}) {
             CAPTURE(count);
             CAPTURE(changed);
