@@ -5,6 +5,7 @@
 #include <libtree/aabb.hpp>
 #include <libtree/build.hpp>
 #include <libtree/detail/frame.hpp>
+#include <libtree/detail/round_boxes.hpp>
 #include <libtree/detail/search_chunks.hpp>
 #include <libtree/parallel.hpp>
 #include <libtree/tree.hpp>
@@ -54,15 +55,53 @@ template <std::floating_point T, std::size_t D>
     return result;
 }
 
-[[noreturn]] inline void refuse_element(const char* function, std::size_t element) {
-    throw std::invalid_argument(std::string(function) + ": the box of element " +
-                                std::to_string(element) + " is empty or not finite");
+/// Box `i` of a block.
+template <std::size_t D>
+[[nodiscard]] aabb<double, D> box_at(const box_block<D>& boxes, std::size_t i) {
+    aabb<double, D> box;
+    for (std::size_t k = 0; k < D; ++k) {
+        box.min[k] = boxes.min[k][i];
+        box.max[k] = boxes.max[k][i];
+    }
+    return box;
+}
+
+/// Calls `use(state, i, box)` for the elements of each chunk in order, with the box of element i in
+/// double, and returns the states. A block of boxes is made before the first is looked at: so no
+/// branch waits for an element that comes from anywhere in memory.
+/// \throws std::invalid_argument naming the element whose box is not finite or is empty
+template <class State, class Range, class MakeBox, class Use>
+[[nodiscard]] std::vector<State> for_boxes(const char* function, const Range& range,
+                                           const MakeBox& make_aabb, const Use& use) {
+    using block = box_block<box_made<Range, MakeBox>::dimensions>;
+    const auto size = static_cast<std::size_t>(std::ranges::size(range));
+    std::vector<State> states(chunk_count(size, elements_per_chunk));
+    std::atomic<std::size_t> bad{size};
+    for_chunks(size, elements_per_chunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        State mine{};
+        block boxes;
+        for (std::size_t first = begin; first < end; first += block::size) {
+            const std::size_t count = std::min(block::size, end - first);
+            for (std::size_t i = 0; i < count; ++i)
+                boxes.set(i, make_aabb(at_place(range, first + i)));
+            for (std::size_t i = 0; i < count; ++i) {
+                const auto box = box_at(boxes, i);
+                if (!is_finite(box)) return lower(bad, first + i);
+                use(mine, first + i, box);
+            }
+        }
+        states[c] = std::move(mine);
+    });
+    if (bad.load() != size)
+        throw std::invalid_argument(std::string(function) + ": the box of element " +
+                                    std::to_string(bad.load()) + " is empty or not finite");
+    return states;
 }
 
 }  // namespace detail
 
-/// The smallest box around the boxes that `make_aabb` gives for the elements of `range`; empty when
-/// there are none.
+/// The smallest box, in double, around the boxes that `make_aabb` gives for the elements of
+/// `range`; empty when there are none.
 ///
 /// \throws std::invalid_argument naming the element whose box is not finite or is empty
 /// \cost   O(N), parallel; `make_aabb` is called once an element
@@ -70,23 +109,12 @@ template <std::floating_point T, std::size_t D>
 template <std::ranges::random_access_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
 [[nodiscard]] auto box_of_all(const Range& range, const MakeBox& make_aabb) {
-    using box = detail::box_made<Range, MakeBox>;
-    const auto size = static_cast<std::size_t>(std::ranges::size(range));
-    std::vector<box> parts(chunk_count(size, detail::elements_per_chunk));
-    std::atomic<std::size_t> bad{size};
-    for_chunks(size, detail::elements_per_chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                   box mine;
-                   for (std::size_t i = begin; i < end; ++i) {
-                       const box one = make_aabb(detail::at_place(range, i));
-                       if (!detail::is_finite(one)) return detail::lower(bad, i);
-                       mine.include(one);
-                   }
-                   parts[chunk] = mine;
-               });
-    if (bad.load() != size) detail::refuse_element("tf::box_of_all", bad.load());
+    using box = aabb<double, detail::box_made<Range, MakeBox>::dimensions>;
     box all;
-    for (const box& part : parts) all.include(part);
+    for (const box& part :
+         detail::for_boxes<box>("tf::box_of_all", range, make_aabb,
+                                [](box&mine, std::size_t, const box&one) { mine.include(one); }))
+        all.include(part);
     return all;
 }
 
@@ -113,22 +141,12 @@ requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
         throw std::invalid_argument("tf::build_within: " + std::to_string(size) +
                                     " elements are too many");
     using ids = std::vector<std::uint32_t>;
-    std::vector<ids> parts(chunk_count(size, detail::elements_per_chunk));
-    std::atomic<std::size_t> bad{size};
-    for_chunks(size, detail::elements_per_chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                   ids mine;
-                   for (std::size_t i = begin; i < end; ++i) {
-                       const auto box = make_aabb(detail::at_place(range, i));
-                       if (!detail::is_finite(box)) return detail::lower(bad, i);
-                       if (overlaps(detail::in_double(box), wanted))
-                           mine.push_back(static_cast<std::uint32_t>(i));
-                   }
-                   parts[chunk] = std::move(mine);
-               });
-    if (bad.load() != size) detail::refuse_element("tf::build_within", bad.load());
-
-    const ids kept = detail::joined(parts);
+    const ids kept = detail::joined(
+        detail::for_boxes<ids>("tf::build_within", range, make_aabb,
+                               [&](ids& mine, std::size_t i, const aabb<double, D>& box) {
+                                   if (overlaps(box, wanted))
+                                       mine.push_back(static_cast<std::uint32_t>(i));
+                               }));
     partial_tree<D> result{
         build(kept, [&](std::uint32_t id) { return make_aabb(detail::at_place(range, id)); }),
         size};
@@ -153,8 +171,7 @@ requires box_maker<MakeBoxA, std::ranges::range_reference_t<const A>> &&
     box_maker<MakeBoxB, std::ranges::range_reference_t<const B>>
 [[nodiscard]] auto build_overlap(const A& a, const MakeBoxA& make_aabb_a, const B& b,
                                  const MakeBoxB& make_aabb_b) {
-    const auto common = common_box(detail::in_double(box_of_all(a, make_aabb_a)),
-                                   detail::in_double(box_of_all(b, make_aabb_b)));
+    const auto common = common_box(box_of_all(a, make_aabb_a), box_of_all(b, make_aabb_b));
     return std::pair(build_within(a, make_aabb_a, common), build_within(b, make_aabb_b, common));
 }
 
