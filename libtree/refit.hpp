@@ -47,6 +47,14 @@ template <std::size_t D>
 
 namespace detail {
 
+template <std::size_t D, class Range>
+void check_size(const tree<D>& tree, const Range& range) {
+    const auto size = static_cast<std::size_t>(std::ranges::distance(range));
+    if (size != tree.size())
+        throw std::invalid_argument("tf::refit: " + std::to_string(size) +
+                                    " elements for a tree of " + std::to_string(tree.size()));
+}
+
 [[noreturn]] inline void refuse_refit(std::size_t element) {
     throw std::invalid_argument("tf::refit: the box of element " + std::to_string(element) +
                                 " is empty or not finite");
@@ -164,9 +172,10 @@ template <std::size_t D, class BoxOf>
 /// good as before where neighbours stay neighbours (`relative_extent` tells). With the boxes it
 /// was built with, it stays as it is.
 ///
-/// \pre    `range` has the size of the tree
-/// \throws std::invalid_argument naming an element whose box is not finite or is empty; some of
-///         the others then have their new boxes, and a refit with sound ones mends the tree
+/// \throws std::invalid_argument when the range is not of the size of the tree, or naming an
+/// element
+///         whose box is not finite or is empty; some of the others then have their new boxes, and a
+///         refit with sound ones mends the tree
 /// \cost   O(N), about a third of a build
 /// \same   on any number of threads; `make_aabb` is called once an element
 /// \source van den Bergen, Efficient Collision Detection of Complex Deformable Models using AABB
@@ -174,6 +183,7 @@ template <std::size_t D, class BoxOf>
 template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
 void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb) {
+    detail::check_size(tree, range);
     const std::uint32_t bad = detail::refit_all(tree, detail::element_boxes{range, make_aabb});
     if (bad != detail::no_primitive) detail::refuse_refit(bad);
 }
@@ -189,6 +199,7 @@ template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
 void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb,
            std::span<const std::uint32_t> places) {
+    detail::check_size(tree, range);
     for (const std::uint32_t place : places)
         if (place >= tree.size())
             throw std::invalid_argument("tf::refit: place " + std::to_string(place) +

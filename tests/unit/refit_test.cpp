@@ -154,6 +154,13 @@ TEST_CASE("refit: refuses a place that the tree does not have") {
                          "tf::refit: place 20 is not in the tree", std::invalid_argument);
 }
 
+TEST_CASE("refit: refuses a range that is not of the size of the tree") {
+    auto tree = tf::build(box_family<2>("random", 20, 1), itself);
+    for (const std::size_t size : {19U, 21U})
+        CHECK_THROWS_AS(tf::refit(tree, box_family<2>("random", size, 1), itself),
+                        std::invalid_argument);
+}
+
 TEST_CASE("relative_extent: is 1 for one node, grows when neighbours part, and is not of a unit") {
     CHECK(tf::relative_extent(tf::tree<3>{}) == 1.0);
     CHECK(tf::relative_extent(tf::build(box_family<3>("random", 8, 1), itself)) == 1.0);
