@@ -66,18 +66,19 @@ template <std::size_t D>
     return box;
 }
 
-/// Calls `use(state, i, box)` for the elements of each chunk in order, with the box of element i in
-/// double, and returns the states. A block of boxes is made before the first is looked at: so no
-/// branch waits for an element that comes from anywhere in memory.
-/// \throws std::invalid_argument naming the element whose box is not finite or is empty
+/// Calls `use(state, i, box)` for the elements of each chunk of `grain` in order, with the box of
+/// element i in double, and returns the states. A block of boxes is made before the first is looked
+/// at: so no branch waits for an element that comes from anywhere in memory. \throws
+/// std::invalid_argument naming the element whose box is not finite or is empty
 template <class State, class Range, class MakeBox, class Use>
 [[nodiscard]] std::vector<State> for_boxes(const char* function, const Range& range,
-                                           const MakeBox& make_aabb, const Use& use) {
+                                           const MakeBox& make_aabb, const Use& use,
+                                           std::size_t grain = elements_per_chunk) {
     using block = box_block<box_made<Range, MakeBox>::dimensions>;
     const auto size = static_cast<std::size_t>(std::ranges::size(range));
-    std::vector<State> states(chunk_count(size, elements_per_chunk));
+    std::vector<State> states(chunk_count(size, grain));
     std::atomic<std::size_t> bad{size};
-    for_chunks(size, elements_per_chunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    for_chunks(size, grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         State mine{};
         block boxes;
         for (std::size_t first = begin; first < end; first += block::size) {
