@@ -99,6 +99,67 @@ template <class State, class Range, class MakeBox, class Use>
     return states;
 }
 
+template <std::size_t D, class Range, class MakeBox>
+[[nodiscard]] aabb<double, D> box_around(const char* function, const Range& range,
+                                         const MakeBox& make_aabb) {
+    using box = aabb<double, D>;
+    box all;
+    for (const box& part :
+         for_boxes<box>(function, range, make_aabb,
+                        [](box&mine, std::size_t, const box&one) { mine.include(one); }))
+        all.include(part);
+    return all;
+}
+
+/// Elements of a range that meet a box, ascending, and the box around them.
+template <std::size_t D>
+struct elements_within {
+    std::vector<std::uint32_t> ids{};
+    aabb<double, D> box{};
+};
+
+template <std::size_t D, class Range, class MakeBox>
+[[nodiscard]] elements_within<D> find_within(const char* function, const Range& range,
+                                             const MakeBox& make_aabb,
+                                             const aabb<double, D>& within) {
+    using found = elements_within<D>;
+    const auto parts = for_boxes<found>(
+        function, range, make_aabb, [&](found& mine, std::size_t i, const aabb<double, D>& box) {
+            if (!overlaps(box, within)) return;
+            mine.ids.push_back(static_cast<std::uint32_t>(i));
+            mine.box.include(box);
+        });
+    found all;
+    for (const found& part : parts) {
+        all.ids.insert(all.ids.end(), part.ids.begin(), part.ids.end());
+        all.box.include(part.box);
+    }
+    return all;
+}
+
+/// The tree over some elements of a range of `size`.
+template <std::size_t D, class Range, class MakeBox>
+[[nodiscard]] partial_tree<D> tree_over(const std::vector<std::uint32_t>& kept, const Range& range,
+                                        const MakeBox& make_aabb) {
+    partial_tree<D> result{
+        build(kept, [&](std::uint32_t id) { return make_aabb(at_place(range, id)); }),
+        static_cast<std::size_t>(std::ranges::size(range))};
+    std::uint32_t* const places = result.boxes.ids_data();
+    for_chunks(kept.size(), elements_per_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i) places[i] = kept[places[i]];
+               });
+    return result;
+}
+
+template <std::size_t D, class Range>
+void refuse_too_many(const char* function, const Range& range) {
+    const auto size = static_cast<std::size_t>(std::ranges::size(range));
+    if (size > tree<D>::max_size)
+        throw std::invalid_argument(std::string(function) + ": " + std::to_string(size) +
+                                    " elements are too many");
+}
+
 }  // namespace detail
 
 /// The smallest box, in double, around the boxes that `make_aabb` gives for the elements of
@@ -110,13 +171,8 @@ template <class State, class Range, class MakeBox, class Use>
 template <std::ranges::random_access_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
 [[nodiscard]] auto box_of_all(const Range& range, const MakeBox& make_aabb) {
-    using box = aabb<double, detail::box_made<Range, MakeBox>::dimensions>;
-    box all;
-    for (const box& part :
-         detail::for_boxes<box>("tf::box_of_all", range, make_aabb,
-                                [](box&mine, std::size_t, const box&one) { mine.include(one); }))
-        all.include(part);
-    return all;
+    return detail::box_around<detail::box_made<Range, MakeBox>::dimensions>("tf::box_of_all", range,
+                                                                            make_aabb);
 }
 
 /// The tree over the elements of `range` whose boxes meet `within`, touching included, and how many
@@ -136,35 +192,18 @@ requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
     for (std::size_t k = 0; k < D; ++k)
         if (within.min[k] != within.min[k] || within.max[k] != within.max[k])
             throw std::invalid_argument("tf::build_within: the box has a coordinate that is NaN");
-    const aabb<double, D> wanted = detail::in_double(within);
-    const auto size = static_cast<std::size_t>(std::ranges::size(range));
-    if (size > tree<D>::max_size)
-        throw std::invalid_argument("tf::build_within: " + std::to_string(size) +
-                                    " elements are too many");
-    using ids = std::vector<std::uint32_t>;
-    const ids kept = detail::joined(
-        detail::for_boxes<ids>("tf::build_within", range, make_aabb,
-                               [&](ids& mine, std::size_t i, const aabb<double, D>& box) {
-                                   if (overlaps(box, wanted))
-                                       mine.push_back(static_cast<std::uint32_t>(i));
-                               }));
-    partial_tree<D> result{
-        build(kept, [&](std::uint32_t id) { return make_aabb(detail::at_place(range, id)); }),
-        size};
-    std::uint32_t* const places = result.boxes.ids_data();
-    for_chunks(kept.size(), detail::elements_per_chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t i = begin; i < end; ++i) places[i] = kept[places[i]];
-               });
-    return result;
+    detail::refuse_too_many<D>("tf::build_within", range);
+    const auto kept =
+        detail::find_within("tf::build_within", range, make_aabb, detail::in_double(within));
+    return detail::tree_over<D>(kept.ids, range, make_aabb);
 }
 
-/// Two trees for a search of pairs: those elements of `a` and of `b` whose boxes meet the box that
-/// the box of all of `a` and the box of all of `b` have in common. The pairs found are those that
-/// whole trees give; both are empty when the boxes of all are disjoint.
+/// Two trees for a search of pairs: those elements of `b` whose boxes meet the box of all of `a`,
+/// and those of `a` that meet the box of these. The pairs found are those that whole trees give;
+/// both trees are empty when the boxes of all are disjoint.
 ///
 /// \throws std::invalid_argument as `build_within`
-/// \cost   two linear passes over both, and the builds of those kept
+/// \cost   two linear passes over `a` and one over `b`, and the builds of those kept
 /// \same   on any number of threads
 template <std::ranges::random_access_range A, class MakeBoxA, std::ranges::random_access_range B,
           class MakeBoxB>
@@ -172,8 +211,17 @@ requires box_maker<MakeBoxA, std::ranges::range_reference_t<const A>> &&
     box_maker<MakeBoxB, std::ranges::range_reference_t<const B>>
 [[nodiscard]] auto build_overlap(const A& a, const MakeBoxA& make_aabb_a, const B& b,
                                  const MakeBoxB& make_aabb_b) {
-    const auto common = common_box(box_of_all(a, make_aabb_a), box_of_all(b, make_aabb_b));
-    return std::pair(build_within(a, make_aabb_a, common), build_within(b, make_aabb_b, common));
+    constexpr std::size_t D = detail::box_made<A, MakeBoxA>::dimensions;
+    constexpr const char* name = "tf::build_overlap";
+    detail::refuse_too_many<D>(name, a);
+    detail::refuse_too_many<D>(name, b);
+    const auto kept_of_b =
+        detail::find_within(name, b, make_aabb_b, detail::box_around<D>(name, a, make_aabb_a));
+    const auto kept_of_a = kept_of_b.ids.empty()
+                               ? detail::elements_within<D>{}
+                               : detail::find_within(name, a, make_aabb_a, kept_of_b.box);
+    return std::pair(detail::tree_over<D>(kept_of_a.ids, a, make_aabb_a),
+                     detail::tree_over<D>(kept_of_b.ids, b, make_aabb_b));
 }
 
 }  // namespace tf

@@ -97,6 +97,13 @@ TEST_CASE("build_overlap: gives the pairs of whole trees, and skips what cannot 
     }
     const boxes<3> none;
     CHECK(tf::build_overlap(a, itself, none, itself).first.skipped() == 3000);
+    CHECK(tf::build_overlap(none, itself, a, itself).second.skipped() == 3000);
+    boxes<3> unsound = a;
+    unsound[77].min[0] = infinity;
+    CHECK_THROWS_WITH_AS((void)tf::build_overlap(unsound, itself, a, itself),
+                         "tf::build_overlap: the box of element 77 is empty or not finite",
+                         std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::build_overlap(a, itself, unsound, itself), std::invalid_argument);
 }
 
 TEST_CASE("build_within: the same tree on 1, 2 and 8 threads") {
