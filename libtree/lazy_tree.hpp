@@ -31,6 +31,19 @@
 
 namespace tf {
 
+namespace detail {
+
+/// A box of space around the boxes of a tree, which is not empty.
+template <std::size_t D>
+[[nodiscard]] aabb<double, D> box_of_root(const tree<D>& tree) {
+    aabb<double, D> box;
+    for (std::size_t slot = 0; slot < tree.children(0, 0); ++slot)
+        box.include(box_in_space(tree.frame(), tree.level(0)[0], slot));
+    return box;
+}
+
+}  // namespace detail
+
 /// A tree over blocks of `block_size` elements that follow each other in a range, each of which
 /// becomes a tree of its own when a search first comes into its box. Answers are those of a tree
 /// over all.
@@ -67,9 +80,20 @@ class lazy_tree {
                   boxes.ids_data()[i] += static_cast<std::uint32_t>(begin);
               return boxes;
           }) {
-        arrange(detail::for_boxes<box>(
-            "tf::lazy_tree", range, make_aabb,
-            [](box& mine, std::size_t, const box& one) { mine.include(one); }, block_size));
+        if (size_ > tree<D>::max_size)
+            throw std::invalid_argument("tf::lazy_tree: " + std::to_string(size_) +
+                                        " elements are too many");
+        const bool at_once = is_loose(range, make_aabb);
+        if (at_once) per_block_ = size_;
+        parts_ = std::make_unique<part[]>(chunk_count(size_, per_block_));
+        if (at_once) {
+            (void)block(0);  // not in a search: no thread may wait for a build on all of them
+            top_ = over({detail::box_of_root(parts_[0].boxes)});
+        } else {
+            top_ = over(detail::for_boxes<box>(
+                "tf::lazy_tree", range, make_aabb,
+                [](box& mine, std::size_t, const box& one) { mine.include(one); }, block_size));
+        }
     }
 
     [[nodiscard]] std::size_t size() const { return size_; }
@@ -104,25 +128,30 @@ class lazy_tree {
         return sum;
     }
 
-    void arrange(std::vector<box> boxes) {
-        if (size_ > tree<D>::max_size)
-            throw std::invalid_argument("tf::lazy_tree: " + std::to_string(size_) +
-                                        " elements are too many");
+    /// Whether blocks, by samples of up to 32 of them, reach half as far as the whole on average.
+    template <class Range, class MakeBox>
+    [[nodiscard]] bool is_loose(const Range& range, const MakeBox& make_aabb) const {
+        constexpr std::size_t samples = 32;
+        const std::size_t blocks = chunk_count(size_, block_size);
+        if (blocks < 2) return false;
+        const std::size_t asked = std::min(blocks, samples);
         box all;
         double sum = 0.0;
-        for (const box& one : boxes) {
-            all.include(one);
-            sum += extent(one) / static_cast<double>(boxes.size());
+        for (std::size_t i = 0; i < asked; ++i) {
+            const std::size_t begin = i * blocks / asked * block_size;
+            const std::size_t count = std::min(block_size, size_ - begin);
+            box mine;
+            for (std::size_t j = 0; j < samples; ++j)
+                mine.include(detail::in_double(
+                    make_aabb(detail::at_place(range, begin + j * count / samples))));
+            all.include(mine);
+            sum += extent(mine) / static_cast<double>(asked);
         }
-        const bool is_loose = boxes.size() > 1 && 2.0 * sum > extent(all);
-        if (is_loose) {
-            boxes = {all};
-            per_block_ = size_;
-        }
-        top_ = build(boxes, [](const box& one) { return one; });
-        parts_ = std::make_unique<part[]>(boxes.size());
-        // Here rather than in a search: a build in parallel must not be waited for by loops.
-        if (is_loose) (void)block(0);
+        return 2.0 * sum > extent(all);
+    }
+
+    static tree<D> over(const std::vector<box>& boxes) {
+        return build(boxes, [](const box& one) { return one; });
     }
 
     std::size_t size_;
@@ -175,6 +204,8 @@ template <std::size_t D, tree_query<D> Query, class Accept>
 template <std::size_t D, class Accept>
 [[nodiscard]] bool search_any(const lazy_tree<D>& a, const lazy_tree<D>& b, const Accept& accept) {
     const std::vector<id_pair> blocks = search_all(a.top(), b.top());
+    if (blocks.size() == 1)
+        return search_any(a.block(blocks[0].first), b.block(blocks[0].second), accept);
     std::atomic<bool> found{false};
     for_chunks(blocks.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
         if (found.load(std::memory_order_relaxed)) return;
