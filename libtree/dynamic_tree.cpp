@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cassert>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -172,7 +171,9 @@ void dynamic_tree<D>::remove(std::span<const std::uint32_t> ids) {
 
 template <std::size_t D>
 void dynamic_tree<D>::move(std::span<const std::uint32_t> ids, std::span<const box_type> boxes) {
-    assert(ids.size() == boxes.size());
+    if (ids.size() != boxes.size())
+        throw std::invalid_argument("tf::dynamic_tree: " + std::to_string(ids.size()) +
+                                    " ids but " + std::to_string(boxes.size()) + " boxes");
     check_ids("move", ids);
     const std::size_t bad =
         first_bad(ids.size(), [&](std::size_t i) { return !detail::is_finite(boxes[i]); });

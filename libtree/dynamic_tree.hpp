@@ -83,9 +83,8 @@ class TREEFORM_API dynamic_tree {
 
     /// Gives primitive `ids[i]` the box of element i of `range`, or `boxes[i]`.
     ///
-    /// \pre    as many boxes as ids
-    /// \throws std::invalid_argument as `remove`, and naming the id whose new box is not finite or
-    ///         is empty; nothing has changed then
+    /// \throws std::invalid_argument as `remove`, naming the id whose new box is not finite or is
+    ///         empty, or when there are not as many boxes as ids; nothing has changed then
     void move(std::span<const std::uint32_t> ids, std::span<const box_type> boxes);
     template <std::ranges::random_access_range Range, class MakeBox>
     void move(std::span<const std::uint32_t> ids, const Range& range, const MakeBox& make_aabb) {

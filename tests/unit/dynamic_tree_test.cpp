@@ -606,6 +606,8 @@ TEST_CASE("dynamic_tree: refuses ids that are not there or come twice, and boxes
     CHECK_THROWS_WITH_AS(tree.move(ids{1, 9}, boxes<3>{sound, unsound}),
                          "tf::dynamic_tree: the box of id 9 is empty or not finite",
                          std::invalid_argument);
+    CHECK_THROWS_WITH_AS(tree.move(ids{1, 9}, boxes<3>{sound}),
+                         "tf::dynamic_tree: 2 ids but 1 boxes", std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tree.insert(boxes<3>{sound, sound, unsound}),
                          "tf::dynamic_tree: the box of element 2 is empty or not finite",
                          std::invalid_argument);
