@@ -1,4 +1,5 @@
 #include <libtree/detail/build_records.hpp>
+#include <libtree/detail/node_bounds.hpp>
 #include <libtree/detail/sieve.hpp>
 #include <libtree/parallel.hpp>
 
@@ -145,23 +146,11 @@ void fill_leaves(tree<D>& tree, const split_record* order, const half_extents* e
 /// Boxes of the inner levels, each from the level below.
 template <std::size_t D>
 void fill_inner(tree<D>& tree) {
-    for (unsigned level = tree.levels() - 1; level-- > 0;) {
-        wide_node<D>* const nodes = tree.level_data(level);
-        const wide_node<D>* const below = tree.level_data(level + 1);
-        for_chunks(tree.nodes_in_level(level), 256,
+    for (unsigned level = tree.levels() - 1; level > 0; --level) {
+        clear(tree.level_data(level - 1)[tree.nodes_in_level(level - 1) - 1]);
+        for_chunks(tree.nodes_in_level(level), 2048,
                    [&](std::size_t first, std::size_t last, std::size_t) {
-                       for (std::size_t n = first; n < last; ++n) {
-                           const std::size_t children = tree.children(level, n);
-                           if (children < tree.width) clear(nodes[n]);
-                           for (std::size_t c = 0; c < children; ++c)
-                               for (std::size_t k = 0; k < D; ++k) {
-                                   const wide_node<D>& child = below[n * tree.width + c];
-                                   nodes[n].min[k][c] =
-                                       *std::min_element(child.min[k], child.min[k] + tree.width);
-                                   nodes[n].max[k][c] =
-                                       *std::max_element(child.max[k], child.max[k] + tree.width);
-                               }
-                       }
+                       for (std::size_t n = first; n < last; ++n) lift(tree, level, n);
                    });
     }
 }
