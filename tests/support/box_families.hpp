@@ -33,8 +33,8 @@ tf::aabb<double, D> box_at(const std::array<double, D>& corner, double size) {
     return box;
 }
 
-inline const std::vector<std::string> box_families{"random", "grid", "equal", "line",   "far",
-                                                   "tiny",   "huge", "mixed", "extreme"};
+inline const std::vector<std::string> box_families{
+    "random", "grid", "equal", "line", "far", "tiny", "huge", "mixed", "extreme", "stray", "comb"};
 
 template <std::size_t D>
 boxes<D> box_family(const std::string& name, std::size_t count, std::uint64_t seed) {
@@ -58,8 +58,11 @@ boxes<D> box_family(const std::string& name, std::size_t count, std::uint64_t se
         if (name == "extreme")  // differences that overflow
             for (double& x : corner)
                 x = (x < 0.6 ? -1.0 : 1.0) * (1.7e308 - 1e307 * x), size = 9e306;
+        if (name == "comb" && i % 8 != 0)  // a sample at equal distances sees none of these
+            for (double& x : corner) x = 5.0 - x;
         result[i] = box_at<D>(corner, size);
     }
+    if (name == "stray" && count > 0) result[0] = box_at<D>({1e30}, 1.0);
     return result;
 }
 

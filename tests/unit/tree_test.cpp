@@ -1,4 +1,3 @@
-#include "support/random.hpp"
 #include <libtree/build.hpp>
 #include <libtree/nary_tree.hpp>
 #include <libtree/parallel.hpp>
@@ -6,9 +5,9 @@
 #include <libtree/validate.hpp>
 
 #include <doctest/doctest.h>
+#include <support/box_families.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -21,51 +20,10 @@
 
 namespace {
 
-template <std::size_t D>
-using boxes = std::vector<tf::aabb<double, D>>;
+using test::box_at;
+using test::boxes;
+using test::itself;
 
-constexpr auto itself = [](const auto& box) { return box; };
-
-template <std::size_t D>
-tf::aabb<double, D> box_at(const std::array<double, D>& corner, double size) {
-    tf::aabb<double, D> box;
-    box.include(corner);
-    auto other = corner;
-    for (double& x : other) x += size;
-    box.include(other);
-    return box;
-}
-
-/// Named families of boxes that trees find hard in different ways.
-template <std::size_t D>
-boxes<D> family(const std::string& name, std::size_t count, std::uint64_t seed) {
-    test::random random(seed);
-    boxes<D> result(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        std::array<double, D> corner{};
-        double size = 0.02;
-        for (double& x : corner) x = random.unit();
-        if (name == "grid")  // many equal keys on every axis
-            for (double& x : corner) x = std::floor(x * 8.0) / 8.0;
-        if (name == "equal") corner.fill(0.25);
-        if (name == "line") std::fill(corner.begin() + 1, corner.end(), 3.0);
-        if (name == "far") corner[0] += 1e6, size = 1e-3;
-        if (name == "tiny")
-            for (double& x : corner) x *= 1e-300, size = 2e-302;
-        if (name == "huge")
-            for (double& x : corner) x = (x - 0.5) * 1.6e308, size = 1e306;
-        if (name == "mixed")
-            for (double& x : corner) x *= std::ldexp(1.0, static_cast<int>(i % 80) - 40);
-        if (name == "comb" && i % 8 != 0)  // a sample at equal distances sees none of these
-            for (double& x : corner) x = 5.0 - x;
-        result[i] = box_at<D>(corner, size);
-    }
-    if (name == "stray" && count > 0) result[0] = box_at<D>({1e30}, 1.0);
-    return result;
-}
-
-const std::vector<std::string> families{"random", "grid", "equal", "line",  "far",
-                                        "tiny",   "huge", "mixed", "stray", "comb"};
 const std::vector<std::size_t> sizes{0, 1, 2, 7, 8, 9, 16, 17, 63, 64, 65, 129, 1000, 4097};
 
 using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -94,11 +52,11 @@ pairs overlapping_by_tree(const tf::tree<D>& tree, const boxes<D>& of) {
 
 template <std::size_t D, class Build>
 void check_family_by_family(const Build& make_tree) {
-    for (const std::string& name : families)
+    for (const std::string& name : test::box_families)
         for (const std::size_t count : sizes) {
             CAPTURE(name);
             CAPTURE(count);
-            const boxes<D> of = family<D>(name, count, count);
+            const boxes<D> of = test::box_family<D>(name, count, count);
             const auto tree = make_tree(of);
             const auto defect = tf::why_malformed(tree, std::span(of));
             REQUIRE_MESSAGE(!defect, defect.value_or(""));
@@ -128,7 +86,7 @@ TEST_CASE("build: the paper's layout is well formed at every arity and leaf size
 TEST_CASE("build: the tree is large enough to be cut by all threads and still well formed") {
     for (const char* name : {"random", "grid", "equal", "line", "mixed", "comb"}) {
         CAPTURE(name);
-        const boxes<3> of = family<3>(name, 204'800, 5);
+        const boxes<3> of = test::box_family<3>(name, 204'800, 5);
         const auto defect = tf::why_malformed(tf::build(of, itself), std::span(of));
         REQUIRE_MESSAGE(!defect, defect.value_or(""));
     }
@@ -136,7 +94,7 @@ TEST_CASE("build: the tree is large enough to be cut by all threads and still we
 
 TEST_CASE("build: the same tree on 1, 2 and 8 threads") {
     for (const char* name : {"random", "grid", "comb"}) {
-        const boxes<3> of = family<3>(name, 150'000, 6);
+        const boxes<3> of = test::box_family<3>(name, 150'000, 6);
         const auto ids_on = [&](unsigned threads) {
             const tf::thread_scope scope(threads);
             const auto tree = tf::build(of, itself);
@@ -152,7 +110,7 @@ TEST_CASE("build: a rebuild gives the tree of a fresh build") {
     tf::builder<3> builder;
     tf::tree<3> tree;
     for (const std::size_t count : {5000UL, 100UL, 20000UL, 0UL}) {
-        const boxes<3> of = family<3>("random", count, count);
+        const boxes<3> of = test::box_family<3>("random", count, count);
         builder.rebuild(tree, of, itself);
         const auto fresh = tf::build(of, itself);
         CHECK(std::ranges::equal(tree.ids(), fresh.ids()));
@@ -161,7 +119,7 @@ TEST_CASE("build: a rebuild gives the tree of a fresh build") {
 }
 
 TEST_CASE("build: any range and any box maker, also one that can only be read once") {
-    const boxes<2> of = family<2>("random", 300, 1);
+    const boxes<2> of = test::box_family<2>("random", 300, 1);
     const std::list<tf::aabb<double, 2>> list(of.begin(), of.end());
     CHECK(std::ranges::equal(tf::build(list, itself).ids(), tf::build(of, itself).ids()));
 
@@ -188,7 +146,7 @@ TEST_CASE("build: refuses a box that is empty or not finite and names the elemen
     const double infinity = std::numeric_limits<double>::infinity();
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double bad : {infinity, -infinity, nan}) {
-        boxes<3> of = family<3>("random", 30'000, 2);
+        boxes<3> of = test::box_family<3>("random", 30'000, 2);
         of[20'001].max[1] = bad;
         of[29'000].min[2] = bad;
         CHECK_THROWS_WITH_AS((void)tf::build(of, itself),
@@ -219,21 +177,21 @@ TEST_CASE("tree: one that was never built is well formed over nothing") {
 }
 
 TEST_CASE("build: refuses an arity or a leaf size that makes no tree") {
-    const boxes<2> of = family<2>("random", 10, 2);
+    const boxes<2> of = test::box_family<2>("random", 10, 2);
     CHECK_THROWS_AS((void)tf::build(of, itself, {.inner_size = 1}), std::invalid_argument);
     CHECK_THROWS_AS((void)tf::build(of, itself, {.inner_size = 17}), std::invalid_argument);
     CHECK_THROWS_AS((void)tf::build(of, itself, {.leaf_size = 0}), std::invalid_argument);
 }
 
 TEST_CASE("search_self: finds the pairs that brute force finds") {
-    for (const std::string& name : families)
+    for (const std::string& name : test::box_families)
         for (const std::size_t count : {0UL, 1UL, 2UL, 9UL, 70UL, 600UL, 2000UL}) {
             CAPTURE(name);
             CAPTURE(count);
-            const boxes<3> of3 = family<3>(name, count, count + 1);
+            const boxes<3> of3 = test::box_family<3>(name, count, count + 1);
             REQUIRE(overlapping_by_tree(tf::build(of3, itself), of3) ==
                     overlapping_by_brute_force(of3));
-            const boxes<2> of2 = family<2>(name, count, count + 2);
+            const boxes<2> of2 = test::box_family<2>(name, count, count + 2);
             REQUIRE(overlapping_by_tree(tf::build(of2, itself), of2) ==
                     overlapping_by_brute_force(of2));
         }
@@ -247,7 +205,7 @@ TEST_CASE("search_self: boxes that only touch are a pair, boxes one ulp apart ar
 }
 
 TEST_CASE("search_self: no pair comes twice") {
-    const boxes<3> of = family<3>("grid", 3000, 3);
+    const boxes<3> of = test::box_family<3>("grid", 3000, 3);
     const tf::tree<3> tree = tf::build(of, itself);
     const tf::self_search<3> search(tree);
     pairs all;
@@ -264,7 +222,7 @@ TEST_CASE("search_self: no pair comes twice") {
 }
 
 TEST_CASE("search_self: stops at the pair that one thread would stop at") {
-    const boxes<3> of = family<3>("random", 50'000, 4);
+    const boxes<3> of = test::box_family<3>("random", 50'000, 4);
     const tf::tree<3> tree = tf::build(of, itself);
     const auto first_pair_on = [&](unsigned threads) {
         const tf::thread_scope scope(threads);
@@ -284,7 +242,7 @@ TEST_CASE("search_self: stops at the pair that one thread would stop at") {
 TEST_CASE("tree: boxes far from the origin are not blown up by their float form") {
     // Parts of size 1e-3 at 1e6, where a float has steps of 0.06: about the origin of the file
     // every box would meet hundreds of others.
-    const boxes<3> of = family<3>("far", 20'000, 7);
+    const boxes<3> of = test::box_family<3>("far", 20'000, 7);
     const auto count = [](const tf::tree<3>& tree) {
         std::size_t candidates = 0;
         const tf::self_search<3> search(tree);
