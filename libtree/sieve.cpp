@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -34,7 +35,15 @@ class sieve_plan {
         const std::size_t size = std::clamp<std::size_t>(part.count / 32, 1024, 32768);
         std::vector<split_record> sample(size);
         for (std::size_t i = 0; i < size; ++i) sample[i] = from[i * part.count / size];
-        set_gates(1, sample.data(), size);
+        by_number<std::span<split_record>> sample_of{};
+        sample_of[1] = sample;
+        for (std::size_t first = 1; first < first_bucket; first *= 2)
+            for_chunks(first, 1, [&](std::size_t i, std::size_t, std::size_t) {
+                const std::size_t n = first + i;
+                const std::size_t left = set_gate_from(n, sample_of[n]);
+                sample_of[2 * n] = sample_of[n].first(left);
+                sample_of[2 * n + 1] = sample_of[n].subspan(left);
+            });
     }
 
     [[nodiscard]] const split_part& part(std::size_t n) const { return parts_[n]; }
@@ -50,22 +59,22 @@ class sieve_plan {
     void close(std::size_t n) { set_gate(n, -infinity, infinity, gates_.axis[n]); }
 
   private:
-    void set_gates(std::size_t n, split_record* sample, std::size_t size) {
-        if (n >= first_bucket) return;
+    /// Returns how many of the sample go left.
+    std::size_t set_gate_from(std::size_t n, std::span<split_record> sample) {
         const std::size_t count = parts_[n].count, left = parts_[2 * n].count;
+        const std::size_t size = sample.size();
         if (left == count) {  // rests: all go left
             set_gate(n, infinity, infinity, 0);
-            set_gates(2 * n, sample, size);
-            return set_gates(2 * n + 1, sample + size, 0);
+            return size;
         }
         if (size < 2) {
             set_gate(n, -infinity, infinity, 0);
-            set_gates(2 * n, sample, size);
-            return set_gates(2 * n + 1, sample + size, 0);
+            return size;
         }
-        const int axis = widest_axis(range_of(sample, size)).axis;
+        const int axis = widest_axis(range_of(sample.data(), size)).axis;
         const auto select = [&](std::size_t first, std::size_t nth) {
-            std::nth_element(sample + first, sample + nth, sample + size,
+            std::nth_element(sample.begin() + static_cast<std::ptrdiff_t>(first),
+                             sample.begin() + static_cast<std::ptrdiff_t>(nth), sample.end(),
                              [axis](const split_record& a, const split_record& b) {
                                  return a.center[axis] < b.center[axis];
                              });
@@ -81,8 +90,7 @@ class sieve_plan {
         const float at_lo = select(0, lo);
         const float at_middle = select(lo, std::min(middle, size - 1));
         set_gate(n, at_lo, hi > middle ? select(middle, hi) : at_middle, axis);
-        set_gates(2 * n, sample, middle);
-        set_gates(2 * n + 1, sample + middle, size - middle);
+        return middle;
     }
 
     void set_gate(std::size_t n, float lo, float hi, int axis) {
