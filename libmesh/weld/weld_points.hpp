@@ -2,6 +2,7 @@
 /// \file
 /// Points within a distance of each other become one point, by a rule that says which.
 
+#include <libmesh/mesh.hpp>
 #include <libmesh/points.hpp>
 #include <libtree/export.hpp>
 #include <libtree/progress.hpp>
@@ -63,5 +64,13 @@ struct point_groups {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API point_groups weld_points(points_view points,
                                                     const weld_options& options);
+
+/// `mesh` with the points of each group joined: the groups' first points in order and unmoved,
+/// faces in order, also those that now repeat a corner. Nothing else is dropped.
+///
+/// \throws std::invalid_argument for groups of another number of points, or naming the lowest face
+///         with a corner that is no point
+/// \cost   O(V + F)
+[[nodiscard]] TREEFORM_API mesh join_groups(mesh_view mesh, const point_groups& groups);
 
 }  // namespace tf

@@ -5,7 +5,7 @@
 #include <libmesh/topology.hpp>
 #include <libmesh/validate.hpp>
 #include <libmesh/weld/equal_points.hpp>
-#include <libmesh/weld/join_within.hpp>
+#include <libmesh/weld/weld_points.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -67,7 +67,8 @@ void join_corners(job& work, findings& result, const search_settings& settings, 
     }
     if (!(length > 0.0)) return;
     const std::size_t before = result.mesh.points.size();
-    result.mesh = tf::join_points_within(result.mesh, length);
+    result.mesh =
+        tf::join_groups(result.mesh, tf::weld_points(result.mesh.points, {.tolerance = length}));
     result.corners_joined = before - result.mesh.points.size();
 }
 
@@ -165,7 +166,8 @@ std::optional<near_points> nearly_equal_points(const findings& result) {
     near_points near;
     near.within = 1e-6 * tf::diagonal(*result.box);
     const auto distinct = tf::find_equal_points(result.mesh.points).first_of_new.size();
-    const auto apart = tf::find_points_within(result.mesh.points, near.within).first_of_new.size();
+    const auto apart =
+        tf::weld_points(result.mesh.points, {.tolerance = near.within}).first_of_group.size();
     near.count = distinct - apart;
     return near;
 }
