@@ -37,7 +37,9 @@ class TREEFORM_API point_reader {
     point_reader& operator=(point_reader&&) noexcept;
 
     /// Format, precision, comments and columns (without rows) of the file; no points. `stored_as`
-    /// is what the header says, `double_` for text.
+    /// is what the types in the file can hold, `double_` for text. Text without a header (XYZ, CSV)
+    /// is gone through once for its number of lines and for whether they are alike. What is to be
+    /// said about the end of the file is among the warnings when `read` has returned false.
     [[nodiscard]] const mesh_file& header() const;
     /// Points in the file, where its header says so.
     [[nodiscard]] std::optional<std::uint64_t> count() const;
@@ -54,7 +56,8 @@ class TREEFORM_API point_reader {
 class TREEFORM_API point_writer {
   public:
     /// `header` as `point_reader::header` gives it, with columns added or removed; `count` points
-    /// will come.
+    /// will come. Coordinates are written with the types of their columns in "vertex", in binary as
+    /// doubles where all of these are at most float32 and `stored_as` says double_.
     ///
     /// \throws io_error as `write_mesh`; also for a format other than ply, pcd, xyz and csv
     point_writer(const std::filesystem::path& path, const mesh_file& header, std::uint64_t count,
@@ -64,7 +67,8 @@ class TREEFORM_API point_writer {
     point_writer& operator=(point_writer&&) noexcept;
 
     /// \throws io_error when the file cannot be written, std::invalid_argument for columns that are
-    ///         not those of the header, or more points than were announced
+    ///         not those of the header, more points than were announced, or a coordinate that the
+    ///         header's types do not hold and no `options.precision` says to round
     void write(const point_block& block);
     /// Puts the file into place; without it nothing stays.
     /// \throws io_error, also when fewer points came than were announced

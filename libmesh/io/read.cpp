@@ -1,23 +1,17 @@
 #include <libmesh/io/detail/detect.hpp>
+#include <libmesh/io/detail/extension.hpp>
 #include <libmesh/io/detail/readers.hpp>
 #include <libmesh/io/read.hpp>
 
-#include <algorithm>
 #include <string>
 
 namespace tf {
 
 namespace {
 
-[[nodiscard]] std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    return text.starts_with('.') ? text.substr(1) : text;
-}
-
 [[nodiscard]] mesh_file read_mesh(const detail::source& in, const std::filesystem::path& path,
                                   std::string_view format, const std::string& extension) {
-    const detail::detected found = detail::detect(in, lower(std::string(format)), extension);
+    const detail::detected found = detail::detect(in, detail::plain_extension(format), extension);
     switch (found.kind) {
         case detail::file_kind::stl_binary:
             return detail::read_stl_binary(in);
@@ -42,13 +36,13 @@ namespace {
 mesh_file read_mesh(const std::filesystem::path& path, std::string_view format) {
     const detail::source in = detail::source::open(path);
     return read_mesh(in, path == "-" ? std::filesystem::path() : path, format,
-                     lower(path.extension().string()));
+                     detail::extension_of(path));
 }
 
 mesh_file read_mesh(std::span<const std::byte> bytes, std::string_view name,
                     std::string_view format) {
     const detail::source in(bytes, name);
-    return read_mesh(in, {}, format, lower(std::filesystem::path(name).extension().string()));
+    return read_mesh(in, {}, format, detail::extension_of(name));
 }
 
 }  // namespace tf

@@ -1,38 +1,59 @@
 #include <libmesh/io/detail/face_sink.hpp>
 #include <libmesh/io/detail/ply_header.hpp>
-#include <libmesh/io/detail/ply_values.hpp>
+#include <libmesh/io/detail/point_rows.hpp>
 #include <libmesh/io/detail/readers.hpp>
 #include <libmesh/io/detail/reserve.hpp>
+#include <libmesh/io/detail/row_values.hpp>
+#include <libmesh/io/detail/vertex_columns.hpp>
+#include <libmesh/io/detail/vertex_rows.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 
 namespace tf::detail {
 
 namespace {
 
-[[nodiscard]] const column* with_role(const element& e, column_role role) {
-    const auto at = std::find_if(e.columns.begin(), e.columns.end(),
-                                 [&](const column& c) { return c.role == role; });
-    return at == e.columns.end() ? nullptr : &*at;
+constexpr std::uint32_t most_numbers = std::numeric_limits<std::uint32_t>::max();
+
+/// The element of points; there must be one with all coordinates.
+[[nodiscard]] element& vertices_of(const source& in, std::vector<element>& elements) {
+    const auto at = std::find_if(elements.begin(), elements.end(),
+                                 [](const element& e) { return e.name == "vertex"; });
+    if (at == elements.end()) in.fail("no element 'vertex' in the header");
+    for (const auto role : {column_role::x, column_role::y, column_role::z})
+        if (with_role(*at, role) == nullptr) in.fail("element 'vertex' lacks one of x, y, z");
+    return *at;
+}
+
+template <class Values>
+void check_room(const Values& values, const element& e) {
+    if (!Values::can_hold(values.bytes_left(), e.rows, e))
+        values.fail("the file ends in element " + e.name + ": " + std::to_string(e.rows) +
+                    " promised");
+}
+
+template <class Values>
+void look_behind(Values& values, std::vector<io_warning>& warnings) {
+    if (!values.only_blanks_left())
+        warnings.push_back({"trailing-bytes", "there is more after the last element"});
 }
 
 template <class Values>
 class body_reader {
   public:
-    body_reader(const source& in, ply_header header, mesh_file& file)
-        : in_(in), values_(in, header.body), file_(file), faces_(file) {
-        file_.attributes.elements = std::move(header.elements);
-    }
+    /// The elements of `file` are those of the header.
+    body_reader(const source& in, Values values, mesh_file& file)
+        : in_(in), values_(std::move(values)), file_(file), faces_(file) {}
 
     void read() {
         check_header();
         for (element& e : file_.attributes.elements) {
-            if (!Values::can_hold(values_.bytes_left(), e.rows, e))
-                values_.fail("the file ends in element " + e.name + ": " + std::to_string(e.rows) +
-                             " promised");
-            reserve(e);
+            check_room(values_, e);
+            start_columns(e, e.rows);
             if (e.name == "vertex")
                 read_vertices(e);
             else if (e.name == "face")
@@ -40,22 +61,16 @@ class body_reader {
             else
                 read_rows(e);
         }
-        if (!values_.only_blanks_left())
-            file_.warnings.push_back({"trailing-bytes", "there is more after the last element"});
-        if (file_.mesh.faces.size() > std::numeric_limits<std::uint32_t>::max())
+        look_behind(values_, file_.warnings);
+        if (file_.mesh.faces.size() > most_numbers)
             in_.fail("more triangles than 32-bit numbers can name");
     }
 
   private:
     void check_header() {
-        const element* vertices = find_element(file_.attributes, "vertex");
-        if (vertices == nullptr) in_.fail("no element 'vertex' in the header");
-        for (const auto role : {column_role::x, column_role::y, column_role::z})
-            if (with_role(*vertices, role) == nullptr)
-                in_.fail("element 'vertex' lacks one of x, y, z");
-        if (vertices->rows > std::numeric_limits<std::uint32_t>::max())
-            in_.fail("more vertices than 32-bit numbers can name");
-        vertex_count_ = static_cast<std::int64_t>(vertices->rows);
+        const element& vertices = vertices_of(in_, file_.attributes.elements);
+        if (vertices.rows > most_numbers) in_.fail("more vertices than 32-bit numbers can name");
+        vertex_count_ = static_cast<std::int64_t>(vertices.rows);
         const element* faces = find_element(file_.attributes, "face");
         if (faces != nullptr && faces->rows > 0 &&
             with_role(*faces, column_role::corners) == nullptr)
@@ -64,55 +79,18 @@ class body_reader {
         if (strips != nullptr && strips->rows > 0) in_.fail("triangle strips are not read");
     }
 
-    /// What `can_hold` has shown to be in proportion to the file.
-    static void reserve(element& e) {
-        for (column& c : e.columns) {
-            if (c.role != column_role::data) continue;
-            if (!c.list_length)
-                c.values.reserve(e.rows * size_of(c.type));
-            else
-                c.list_begin.assign(1, 0);
-        }
-    }
-
-    void read_data(column& c) {
-        if (!c.list_length) return values_.scalar(c);
-        for (std::size_t left = values_.length(c); left > 0; --left) values_.scalar(c);
-        c.list_begin.push_back(value_count(c));
-    }
-
     void read_rows(element& e) {
         if (e.columns.empty()) return;
         for (std::size_t row = 0; row < e.rows; ++row) {
             values_.begin_row();
-            for (column& c : e.columns) read_data(c);
+            for (column& c : e.columns) read_data(values_, c);
             values_.end_row();
         }
     }
 
     void read_vertices(element& e) {
         reserve_large(file_.mesh.points, e.rows);
-        for (std::size_t row = 0; row < e.rows; ++row) {
-            point3 p;
-            values_.begin_row();
-            for (column& c : e.columns) {
-                switch (c.role) {
-                    case column_role::x:
-                        p.x = values_.coordinate(c);
-                        break;
-                    case column_role::y:
-                        p.y = values_.coordinate(c);
-                        break;
-                    case column_role::z:
-                        p.z = values_.coordinate(c);
-                        break;
-                    default:
-                        read_data(c);
-                }
-            }
-            values_.end_row();
-            file_.mesh.points.push_back(p);
-        }
+        append_vertices(values_, e, file_.mesh.points, e.rows);
     }
 
     void read_faces(element& e) {
@@ -123,7 +101,7 @@ class body_reader {
                 if (c.role == column_role::corners)
                     read_corners(c);
                 else
-                    read_data(c);
+                    read_data(values_, c);
             }
             values_.end_row();
         }
@@ -149,9 +127,35 @@ class body_reader {
     std::int64_t vertex_count_ = 0;
 };
 
+/// Calls f with the values of the body, and with the name of their format.
+template <class F>
+void with_values(const source& in, const ply_header& header, F&& f) {
+    switch (header.encoding) {
+        case ply_encoding::ascii:
+            return f("ply-ascii", text_values(in, header.body));
+        case ply_encoding::little_endian:
+            return f("ply-binary-le", byte_values<std::endian::little>(in, header.body));
+        case ply_encoding::big_endian:
+            return f("ply-binary-be", byte_values<std::endian::big>(in, header.body));
+    }
+}
+
+void take_remarks(ply_header& header, mesh_file& file) {
+    file.attributes.comments = std::move(header.comments);
+    file.attributes.obj_info = std::move(header.obj_info);
+}
+
+/// Takes runs of the element "vertex", the only one that has rows.
 template <class Values>
-void read_body(const source& in, ply_header header, mesh_file& file) {
-    body_reader<Values>(in, std::move(header), file).read();
+[[nodiscard]] auto ply_runs(Values values, std::size_t left) {
+    return [values, left](std::vector<point3>& points, element& vertices, std::size_t most,
+                          std::vector<io_warning>& warnings) mutable {
+        const std::size_t rows = std::min(most, left);
+        append_vertices(values, vertices, points, rows);
+        left -= rows;
+        if (rows == 0) look_behind(values, warnings);
+        return rows;
+    };
 }
 
 }  // namespace
@@ -159,24 +163,36 @@ void read_body(const source& in, ply_header header, mesh_file& file) {
 mesh_file read_ply(const source& in) {
     ply_header header = read_ply_header(in);
     mesh_file file;
-    file.attributes.comments = std::move(header.comments);
-    file.attributes.obj_info = std::move(header.obj_info);
-    switch (header.encoding) {
-        case ply_encoding::ascii:
-            file.format = "ply-ascii";
-            read_body<ply_text_values>(in, std::move(header), file);
-            break;
-        case ply_encoding::little_endian:
-            file.format = "ply-binary-le";
-            read_body<ply_byte_values<std::endian::little>>(in, std::move(header), file);
-            break;
-        case ply_encoding::big_endian:
-            file.format = "ply-binary-be";
-            read_body<ply_byte_values<std::endian::big>>(in, std::move(header), file);
-            break;
-    }
+    take_remarks(header, file);
+    with_values(in, header, [&](const char* format, auto values) {
+        file.format = format;
+        file.attributes.elements = std::move(header.elements);
+        body_reader<decltype(values)>(in, std::move(values), file).read();
+    });
     file.stored_as = fits_single(file.mesh.points) ? precision::single_ : precision::double_;
     return file;
+}
+
+point_rows open_ply_points(const source& in) {
+    ply_header header = read_ply_header(in);
+    point_rows rows;
+    element& vertices = vertices_of(in, header.elements);
+    for (const element& e : header.elements)
+        if (&e != &vertices && e.rows > 0)
+            in.fail("element '" + e.name + "' has rows; only files of points are read in blocks");
+    rows.count = vertices.rows;
+    with_values(in, header, [&](const char* format, auto values) {
+        check_room(values, vertices);
+        rows.head.format = format;
+        rows.append = ply_runs(std::move(values), vertices.rows);
+    });
+    const bool binary = header.encoding != ply_encoding::ascii;
+    rows.head.stored_as =
+        binary && has_single_axes(vertices) ? precision::single_ : precision::double_;
+    vertices.rows = 0;
+    take_remarks(header, rows.head);
+    rows.head.attributes.elements = std::move(header.elements);
+    return rows;
 }
 
 }  // namespace tf::detail

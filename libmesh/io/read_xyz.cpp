@@ -1,38 +1,90 @@
+#include <libmesh/io/detail/heading.hpp>
+#include <libmesh/io/detail/point_rows.hpp>
 #include <libmesh/io/detail/readers.hpp>
 #include <libmesh/io/detail/text.hpp>
+#include <libmesh/io/detail/vertex_columns.hpp>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 
 namespace tf::detail {
 
 namespace {
 
-/// A point a line: x y z and any further columns, separated by blanks, commas or semicolons.
+/// A point a line: x y z and any further columns, separated by blanks, commas or semicolons; in
+/// another order where a heading names the columns.
 class xyz_reader {
   public:
-    explicit xyz_reader(const source& in) : text_(in) { file_.format = "xyz"; }
-
-    mesh_file read() {
+    explicit xyz_reader(const source& in) : text_(in) {
         skip_heading();
-        while (!done()) {
-            line();
-            text_.file.release_before(text_.at);
-        }
-        if (file_.mesh.points.empty()) text_.file.fail("no point found");
-        if (file_.mesh.points.size() > std::numeric_limits<std::uint32_t>::max())
-            text_.file.fail("more points than 32-bit numbers can name");
-        store_columns();
-        file_.stored_as = fits_single(file_.mesh.points) ? precision::single_ : precision::double_;
-        return std::move(file_);
+        if (done()) text_.file.fail("no point found");
+        learn_columns();
     }
 
+    /// The element "vertex" without rows; none when there is nothing to say about it.
+    [[nodiscard]] std::vector<element> elements() const {
+        if (declared_.columns.empty()) return {};
+        return {declared_};
+    }
+    [[nodiscard]] std::vector<io_warning> warnings() const { return warnings_; }
+    /// False when the further columns differ between the lines read so far.
+    [[nodiscard]] bool even() const { return keep_more_; }
+
+    /// Goes through all lines for their number and for whether they are even, and back.
+    [[nodiscard]] std::uint64_t survey() {
+        const char* const start = text_.at;
+        std::uint64_t count = 0;
+        for (point3 p; !done(); ++count) {
+            line(p);
+            more_.clear();
+            text_.file.release_before(text_.at);
+        }
+        text_.file.rewind();
+        text_.at = start;
+        if (!keep_more_) drop_columns();
+        return count;
+    }
+
+    /// As `point_rows::append`. The columns are of no use once lines are not `even`.
+    std::size_t append(std::vector<point3>& points, element& vertices, std::size_t most) {
+        constexpr std::size_t at_once = 512;
+        std::size_t rows = 0;
+        for (; rows < most && !done(); ++rows) {
+            if (rows % at_once == 0) store_columns(vertices);
+            point3 p;
+            line(p);
+            points.push_back(p);
+            text_.file.release_before(text_.at);
+        }
+        store_columns(vertices);
+        return rows;
+    }
+
+    static constexpr const char* uneven =
+        "the columns after x y z differ between lines; none was kept";
+
   private:
-    /// Comments start with # or //.
+    static constexpr std::size_t no_axis = 3;
+
+    /// Skips blank lines and comments, which start with # or //; the last one may be a heading.
     [[nodiscard]] bool done() {
-        while (!text_.text_done() && text_.starts_with("//")) text_.skip_line();
-        return text_.done();
+        for (;;) {
+            text_.skip_spaces();
+            if (text_.done()) return true;
+            if (*text_.at != '#' && !text_.starts_with("//")) return false;
+            comment_ = text_.rest_of_line();
+        }
+    }
+
+    /// The last comment where it names the coordinates, as in "//X Y Z R G B".
+    [[nodiscard]] std::string_view named_comment() const {
+        const std::size_t start = std::min(comment_.find_first_not_of("#/"), comment_.size());
+        const std::string_view names = comment_.substr(start);
+        return find_axes(split_heading(names)) ? names : std::string_view();
     }
 
     /// One line of names, or one line with the number of points, may come first.
@@ -43,8 +95,10 @@ class xyz_reader {
         std::string_view first = text_.rest_of_line();
         const bool one_word = std::none_of(first.begin(), first.end(), is_blank) &&
                               first.find_first_of(",;") == std::string_view::npos;
+        heading_ = starts_with_number ? named_comment() : first;
         if (!starts_with_number || one_word) {
-            file_.warnings.push_back({"heading", "the first line is no point and was left out"});
+            if (starts_with_number || !find_axes(split_heading(heading_)))
+                warnings_.push_back({"heading", "the first line is no point and was left out"});
             if (done()) return;
             start = text_.at;
             first = text_.rest_of_line();
@@ -68,6 +122,45 @@ class xyz_reader {
         if (first.find(',') != std::string_view::npos) separator_ = ',';
     }
 
+    /// From the heading, and from the number of values in the first line.
+    void learn_columns() {
+        const std::vector<std::string> names = split_heading(heading_);
+        const auto axes = find_axes(names);
+        if (axes) {
+            axis_of_.assign(1 + *std::max_element(axes->begin(), axes->end()), no_axis);
+            for (std::size_t axis = 0; axis < 3; ++axis) axis_of_[(*axes)[axis]] = axis;
+        }
+        const char* const start = text_.at;
+        point3 p;
+        line(p);
+        text_.at = start;
+        width_ = more_.size();
+        more_.clear();
+        declare_columns(names);
+    }
+
+    void declare_columns(const std::vector<std::string>& names) {
+        const std::size_t count = *width_ + 3;
+        const bool in_order = axis_of_ == axes_in_order;
+        if (!keep_more_ || (in_order && width_ == 0)) return;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t axis = i < axis_of_.size() ? axis_of_[i] : no_axis;
+            if (axis < 3 && in_order) continue;  // the order in which they are taken anyway
+            const bool named = names.size() == count && !names[i].empty();
+            column c{.name = named ? names[i] : "column_" + std::to_string(i + 1)};
+            if (axis < 3) {
+                c.name = "xyz"[axis];
+                c.role = role_of_axis(axis);
+            }
+            declared_.columns.push_back(std::move(c));
+        }
+    }
+
+    void drop_columns() {
+        warnings_.push_back({"columns", uneven});
+        declared_.columns.clear();
+    }
+
     void skip_separator() {
         text_.skip_blanks();
         if (separator_ == ' ' || text_.done() || *text_.at != separator_) return;
@@ -84,13 +177,16 @@ class xyz_reader {
         return text_.number(what);
     }
 
-    void line() {
-        point3 p;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (axis > 0) skip_separator();
-            p[axis] = number("a coordinate");
-        }
+    void line(point3& p) {
         const std::size_t before = more_.size();
+        for (std::size_t i = 0; i < axis_of_.size(); ++i) {
+            if (i > 0) skip_separator();
+            const std::size_t axis = axis_of_[i];
+            if (axis < no_axis)
+                p[axis] = number("a coordinate");
+            else
+                more_.push_back(number("a number"));
+        }
         for (skip_separator(); !text_.line_done() && keep_more_; skip_separator()) {
             const parsed<double> n = parse_number(text_.at, text_.end);
             if (n.end == nullptr)
@@ -98,38 +194,77 @@ class xyz_reader {
             else
                 more_.push_back(number("a number"));
         }
-        const std::size_t width = more_.size() - before;
-        if (file_.mesh.points.empty()) width_ = width;
-        keep_more_ = keep_more_ && width == width_;
+        keep_more_ = keep_more_ && (!width_ || more_.size() - before == *width_);
         text_.skip_line();
-        file_.mesh.points.push_back(p);
     }
 
-    void store_columns() {
-        if (!keep_more_) {
-            file_.warnings.push_back(
-                {"columns", "the columns after x y z differ between lines; none was kept"});
-            return;
+    /// Moves the values of the last lines to their columns.
+    void store_columns(element& vertices) {
+        const std::size_t width = width_.value_or(0);
+        if (keep_more_ && width > 0) {
+            const std::size_t rows = more_.size() / width;
+            std::size_t place = 0;
+            for (column& c : vertices.columns) {
+                if (c.role != column_role::data) continue;
+                const std::size_t before = c.values.size();
+                c.values.resize(before + rows * sizeof(double));
+                for (std::size_t row = 0; row < rows; ++row)
+                    std::memcpy(c.values.data() + before + row * sizeof(double),
+                                &more_[row * width + place], sizeof(double));
+                ++place;
+            }
         }
-        const std::size_t count = file_.mesh.points.size();
-        std::vector<double> values(count);
-        for (std::size_t c = 0; c < width_; ++c) {
-            for (std::size_t i = 0; i < count; ++i) values[i] = more_[i * width_ + c];
-            obtain_element(file_.attributes, "vertex", count)
-                .columns.push_back(make_column<double>("column_" + std::to_string(c + 4), values));
-        }
+        more_.clear();
     }
+
+    static inline const std::vector<std::size_t> axes_in_order{0, 1, 2};
 
     text text_;
-    mesh_file file_{};
+    std::string_view comment_{};
+    std::string_view heading_{};
     char separator_ = ' ';
-    bool keep_more_ = true;  ///< so far every line has the same number of further columns
-    std::size_t width_ = 0;
+    std::vector<std::size_t> axis_of_ = axes_in_order;  ///< of the values that each line must have
+    bool keep_more_ = true;  ///< so far every line has the same number of further values
+    std::optional<std::size_t> width_{};  ///< how many that is; none ahead of the first line
     std::vector<double> more_{};
+    element declared_{.name = "vertex"};
+    std::vector<io_warning> warnings_{};
 };
 
 }  // namespace
 
-mesh_file read_xyz(const source& in) { return xyz_reader(in).read(); }
+mesh_file read_xyz(const source& in) {
+    xyz_reader reader(in);
+    mesh_file file;
+    file.format = "xyz";
+    file.attributes.elements = reader.elements();
+    element none{.name = "vertex"};
+    element& vertices = file.attributes.elements.empty() ? none : file.attributes.elements[0];
+    reader.append(file.mesh.points, vertices, std::numeric_limits<std::size_t>::max());
+    vertices.rows = file.mesh.points.size();
+    if (vertices.rows > std::numeric_limits<std::uint32_t>::max())
+        in.fail("more points than 32-bit numbers can name");
+    file.warnings = reader.warnings();
+    if (!reader.even()) {
+        file.warnings.push_back({"columns", xyz_reader::uneven});
+        file.attributes.elements.clear();
+    }
+    file.stored_as = fits_single(file.mesh.points) ? precision::single_ : precision::double_;
+    return file;
+}
+
+point_rows open_xyz_points(const source& in) {
+    auto reader = std::make_shared<xyz_reader>(in);
+    point_rows rows;
+    rows.count = reader->survey();
+    rows.head.format = "xyz";
+    rows.head.warnings = reader->warnings();
+    rows.head.attributes.elements = reader->elements();
+    rows.append = [reader](std::vector<point3>& points, element& vertices, std::size_t most,
+                           std::vector<io_warning>&) {
+        return reader->append(points, vertices, most);
+    };
+    return rows;
+}
 
 }  // namespace tf::detail

@@ -1,24 +1,48 @@
+#include <libmesh/io/detail/formats.hpp>
 #include <libmesh/io/detail/number.hpp>
+#include <libmesh/io/detail/with_type.hpp>
 #include <libmesh/io/detail/writers.hpp>
 #include <libmesh/io/write.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
 namespace tf {
 
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) {
+    throw std::invalid_argument("write_mesh: " + what);
+}
+
+}  // namespace
+
 namespace detail {
 
+void check_columns(const element& e) {
+    for (const column& c : e.columns) {
+        if (c.name.empty() || std::any_of(c.name.begin(), c.name.end(), is_space))
+            refuse("column name '" + c.name + "' is empty or has blanks");
+        if (c.role != column_role::data) continue;
+        const std::size_t values = value_count(c);
+        const bool fits = c.list_length
+                              ? c.list_begin.size() == e.rows + 1 && c.list_begin.back() == values
+                              : values == e.rows;
+        if (!fits) refuse("column " + c.name + " does not fit element " + e.name);
+    }
+}
+
 void put_number(sink& out, const column& c, std::size_t i) {
-    const double value = number_at(c, i);
-    if (c.type == scalar_type::float64)
-        out.number(value);
-    else if (c.type == scalar_type::float32)
-        out.number(static_cast<float>(value));
-    else
-        out.number(static_cast<std::int64_t>(value));
+    with_type(c.type, [&]<class T>(T value) {
+        std::memcpy(&value, c.values.data() + i * sizeof(T), sizeof(T));
+        if constexpr (sizeof(T) == 1)
+            out.number(static_cast<int>(value));  // else it would be a character
+        else
+            out.number(value);
+    });
 }
 
 std::vector<const column*> scalar_columns(const mesh_file& file, std::string_view element_name,
@@ -43,40 +67,6 @@ std::vector<const column*> colour_columns(const mesh_file& file, std::string_vie
 
 namespace {
 
-using writer = void (*)(const detail::write_job&);
-
-struct known_format {
-    std::string_view extension;
-    std::string_view binary_name;  ///< empty when there is text only
-    std::string_view text_name;    ///< empty when there is no text
-    writer binary;
-    writer text;
-    bool single_only;  ///< the binary kind holds float32 only
-};
-
-constexpr known_format formats[] = {
-    {"stl", "stl-binary", "stl-ascii", detail::write_stl_binary, detail::write_stl_text, true},
-    {"obj", "", "obj", nullptr, detail::write_obj, false},
-    {"ply", "ply-binary-le", "ply-ascii", detail::write_ply, detail::write_ply, false},
-    {"off", "", "off", nullptr, detail::write_off, false},
-    {"xyz", "", "xyz", nullptr, detail::write_xyz, false},
-    {"glb", "glb", "", detail::write_glb, nullptr, true},
-};
-
-[[nodiscard]] const known_format& find_format(const std::filesystem::path& path,
-                                              const write_options& options) {
-    std::string wanted = options.format.empty() ? path.extension().string() : options.format;
-    if (wanted.starts_with('.')) wanted.erase(0, 1);
-    for (char& c : wanted) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-    for (const known_format& f : formats)
-        if (f.extension == wanted) return f;
-    throw io_error(path.string() + ": format '" + wanted + "' cannot be written");
-}
-
-[[noreturn]] void refuse(const std::string& what) {
-    throw std::invalid_argument("write_mesh: " + what);
-}
-
 void check_faces(const mesh_file& file) {
     const auto& faces = file.mesh.faces;
     for (std::size_t f = 0; f < faces.size(); ++f)
@@ -97,33 +87,20 @@ void check_faces(const mesh_file& file) {
     }
 }
 
-void check_columns(const element& e) {
-    for (const column& c : e.columns) {
-        if (c.name.empty() || std::any_of(c.name.begin(), c.name.end(), detail::is_space))
-            refuse("column name '" + c.name + "' is empty or has blanks");
-        if (c.role != column_role::data) continue;
-        const std::size_t values = value_count(c);
-        const bool fits = c.list_length
-                              ? c.list_begin.size() == e.rows + 1 && c.list_begin.back() == values
-                              : values == e.rows;
-        if (!fits) refuse("column " + c.name + " does not fit element " + e.name);
-    }
-}
-
 void check_attributes(const mesh_file& file) {
     for (const element& e : file.attributes.elements) {
         if (e.name == "vertex" && e.rows != file.mesh.points.size())
             refuse("element vertex has another number of rows than there are points");
         if (e.name == "face" && e.rows != detail::stored_face_count(file))
             refuse("element face has another number of rows than there are stored faces");
-        check_columns(e);
+        detail::check_columns(e);
     }
 }
 
-/// Largest change by rounding to float32.
-///
-/// \throws io_error when a finite coordinate becomes infinite
-[[nodiscard]] double largest_move(std::span<const point3> points, const std::string& name) {
+}  // namespace
+
+double detail::largest_move(std::span<const point3> points, std::size_t first,
+                            const std::string& name) {
     // Numbers from here on round away from the largest float: half a last place above it.
     constexpr double beyond = 0x1.ffffffp127;
     double largest = 0.0;
@@ -132,7 +109,7 @@ void check_attributes(const mesh_file& file) {
             const double x = points[v][axis];
             if (!std::isfinite(x)) continue;
             if (std::abs(x) >= beyond)
-                throw io_error(name + ": vertex " + std::to_string(v) +
+                throw io_error(name + ": vertex " + std::to_string(first + v) +
                                " is beyond the range of float32");
             largest = std::max(largest, std::abs(detail::nearest_float(x) - x));
         }
@@ -140,16 +117,18 @@ void check_attributes(const mesh_file& file) {
     return largest;
 }
 
+namespace {
+
 class writing {
   public:
     writing(const std::filesystem::path& path, const mesh_file& file, const write_options& options)
         : file_(file),
           options_(options),
           name_(path.string()),
-          format_(find_format(path, options)) {
+          format_(detail::find_format(path, options)) {
         check_faces(file);
         check_attributes(file);
-        const bool text = format_.binary == nullptr || (options.ascii && format_.text != nullptr);
+        const bool text = detail::writes_text(format_, options);
         writer_ = text ? format_.text : format_.binary;
         result_.format = text ? format_.text_name : format_.binary_name;
         result_.written_as = !text && format_.single_only
@@ -160,7 +139,7 @@ class writing {
             !(!text && format_.single_only) && !fits_single(file.mesh.points))
             result_.written_as = precision::double_;
         if (result_.written_as == precision::single_)
-            result_.largest_move = largest_move(file.mesh.points, name_);
+            result_.largest_move = detail::largest_move(file.mesh.points, 0, name_);
         if (file.mesh.faces.empty() && !file.mesh.points.empty() &&
             (format_.extension == "stl" || format_.extension == "glb"))
             throw io_error(name_ + ": " + std::string(format_.extension) +
@@ -177,8 +156,8 @@ class writing {
     const mesh_file& file_;
     const write_options& options_;
     std::string name_;
-    const known_format& format_;
-    writer writer_ = nullptr;
+    const detail::known_format& format_;
+    detail::writer writer_ = nullptr;
     write_result result_{};
 };
 

@@ -1,35 +1,27 @@
+#include <libmesh/io/detail/number.hpp>
 #include <libmesh/io/detail/ply_header.hpp>
-#include <libmesh/io/detail/ply_values.hpp>
+#include <libmesh/io/detail/vertex_columns.hpp>
+#include <libmesh/io/detail/with_type.hpp>
 #include <libmesh/io/detail/writers.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
 
 namespace tf::detail {
 
 namespace {
-
-[[nodiscard]] bool has_role(const element& e, column_role role) {
-    return std::any_of(e.columns.begin(), e.columns.end(),
-                       [&](const column& c) { return c.role == role; });
-}
-
-[[nodiscard]] double axis_of(const point3& p, column_role role) {
-    return role == column_role::x ? p.x : role == column_role::y ? p.y : p.z;
-}
-
-/// A column without its values.
-[[nodiscard]] column declaration(const column& c) {
-    return {.name = c.name, .type = c.type, .list_length = c.list_length, .role = c.role};
-}
 
 /// True when every coordinate of that axis is a value of the type.
 [[nodiscard]] bool fits(std::span<const point3> points, column_role axis, scalar_type type) {
     if (type == scalar_type::float64) return true;
     return with_type(type, [&]<class T>(T) {
         return std::all_of(points.begin(), points.end(), [&](const point3& p) {
-            const double x = axis_of(p, axis);
+            const double x = p[axis_number(axis)];
             if constexpr (std::is_floating_point_v<T>) {
                 const point3 alone{x, x, x};
                 return fits_single(std::span(&alone, 1));
@@ -40,9 +32,21 @@ namespace {
     });
 }
 
+[[nodiscard]] ply_encoding encoding_for(const write_job& job) {
+    if (job.options.ascii) return ply_encoding::ascii;
+    return job.file.format == "ply-binary-be" ? ply_encoding::big_endian
+                                              : ply_encoding::little_endian;
+}
+
 class ply_writer {
   public:
-    ply_writer(const write_job& job, ply_encoding encoding) : job_(job), encoding_(encoding) {
+    /// `by_runs`: as many points will come by `put_points`; else those of the job's file.
+    explicit ply_writer(const write_job& job, std::optional<std::uint64_t> by_runs = {})
+        : job_(job),
+          encoding_(encoding_for(job)),
+          by_runs_(by_runs.has_value()),
+          count_(by_runs.value_or(job.file.mesh.points.size())) {
+        if (encoding_ == ply_encoding::big_endian) job.result.format = "ply-binary-be";
         for (const element& e : job.file.attributes.elements) {
             names_.push_back({.name = e.name, .rows = e.rows});
             for (const column& c : e.columns) names_.back().columns.push_back(declaration(c));
@@ -58,11 +62,36 @@ class ply_writer {
             if (e.name == "face")
                 put_faces(e, source);
             else
-                put_rows(e, source);
+                put_rows(e, source, e.rows, job_.file.mesh.points);
         }
     }
 
+    void put_header() {
+        sink& out = job_.out;
+        out.put("ply\nformat ");
+        out.put(name_of(encoding_));
+        out.put(" 1.0\n");
+        for (const auto& line : job_.file.attributes.comments) put_remark("comment", line);
+        for (const auto& line : job_.file.attributes.obj_info) put_remark("obj_info", line);
+        for (const element& e : names_) {
+            out.put("element " + e.name + ' ' + std::to_string(e.rows) + '\n');
+            for (const column& c : e.columns) put_property(c);
+        }
+        out.put("end_header\n");
+    }
+
+    void put_points(std::span<const point3> points, const element* source) {
+        const element& e = *find_vertices();
+        for (const column& c : e.columns) check_axis(points, c);
+        put_rows(e, source, points.size(), points);
+    }
+
   private:
+    [[nodiscard]] std::vector<element>::iterator find_vertices() {
+        return std::find_if(names_.begin(), names_.end(),
+                            [](const element& e) { return e.name == "vertex"; });
+    }
+
     element& declared(std::string_view name, std::size_t rows, std::size_t place) {
         const auto at = std::find_if(names_.begin(), names_.end(),
                                      [&](const element& e) { return e.name == name; });
@@ -72,12 +101,15 @@ class ply_writer {
     }
 
     void declare_vertices() {
-        element& e = declared("vertex", job_.file.mesh.points.size(), 0);
+        element& e = declared("vertex", count_, 0);
+        e.rows = count_;
         const scalar_type wanted = job_.single() ? scalar_type::float32 : scalar_type::float64;
         constexpr column_role axes[] = {column_role::x, column_role::y, column_role::z};
+        // By runs: floats that are not to be single come from text, or have been moved.
+        widen_ = by_runs_ && !job_.single() && has_single_axes(e);
         std::ptrdiff_t added = 0;  // missing ones go ahead of all others
         for (std::size_t a = 0; a < 3; ++a) {
-            if (has_role(e, axes[a])) {
+            if (with_role(e, axes[a]) != nullptr) {
                 choose_type(e, axes[a], wanted);
                 continue;
             }
@@ -90,12 +122,24 @@ class ply_writer {
     void choose_type(element& e, column_role axis, scalar_type wanted) {
         for (column& c : e.columns) {
             if (c.role != axis) continue;
-            const bool text = encoding_ == ply_encoding::ascii && c.type == scalar_type::float32;
+            const bool is_float = c.type == scalar_type::float32;
             if (job_.options.precision)
                 c.type = wanted;
-            else if (!text && !fits(job_.file.mesh.points, axis, c.type))
+            else if (is_text() && is_float)
+                continue;
+            else if ((is_float && widen_) || !fits(job_.file.mesh.points, axis, c.type))
                 c.type = wanted;
         }
+    }
+
+    /// Of points that come by runs the type is chosen before they are known.
+    void check_axis(std::span<const point3> points, const column& c) const {
+        if (c.role == column_role::data || job_.single()) return;
+        if (is_text() && c.type == scalar_type::float32) return;
+        if (!fits(points, c.role, c.type))
+            throw std::invalid_argument("point_writer: a coordinate is no " +
+                                        std::string(name_of(c.type)) + ", as column " + c.name +
+                                        " wants it");
     }
 
     void declare_faces() {
@@ -104,7 +148,7 @@ class ply_writer {
                                      [](const element& e) { return e.name == "face"; });
         if (at == names_.end() && count == 0) return;
         element& e = declared("face", count, at == names_.end() ? 1 : 0);
-        if (!has_role(e, column_role::corners))
+        if (with_role(e, column_role::corners) == nullptr)
             e.columns.insert(e.columns.begin(), {.name = "vertex_indices",
                                                  .type = scalar_type::int32,
                                                  .list_length = scalar_type::uint8,
@@ -127,29 +171,18 @@ class ply_writer {
         });
     }
 
-    void put_header() {
+    void put_property(const column& c) {
         sink& out = job_.out;
-        out.put("ply\nformat ");
-        out.put(name_of(encoding_));
-        out.put(" 1.0\n");
-        for (const auto& line : job_.file.attributes.comments) put_remark("comment", line);
-        for (const auto& line : job_.file.attributes.obj_info) put_remark("obj_info", line);
-        for (const element& e : names_) {
-            out.put("element " + e.name + ' ' + std::to_string(e.rows) + '\n');
-            for (const column& c : e.columns) {
-                out.put("property ");
-                if (c.list_length) {
-                    out.put("list ");
-                    out.put(name_of(*c.list_length));
-                    out.put(' ');
-                }
-                out.put(name_of(c.type));
-                out.put(' ');
-                out.put(c.name);
-                out.put('\n');
-            }
+        out.put("property ");
+        if (c.list_length) {
+            out.put("list ");
+            out.put(name_of(*c.list_length));
+            out.put(' ');
         }
-        out.put("end_header\n");
+        out.put(name_of(c.type));
+        out.put(' ');
+        out.put(c.name);
+        out.put('\n');
     }
 
     void put_remark(std::string_view keyword, std::string line) {
@@ -160,39 +193,48 @@ class ply_writer {
         job_.out.put('\n');
     }
 
-    /// Calls f with a value of the type of `c`, made from `value`.
-    template <class V>
-    void put_as(scalar_type type, V value) {
-        if (encoding_ != ply_encoding::ascii) {
-            with_type(type, [&]<class T>(T) {
-                if (encoding_ == ply_encoding::big_endian)
-                    job_.out.raw<std::endian::big>(static_cast<T>(value));
-                else
-                    job_.out.raw<std::endian::little>(static_cast<T>(value));
-            });
-            return;
-        }
+    [[nodiscard]] bool is_text() const { return encoding_ == ply_encoding::ascii; }
+
+    void put_blank() {
         if (row_started_) job_.out.put(' ');
         row_started_ = true;
+    }
+
+    /// `value` as one of that type.
+    template <class V>
+    void put_as(scalar_type type, V value) {
+        if (is_text()) put_blank();
         with_type(type, [&]<class T>(T) {
-            if constexpr (sizeof(T) == 1)
+            if (encoding_ == ply_encoding::big_endian)
+                job_.out.raw<std::endian::big>(static_cast<T>(value));
+            else if (encoding_ == ply_encoding::little_endian)
+                job_.out.raw<std::endian::little>(static_cast<T>(value));
+            else if constexpr (sizeof(T) == 1)
                 job_.out.number(static_cast<int>(value));
             else
                 job_.out.number(static_cast<T>(value));
         });
     }
 
+    void put_value(const column& c, std::size_t i) {
+        if (!is_text())
+            return put_bits(
+                job_.out, c, i,
+                encoding_ == ply_encoding::big_endian ? std::endian::big : std::endian::little);
+        put_blank();
+        put_number(job_.out, c, i);
+    }
+
     void put_coordinate(const column& c, double x) {
         // In text a float column has the digits of the double, as in every text format.
-        const bool digits = encoding_ == ply_encoding::ascii && c.type == scalar_type::float32;
+        const bool digits = is_text() && c.type == scalar_type::float32;
         put_as(digits ? scalar_type::float64 : c.type, job_.rounded(x));
     }
 
     void put_data(const column& c, std::size_t row) {
-        if (!c.list_length) return put_as(c.type, number_at(c, row));
+        if (!c.list_length) return put_value(c, row);
         put_as(*c.list_length, c.list_begin[row + 1] - c.list_begin[row]);
-        for (std::uint64_t i = c.list_begin[row]; i < c.list_begin[row + 1]; ++i)
-            put_as(c.type, number_at(c, i));
+        for (std::uint64_t i = c.list_begin[row]; i < c.list_begin[row + 1]; ++i) put_value(c, i);
     }
 
     /// The column with the values that belongs to number `i` of the declared ones.
@@ -203,19 +245,20 @@ class ply_writer {
     }
 
     void end_row() {
-        if (encoding_ == ply_encoding::ascii) job_.out.put('\n');
+        if (is_text()) job_.out.put('\n');
         row_started_ = false;
     }
 
-    void put_rows(const element& e, const element* source) {
+    void put_rows(const element& e, const element* source, std::size_t rows,
+                  std::span<const point3> points) {
         if (e.columns.empty()) return;
-        for (std::size_t row = 0; row < e.rows; ++row) {
+        for (std::size_t row = 0; row < rows; ++row) {
             for (std::size_t i = 0; i < e.columns.size(); ++i) {
                 const column& c = e.columns[i];
                 if (c.role == column_role::data)
                     put_data(with_values(e, source, i), row);
                 else
-                    put_coordinate(c, axis_of(job_.file.mesh.points[row], c.role));
+                    put_coordinate(c, points[row][axis_number(c.role)]);
             }
             end_row();
         }
@@ -238,22 +281,25 @@ class ply_writer {
         });
     }
 
-    const write_job& job_;
+    write_job job_;
     ply_encoding encoding_;
+    bool by_runs_;
+    bool widen_ = false;
+    std::uint64_t count_;
     std::vector<element> names_{};  ///< what the header declares; without values
     bool row_started_ = false;
 };
 
 }  // namespace
 
-void write_ply(const write_job& job) {
-    ply_encoding encoding = ply_encoding::little_endian;
-    if (job.options.ascii)
-        encoding = ply_encoding::ascii;
-    else if (job.file.format == "ply-binary-be")
-        encoding = ply_encoding::big_endian;
-    if (encoding == ply_encoding::big_endian) job.result.format = "ply-binary-be";
-    ply_writer(job, encoding).write();
+void write_ply(const write_job& job) { ply_writer(job).write(); }
+
+point_sink start_ply_points(const write_job& job, std::uint64_t count) {
+    auto writer = std::make_shared<ply_writer>(job, count);
+    writer->put_header();
+    return {.rows = [writer](std::span<const point3> points, const element* vertices) {
+        writer->put_points(points, vertices);
+    }};
 }
 
 }  // namespace tf::detail

@@ -2,9 +2,9 @@
 
 namespace tf::detail {
 
-void write_xyz(const write_job& job) {
-    const element* vertices = find_element(job.file.attributes, "vertex");
-    const auto& points = job.file.mesh.points;
+namespace {
+
+void put_rows(const write_job& job, std::span<const point3> points, const element* vertices) {
     for (std::size_t v = 0; v < points.size(); ++v) {
         job.point(points[v]);
         if (vertices != nullptr) {
@@ -16,8 +16,20 @@ void write_xyz(const write_job& job) {
         }
         job.out.put('\n');
     }
+}
+
+}  // namespace
+
+void write_xyz(const write_job& job) {
+    put_rows(job, job.file.mesh.points, find_element(job.file.attributes, "vertex"));
     if (!job.file.mesh.faces.empty())
         job.result.warnings.push_back({"faces-dropped", "XYZ holds points only"});
+}
+
+point_sink start_xyz_points(const write_job& job, std::uint64_t) {
+    return {.rows = [job](std::span<const point3> points, const element* vertices) {
+        put_rows(job, points, vertices);
+    }};
 }
 
 }  // namespace tf::detail

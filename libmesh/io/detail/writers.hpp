@@ -6,8 +6,14 @@
 #include <libmesh/io/detail/sink.hpp>
 #include <libmesh/io/write.hpp>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
+#include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace tf::detail {
@@ -34,6 +40,13 @@ struct write_job {
     }
 };
 
+/// Writes runs of points behind a head that has been written. What the job names must outlive it.
+struct point_sink {
+    /// The rows that belong to the points; null when the head has no element "vertex".
+    std::function<void(std::span<const point3> points, const element* vertices)> rows{};
+    std::function<void()> finish{};
+};
+
 void write_stl_binary(const write_job& job);
 void write_stl_text(const write_job& job);
 void write_obj(const write_job& job);
@@ -41,6 +54,20 @@ void write_ply(const write_job& job);
 void write_off(const write_job& job);
 void write_xyz(const write_job& job);
 void write_glb(const write_job& job);
+
+/// Start a file of `count` points; the points of the job's file are not looked at.
+[[nodiscard]] point_sink start_ply_points(const write_job& job, std::uint64_t count);
+[[nodiscard]] point_sink start_xyz_points(const write_job& job, std::uint64_t count);
+
+/// \throws std::invalid_argument for a column that is not as long as the element, or whose name
+///         no format can hold
+void check_columns(const element& e);
+
+/// Largest change by rounding to float32. `first` is the number of the first point, in errors.
+///
+/// \throws io_error when a finite coordinate becomes infinite
+[[nodiscard]] double largest_move(std::span<const point3> points, std::size_t first,
+                                  const std::string& name);
 
 /// Calls f(first triangle, corners) for each face as stored, in order.
 template <class F>
@@ -72,6 +99,15 @@ void for_each_stored_face(const mesh_file& file, F&& f) {
 
 /// Value `i` of a column as text.
 void put_number(sink& out, const column& c, std::size_t i);
+
+/// Value `i` of a column as it stands, bit for bit.
+inline void put_bits(sink& out, const column& c, std::size_t i, std::endian order) {
+    const std::size_t size = size_of(c.type);
+    std::array<char, 8> bytes;
+    std::memcpy(bytes.data(), c.values.data() + i * size, size);
+    if (order != std::endian::native) std::reverse(bytes.data(), bytes.data() + size);
+    out.put({bytes.data(), size});
+}
 
 /// The columns of these names, all of them with one value a row; empty when one is missing.
 [[nodiscard]] std::vector<const column*> scalar_columns(const mesh_file& file,

@@ -1,11 +1,12 @@
 #pragma once
 /// \file
-/// Values of a PLY body, one at a time, from text and from bytes. Both readers have the same calls:
+/// Values of rows, one at a time, from text and from bytes. Both readers have the same calls:
 /// begin_row, length, scalar, end_row.
 
 #include <libmesh/attributes.hpp>
 #include <libmesh/io/detail/byte_order.hpp>
 #include <libmesh/io/detail/text.hpp>
+#include <libmesh/io/detail/with_type.hpp>
 
 #include <cmath>
 #include <limits>
@@ -13,7 +14,6 @@
 
 namespace tf::detail {
 
-/// A value as a double, which holds every one of the eight types exactly.
 template <class T>
 void append(std::vector<std::byte>& values, T value) {
     const std::size_t size = values.size();
@@ -21,34 +21,10 @@ void append(std::vector<std::byte>& values, T value) {
     std::memcpy(values.data() + size, &value, sizeof value);
 }
 
-/// Calls f with a value of the C++ type that `type` stands for.
-template <class F>
-decltype(auto) with_type(scalar_type type, F&& f) {
-    switch (type) {
-        case scalar_type::int8:
-            return f(std::int8_t{});
-        case scalar_type::uint8:
-            return f(std::uint8_t{});
-        case scalar_type::int16:
-            return f(std::int16_t{});
-        case scalar_type::uint16:
-            return f(std::uint16_t{});
-        case scalar_type::int32:
-            return f(std::int32_t{});
-        case scalar_type::uint32:
-            return f(std::uint32_t{});
-        case scalar_type::float32:
-            return f(float{});
-        case scalar_type::float64:
-            break;
-    }
-    return f(double{});
-}
-
 /// A row a line, as the format says.
-class ply_text_values {
+class text_values {
   public:
-    ply_text_values(const source& in, const char* body) : text_(in) { text_.at = body; }
+    text_values(const source& in, const char* body) : text_(in) { text_.at = body; }
 
     [[nodiscard]] std::size_t bytes_left() const {
         return static_cast<std::size_t>(text_.end - text_.at);
@@ -125,9 +101,9 @@ class ply_text_values {
 
 /// Values in the byte order `order`.
 template <std::endian order>
-class ply_byte_values {
+class byte_values {
   public:
-    ply_byte_values(const source& in, const char* body) : file_(in), at_(body) {}
+    byte_values(const source& in, const char* body) : file_(in), at_(body) {}
 
     [[nodiscard]] std::size_t bytes_left() const {
         return static_cast<std::size_t>(file_.end() - at_);
@@ -164,6 +140,13 @@ class ply_byte_values {
     }
 
     void end_row() { file_.release_before(at_); }
+
+    /// The next `bytes` bytes, which must be there, to be read by the caller.
+    [[nodiscard]] const char* take_bytes(std::size_t bytes) {
+        const char* const first = at_;
+        at_ += bytes;
+        return first;
+    }
 
     [[nodiscard]] bool only_blanks_left() const { return at_ == file_.end(); }
     [[noreturn]] void fail(const std::string& reason) const { file_.fail_byte(at_, reason); }

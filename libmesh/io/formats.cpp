@@ -1,0 +1,27 @@
+#include <libmesh/io/detail/extension.hpp>
+#include <libmesh/io/detail/formats.hpp>
+
+namespace tf::detail {
+
+namespace {
+
+constexpr known_format formats[] = {
+    {"stl", "stl-binary", "stl-ascii", write_stl_binary, write_stl_text, true, nullptr},
+    {"obj", "", "obj", nullptr, write_obj, false, nullptr},
+    {"ply", "ply-binary-le", "ply-ascii", write_ply, write_ply, false, start_ply_points},
+    {"off", "", "off", nullptr, write_off, false, nullptr},
+    {"xyz", "", "xyz", nullptr, write_xyz, false, start_xyz_points},
+    {"glb", "glb", "", write_glb, nullptr, true, nullptr},
+};
+
+}  // namespace
+
+const known_format& find_format(const std::filesystem::path& path, const write_options& options) {
+    const std::string wanted =
+        options.format.empty() ? extension_of(path) : plain_extension(options.format);
+    for (const known_format& f : formats)
+        if (f.extension == wanted) return f;
+    throw io_error(path.string() + ": format '" + wanted + "' cannot be written");
+}
+
+}  // namespace tf::detail

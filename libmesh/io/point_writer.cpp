@@ -1,0 +1,117 @@
+#include <libmesh/io/detail/formats.hpp>
+#include <libmesh/io/detail/sink.hpp>
+#include <libmesh/io/detail/vertex_columns.hpp>
+#include <libmesh/io/point_stream.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace tf {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) {
+    throw std::invalid_argument("point_writer: " + what);
+}
+
+/// The header as a file without points.
+[[nodiscard]] mesh_file without_points(const mesh_file& header) {
+    mesh_file head;
+    head.format = header.format;
+    head.stored_as = header.stored_as;
+    head.attributes.comments = header.attributes.comments;
+    head.attributes.obj_info = header.attributes.obj_info;
+    for (const element& e : header.attributes.elements) {
+        if (e.name != "vertex" && e.rows > 0)
+            refuse("the header's element " + e.name + " has rows");
+        detail::restart(head.attributes.elements.emplace_back(), e);
+    }
+    for (const element& e : head.attributes.elements) detail::check_columns(e);
+    return head;
+}
+
+/// True when the columns are those of the header's element "vertex".
+[[nodiscard]] bool same_columns(const element& given, const element* declared) {
+    const std::size_t count = declared == nullptr ? 0 : declared->columns.size();
+    return given.columns.size() == count &&
+           std::equal(given.columns.begin(), given.columns.end(),
+                      declared == nullptr ? given.columns.begin() : declared->columns.begin(),
+                      [](const column& a, const column& b) {
+                          return a.name == b.name && a.type == b.type && a.role == b.role &&
+                                 a.list_length == b.list_length;
+                      });
+}
+
+}  // namespace
+
+struct point_writer::state {
+    state(const std::filesystem::path& path, const mesh_file& header, std::uint64_t points,
+          const write_options& wanted)
+        : count(points), options(wanted), head(without_points(header)) {
+        const detail::known_format& format = detail::find_format(path, options);
+        if (format.start == nullptr)
+            throw io_error(path.string() + ": only PLY, PCD, XYZ and CSV are written in blocks");
+        result.format =
+            detail::writes_text(format, options) ? format.text_name : format.binary_name;
+        result.written_as = options.precision.value_or(head.stored_as);
+        file.emplace(path);
+        out.emplace(file->descriptor(), file->name());
+        rows =
+            format.start({.file = head, .options = options, .result = result, .out = *out}, count);
+    }
+
+    void check(const point_block& block) const {
+        const element& properties = block.properties;
+        if (block.points.size() > count - written) refuse("more points than were announced");
+        if (properties.rows != block.points.size())
+            refuse("another number of rows than there are points");
+        if (!same_columns(properties, find_element(head.attributes, "vertex")))
+            refuse("the columns are not those of the header");
+        detail::check_columns(properties);
+        if (result.written_as == precision::single_ && !options.precision &&
+            !fits_single(block.points))
+            refuse("a coordinate is no float32 value, as the header says");
+    }
+
+    std::uint64_t count;
+    std::uint64_t written = 0;
+    write_options options;
+    mesh_file head;
+    write_result result{};
+    std::optional<detail::output_file> file{};
+    std::optional<detail::sink> out{};
+    detail::point_sink rows{};
+};
+
+point_writer::point_writer(const std::filesystem::path& path, const mesh_file& header,
+                           std::uint64_t count, const write_options& options)
+    : state_(std::make_unique<state>(path, header, count, options)) {}
+point_writer::~point_writer() = default;
+point_writer::point_writer(point_writer&&) noexcept = default;
+point_writer& point_writer::operator=(point_writer&&) noexcept = default;
+
+void point_writer::write(const point_block& block) {
+    state& s = *state_;
+    s.check(block);
+    if (s.result.written_as == precision::single_)
+        s.result.largest_move = std::max(
+            s.result.largest_move, detail::largest_move(block.points, s.written, s.file->name()));
+    const bool has_rows = find_element(s.head.attributes, "vertex") != nullptr;
+    s.rows.rows(block.points, has_rows ? &block.properties : nullptr);
+    s.written += block.points.size();
+}
+
+write_result point_writer::commit() {
+    state& s = *state_;
+    if (s.written != s.count)
+        throw io_error(s.file->name() + ": " + std::to_string(s.count) +
+                       " points were announced and " + std::to_string(s.written) + " came");
+    if (s.rows.finish) s.rows.finish();
+    s.out->flush();
+    s.file->commit();
+    return std::move(s.result);
+}
+
+}  // namespace tf

@@ -1,0 +1,256 @@
+#include <libmesh/io/point_stream.hpp>
+#include <libmesh/io/read.hpp>
+#include <libmesh/io/write.hpp>
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own that goes with the test.
+struct scratch {
+    scratch()
+        : folder(fs::temp_directory_path() / ("io_point_stream." + std::to_string(::getpid()))) {
+        fs::create_directories(folder);
+    }
+    scratch(const scratch&) = delete;
+    scratch& operator=(const scratch&) = delete;
+    ~scratch() { fs::remove_all(folder); }
+
+    [[nodiscard]] fs::path put(const std::string& name, const std::string& bytes) const {
+        std::ofstream(folder / name, std::ios::binary) << bytes;
+        return folder / name;
+    }
+    fs::path folder;
+};
+
+std::string bytes_of(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool same_bits(const std::vector<tf::point3>& a, const std::vector<tf::point3>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(tf::point3)) == 0);
+}
+
+void append(tf::column& to, const tf::column& from) {
+    to.values.insert(to.values.end(), from.values.begin(), from.values.end());
+    for (std::size_t i = 1; i < from.list_begin.size(); ++i)
+        to.list_begin.push_back(to.list_begin.back() + from.list_begin[i] - from.list_begin[i - 1]);
+}
+
+/// The file put together from blocks.
+tf::mesh_file read_by(std::size_t most, const fs::path& path) {
+    tf::point_reader reader(path);
+    tf::mesh_file file = reader.header();
+    tf::element none{.name = "vertex"};
+    const bool has_columns = tf::find_element(file.attributes, "vertex") != nullptr;
+    tf::element& vertices = has_columns ? tf::obtain_element(file.attributes, "vertex", 0) : none;
+    for (tf::column& c : vertices.columns)
+        if (c.list_length) c.list_begin.assign(1, 0);
+    tf::point_block block;
+    while (reader.read(block, most)) {
+        CHECK(block.points.size() <= most);
+        REQUIRE(block.properties.rows == block.points.size());
+        REQUIRE(block.properties.columns.size() == vertices.columns.size());
+        file.mesh.points.insert(file.mesh.points.end(), block.points.begin(), block.points.end());
+        for (std::size_t c = 0; c < vertices.columns.size(); ++c)
+            append(vertices.columns[c], block.properties.columns[c]);
+        vertices.rows += block.properties.rows;
+    }
+    CHECK(block.points.empty());
+    CHECK_FALSE(reader.read(block, most));
+    CHECK(reader.count() == file.mesh.points.size());
+    file.warnings = reader.header().warnings;
+    return file;
+}
+
+/// Points as a cloud has them: with properties of several types, NaN here and there.
+tf::mesh_file cloud(std::size_t count, bool single) {
+    std::mt19937_64 random(count);
+    tf::mesh_file file;
+    file.stored_as = single ? tf::precision::single_ : tf::precision::double_;
+    std::vector<float> intensity;
+    std::vector<std::uint8_t> red;
+    std::vector<std::int32_t> id;
+    for (std::size_t i = 0; i < count; ++i) {
+        tf::point3 p;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double x = static_cast<double>(random() >> 11) * 0x1p-40 - 4000.0;
+            p[axis] = single ? static_cast<double>(static_cast<float>(x)) : x;
+        }
+        file.mesh.points.push_back(p);
+        intensity.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(random())));
+        red.push_back(static_cast<std::uint8_t>(random()));
+        id.push_back(static_cast<std::int32_t>(random()));
+    }
+    tf::element& e = tf::obtain_element(file.attributes, "vertex", count);
+    e.columns.push_back(tf::make_column<float>("intensity", intensity));
+    e.columns.push_back(tf::make_column<std::uint8_t>("red", red));
+    e.columns.push_back(tf::make_column<std::int32_t>("id", id));
+    file.attributes.comments = {"a cloud"};
+    return file;
+}
+
+struct kind {
+    const char* format;
+    bool ascii;
+    const char* read_as;  ///< for the byte order of PLY
+};
+
+constexpr kind kinds[] = {
+    {"ply", true, ""}, {"ply", false, ""}, {"ply", false, "ply-binary-be"}, {"xyz", false, ""}};
+
+}  // namespace
+
+TEST_CASE("point streams: blocks of any size are what the whole file is") {
+    const scratch here;
+    for (const kind& k : kinds)
+        for (const bool single : {false, true}) {
+            CAPTURE(k.format);
+            CAPTURE(k.ascii);
+            tf::mesh_file file = cloud(2500, single);
+            file.format = k.read_as;
+            const fs::path path =
+                here.put(std::string("a.") + k.format,
+                         tf::write_mesh_to_memory(file, {.format = k.format, .ascii = k.ascii}));
+            const tf::mesh_file whole = tf::read_mesh(path);
+            CHECK(same_bits(whole.mesh.points, file.mesh.points));
+            for (const std::size_t most : {1, 7, 1000, 1 << 20}) {
+                const tf::mesh_file parts = read_by(most, path);
+                CHECK(same_bits(parts.mesh.points, whole.mesh.points));
+                CHECK(parts.attributes == whole.attributes);
+                CHECK(parts.format == whole.format);
+            }
+        }
+}
+
+TEST_CASE("point streams: blocks written one by one are the bytes of the whole file") {
+    const scratch here;
+    for (const kind& k : kinds)
+        for (const bool single : {false, true})
+            for (const std::size_t count : {0, 1, 2500}) {
+                CAPTURE(k.format);
+                CAPTURE(k.ascii);
+                CAPTURE(count);
+                tf::mesh_file file = cloud(count, single);
+                file.format = k.read_as;
+                const tf::write_options options{.format = k.format, .ascii = k.ascii};
+                const std::string expected = tf::write_mesh_to_memory(file, options);
+                for (const std::size_t most : {1, 7, 1000}) {
+                    const fs::path path = here.folder / "out";
+                    tf::point_writer writer(path, file, count, options);
+                    for (std::size_t first = 0; first < count; first += most) {
+                        std::vector<std::uint32_t> rows;
+                        tf::point_block block;
+                        for (std::size_t i = first; i < std::min(count, first + most); ++i) {
+                            rows.push_back(static_cast<std::uint32_t>(i));
+                            block.points.push_back(file.mesh.points[i]);
+                        }
+                        block.properties = tf::gather(file.attributes.elements[0], rows);
+                        writer.write(block);
+                    }
+                    const tf::write_result result = writer.commit();
+                    CHECK(bytes_of(path) == expected);
+                    CHECK(result.written_as == file.stored_as);
+                }
+            }
+}
+
+TEST_CASE("point streams: lists and rows without coordinates alone pass through") {
+    const scratch here;
+    const fs::path path = here.put(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty int z\nproperty list uchar short tags\n"
+        "property double x\nproperty float y\nelement face 0\nproperty list uchar int "
+        "vertex_indices\nend_header\n1 0 2 3\n4 2 -1 7 5 6\n7 1 9 8 9\n");
+    for (const bool ascii : {true, false}) {
+        const tf::mesh_file whole = tf::read_mesh(path);
+        const std::string bytes =
+            tf::write_mesh_to_memory(whole, {.format = "ply", .ascii = ascii});
+        const fs::path again = here.put("b.ply", bytes);
+        for (const std::size_t most : {1, 2, 3})
+            CHECK(read_by(most, again).attributes == whole.attributes);
+        tf::point_reader reader(again);
+        tf::point_writer writer(here.folder / "c.ply", reader.header(), *reader.count(),
+                                {.ascii = ascii});
+        tf::point_block block;
+        while (reader.read(block, 2)) writer.write(block);
+        (void)writer.commit();
+        CHECK(bytes_of(here.folder / "c.ply") == bytes);
+    }
+}
+
+TEST_CASE("point streams: uneven lines of text lose their further values from the first block on") {
+    const scratch here;
+    const fs::path path = here.put("a.xyz", "1 2 3 4\n1 2 3 4\n1 2 3\n");
+    const tf::mesh_file parts = read_by(1, path);
+    CHECK(parts.mesh.points.size() == 3);
+    CHECK(parts.attributes == tf::read_mesh(path).attributes);
+    CHECK(parts.warnings.at(0).code == "columns");
+}
+
+TEST_CASE("point streams: what is no file of points is refused") {
+    const scratch here;
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+        "property float z\n";
+    CHECK_THROWS_AS(
+        tf::point_reader(here.put("a.ply", head + "element face 1\nproperty list uchar int "
+                                                  "vertex_indices\nend_header\n0 0 0\n3 0 0 0\n")),
+        tf::io_error);
+    CHECK_THROWS_AS(tf::point_reader(here.put("a.ply", head + "element edge 1\nproperty int v\n"
+                                                              "end_header\n0 0 0\n0\n")),
+                    tf::io_error);
+    CHECK_THROWS_AS(tf::point_reader(here.put("a.obj", "v 0 0 0\n")), tf::io_error);
+    CHECK_THROWS_AS(tf::point_reader(here.folder / "none.ply"), tf::io_error);
+    tf::point_reader cut(here.put("b.ply", head + "end_header\n0 0 \n"));
+    tf::point_block block;
+    CHECK_THROWS_AS(cut.read(block, 10), tf::io_error);
+    CHECK_THROWS_AS(tf::point_writer(here.folder / "a.off", {}, 0), tf::io_error);
+    CHECK_THROWS_AS(tf::point_writer(here.folder / "a.stl", {}, 0), tf::io_error);
+}
+
+TEST_CASE("point streams: a writer takes what was announced, and leaves nothing without commit") {
+    const scratch here;
+    const tf::mesh_file file = cloud(2, true);
+    tf::point_block block{.points = file.mesh.points, .properties = file.attributes.elements[0]};
+    {
+        tf::point_writer writer(here.folder / "a.ply", file, 3);
+        writer.write(block);
+        CHECK_THROWS_AS(writer.write(block), std::invalid_argument);
+        CHECK_THROWS_AS(writer.commit(), tf::io_error);
+    }
+    {
+        tf::point_writer writer(here.folder / "a.ply", file, 2);
+        tf::point_block other = block;
+        other.properties.columns.pop_back();
+        CHECK_THROWS_AS(writer.write(other), std::invalid_argument);
+        other = block;
+        other.properties.rows = 1;
+        CHECK_THROWS_AS(writer.write(other), std::invalid_argument);
+        other = block;
+        other.points[0].x = 0.1;  // no float32, as the header promises
+        CHECK_THROWS_AS(writer.write(other), std::invalid_argument);
+    }
+    CHECK(fs::is_empty(here.folder));
+    tf::point_writer rounding(here.folder / "a.ply", file, 2,
+                              {.precision = tf::precision::single_});
+    block.points[0].x = 0.1;
+    rounding.write(block);
+    CHECK(rounding.commit().largest_move > 0.0);
+    CHECK(tf::read_mesh(here.folder / "a.ply").mesh.points[0].x ==
+          static_cast<double>(static_cast<float>(0.1)));
+}
