@@ -1,0 +1,106 @@
+#include <libmesh/weld/detail/carried_rows.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tf::detail {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 16;
+
+[[noreturn]] void refuse(const std::string& why) {
+    throw std::invalid_argument("tf::weld_mesh: " + why);
+}
+
+void check_column(const element& e, const column& c) {
+    if (c.role != column_role::data) return;
+    const std::size_t values = value_count(c);
+    const std::vector<std::uint64_t>& begin = c.list_begin;
+    const bool fits = c.list_length
+                          ? begin.size() == e.rows + 1 && begin.front() == 0 &&
+                                begin.back() == values && std::is_sorted(begin.begin(), begin.end())
+                          : values == e.rows;
+    if (!fits) refuse("column '" + c.name + "' does not fit element '" + e.name + "'");
+}
+
+template <class T>
+void renumber_values(column& c, const std::vector<std::uint32_t>& new_of_old) {
+    for_chunks(value_count(c), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            T value;
+            std::byte* const at = c.values.data() + i * sizeof value;
+            std::memcpy(&value, at, sizeof value);
+            if (value < 0 || static_cast<std::uint64_t>(value) >= new_of_old.size()) continue;
+            // Groups are numbered by their first points, so that no number grows.
+            value = static_cast<T>(new_of_old[static_cast<std::size_t>(value)]);
+            std::memcpy(at, &value, sizeof value);
+        }
+    });
+}
+
+void renumber_points(column& c, const std::vector<std::uint32_t>& new_of_old) {
+    constexpr std::string_view names[] = {"vertex1", "vertex2", "vertex_index", "vertex_indices"};
+    const bool numbers_points =
+        std::find(std::begin(names), std::end(names), c.name) != std::end(names);
+    if (!numbers_points || c.role != column_role::data) return;
+    switch (c.type) {
+        case scalar_type::int8:
+            return renumber_values<std::int8_t>(c, new_of_old);
+        case scalar_type::uint8:
+            return renumber_values<std::uint8_t>(c, new_of_old);
+        case scalar_type::int16:
+            return renumber_values<std::int16_t>(c, new_of_old);
+        case scalar_type::uint16:
+            return renumber_values<std::uint16_t>(c, new_of_old);
+        case scalar_type::int32:
+            return renumber_values<std::int32_t>(c, new_of_old);
+        case scalar_type::uint32:
+            return renumber_values<std::uint32_t>(c, new_of_old);
+        case scalar_type::float32:
+        case scalar_type::float64:
+            return;
+    }
+}
+
+element carried(const element& e, const mesh_weld_result& welded) {
+    if (e.name == "vertex") return gather(e, welded.point_of_group);
+    if (e.name == "face") return gather(e, welded.face_of_new);
+    element other = e;
+    for (column& c : other.columns) renumber_points(c, welded.groups.group_of_point);
+    return other;
+}
+
+}  // namespace
+
+void check_rows(const attributes& properties, std::size_t point_count, std::size_t face_count) {
+    for (const element& e : properties.elements) {
+        if (e.name == "vertex" && e.rows != point_count)
+            refuse("element 'vertex' has " + std::to_string(e.rows) + " rows for " +
+                   std::to_string(point_count) + " points");
+        if (e.name == "face" && e.rows != face_count)
+            refuse("element 'face' has " + std::to_string(e.rows) + " rows for " +
+                   std::to_string(face_count) + " faces");
+        for (const column& c : e.columns) check_column(e, c);
+    }
+}
+
+attributes carry_rows(const attributes& properties, const mesh_weld_result& welded) {
+    attributes result{.parts = properties.parts,
+                      .comments = properties.comments,
+                      .obj_info = properties.obj_info,
+                      .header = properties.header};
+    result.elements.reserve(properties.elements.size());
+    for (const element& e : properties.elements) result.elements.push_back(carried(e, welded));
+    const std::vector<std::uint32_t>& faces = welded.face_of_new;
+    for (part& p : result.parts)
+        p.first_face = static_cast<std::uint32_t>(
+            std::lower_bound(faces.begin(), faces.end(), p.first_face) - faces.begin());
+    return result;
+}
+
+}  // namespace tf::detail

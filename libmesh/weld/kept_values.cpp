@@ -1,0 +1,114 @@
+#include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/weld/detail/conditions.hpp>
+#include <libmesh/weld/detail/kept_values.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace tf::detail {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 14;
+
+/// The mean of value(i) over several i, rounded as the header of `weld_mesh` says; NaN when one of
+/// them is not finite. Where a sum of differences is beyond the doubles it is taken of values
+/// scaled by 2^-64: 2^32 differences of less than 2^961 each. What this drops of small values is
+/// nothing beside such differences.
+template <class Value>
+double mean(std::span<const std::uint32_t> members, const Value& value) {
+    const auto rough = [&](double scale) {
+        const double first = value(members[0]) * scale;
+        double sum = 0.0;
+        for (const std::uint32_t i : members) sum += value(i) * scale - first;
+        return (first + sum / static_cast<double>(members.size())) / scale;
+    };
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const std::uint32_t i : members) {
+        low = std::min(low, value(i));
+        high = std::max(high, value(i));
+    }
+    const double direct = rough(1.0);
+    const double result = std::isfinite(direct) ? direct : rough(0x1p-64);
+    // With an infinity among the values this is NaN, or infinite.
+    const bool finite = std::isfinite(low) && std::isfinite(high) && !std::isnan(result);
+    return finite ? std::clamp(result, low, high) : std::numeric_limits<double>::quiet_NaN();
+}
+
+template <class Body>
+void for_groups_of_several(const group_members& members, const Body& body) {
+    for_chunks(members.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t g = begin; g < end; ++g)
+            if (members[g].size() > 1) body(g, members[g]);
+    });
+}
+
+/// float or double.
+template <class T>
+void take_column_means(const column& from, const group_members& members, column& to) {
+    const auto value = [&](std::uint32_t i) {
+        T x;
+        std::memcpy(&x, from.values.data() + i * sizeof x, sizeof x);
+        return static_cast<double>(x);
+    };
+    for_groups_of_several(members, [&](std::size_t g, std::span<const std::uint32_t> group) {
+        const auto x = static_cast<T>(mean(group, value));
+        std::memcpy(to.values.data() + g * sizeof x, &x, sizeof x);
+    });
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> kept_points(points_view points, const attributes& properties,
+                                       const mesh_weld_options& options,
+                                       const point_groups& groups) {
+    std::vector<std::uint32_t> kept = groups.first_of_group;
+    const std::vector<std::uint32_t>& group_of = groups.group_of_point;
+    if (options.keep == weld_keep::last)
+        for (std::uint32_t i = 0; i < group_of.size(); ++i) kept[group_of[i]] = i;
+    if (options.keep != weld_keep::lowest && options.keep != weld_keep::highest) return kept;
+    const buffer<double> values = vertex_values(points, properties, options.keep_by);
+    const double sign = options.keep == weld_keep::lowest ? 1.0 : -1.0;
+    for (std::uint32_t i = 0; i < group_of.size(); ++i) {
+        std::uint32_t& best = kept[group_of[i]];
+        const double mine = sign * values[i];
+        const double least = sign * values[best];
+        if (mine < least || (std::isnan(least) && !std::isnan(mine))) best = i;
+    }
+    return kept;
+}
+
+group_members::group_members(const point_groups& groups)
+    : begin_(groups.first_of_group.size() + 1, 0) {
+    const std::vector<std::uint32_t>& group_of = groups.group_of_point;
+    for (const std::uint32_t g : group_of) ++begin_[g];
+    // Ends first; filling from the last point on turns them into beginnings.
+    std::uint32_t total = 0;
+    for (std::uint32_t& n : begin_) n = total += n;
+    members_.resize(total);
+    for (std::size_t i = group_of.size(); i-- > 0;)
+        members_[--begin_[group_of[i]]] = static_cast<std::uint32_t>(i);
+}
+
+void take_means(points_view points, const group_members& members, std::vector<point3>& places) {
+    for_groups_of_several(members, [&](std::size_t g, std::span<const std::uint32_t> group) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            places[g][axis] = mean(group, [&](std::uint32_t i) { return points[i][axis]; });
+    });
+}
+
+void take_means(const element& vertices, const group_members& members, element& rows) {
+    for (std::size_t c = 0; c < rows.columns.size(); ++c) {
+        const column& from = vertices.columns[c];
+        if (from.role != column_role::data || from.list_length) continue;
+        if (from.type == scalar_type::float32)
+            take_column_means<float>(from, members, rows.columns[c]);
+        if (from.type == scalar_type::float64)
+            take_column_means<double>(from, members, rows.columns[c]);
+    }
+}
+
+}  // namespace tf::detail

@@ -1,0 +1,94 @@
+#include <libmesh/exact/predicates.hpp>
+#include <libmesh/weld/detail/moves.hpp>
+#include <libmesh/weld/detail/reach.hpp>
+#include <libtree/parallel.hpp>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace tf::detail {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 15;
+
+bool finite(const point3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+/// From where to where a point went.
+struct move {
+    point3 from{};
+    point3 to{};
+
+    [[nodiscard]] bool further_than(const move& other) const {
+        const order known = compare_rounded(rounded_squared_distance(from, to),
+                                            rounded_squared_distance(other.from, other.to));
+        if (known != order::unsure) return known == order::more;
+        return compare_distance(from, to, other.from, other.to) > 0;
+    }
+
+    /// By bisection: doubles that are not negative are ordered as their bits.
+    [[nodiscard]] double distance_above() const {
+        std::uint64_t low = 0;
+        auto high = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
+        while (low < high) {
+            const std::uint64_t middle = low + (high - low) / 2;
+            const point3 reach{std::bit_cast<double>(middle), 0.0, 0.0};
+            if (compare_distance(from, to, {}, reach) <= 0)
+                high = middle;
+            else
+                low = middle + 1;
+        }
+        return std::bit_cast<double>(low);
+    }
+};
+
+plane_points corners_of(mesh_view mesh, const face& f) {
+    return {mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]};
+}
+
+bool finite(const plane_points& p) { return finite(p.a) && finite(p.b) && finite(p.c); }
+
+bool is_flipped(const plane_points& before, const plane_points& after) {
+    if (before.a == after.a && before.b == after.b && before.c == after.c) return false;
+    return finite(before) && finite(after) && normal_dot(before, after) < 0;
+}
+
+}  // namespace
+
+double largest_move(points_view points, std::span<const std::uint32_t> group_of_point,
+                    points_view places) {
+    std::vector<move> furthest(chunk_count(points.size(), grain));
+    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const move mine{points[i], places[group_of_point[i]]};
+            if (mine.from == mine.to || !finite(mine.from)) continue;
+            if (mine.further_than(furthest[c])) furthest[c] = mine;
+        }
+    });
+    move found;
+    for (const move& m : furthest)
+        if (m.further_than(found)) found = m;
+    return found.distance_above();
+}
+
+std::uint64_t count_flipped(mesh_view before, mesh_view after,
+                            std::span<const std::uint32_t> face_of_new) {
+    std::vector<std::uint64_t> found(chunk_count(after.faces.size(), grain), 0);
+    for_chunks(after.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t i = begin; i < end; ++i)
+            found[c] += is_flipped(corners_of(before, before.faces[face_of_new[i]]),
+                                   corners_of(after, after.faces[i]))
+                            ? 1
+                            : 0;
+    });
+    std::uint64_t total = 0;
+    for (const std::uint64_t n : found) total += n;
+    return total;
+}
+
+}  // namespace tf::detail

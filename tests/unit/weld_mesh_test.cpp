@@ -1,0 +1,482 @@
+#include <libmesh/exact/predicates.hpp>
+#include <libmesh/io/read.hpp>
+#include <libmesh/topology.hpp>
+#include <libmesh/weld/weld_mesh.hpp>
+#include <libtree/parallel.hpp>
+
+#include <doctest/doctest.h>
+#include <support/random.hpp>
+#include <support/soups.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using ids = std::vector<std::uint32_t>;
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+const std::filesystem::path data = std::filesystem::path(TREEFORM_SOURCE_DIR) / "data";
+
+bool three_corners(const tf::face& f) { return f[0] != f[1] && f[1] != f[2] && f[2] != f[0]; }
+
+bool within(const tf::point3& a, const tf::point3& b, double distance) {
+    return tf::compare_distance(a, b, {}, {distance, 0.0, 0.0}) <= 0;
+}
+
+/// Attributes with one element "vertex" of double columns.
+tf::attributes vertex_columns(
+    const std::vector<std::pair<std::string, std::vector<double>>>& list) {
+    tf::attributes a;
+    tf::element& e = tf::obtain_element(a, "vertex", list.front().second.size());
+    for (const auto& [name, values] : list)
+        e.columns.push_back(tf::make_column<double>(name, values));
+    return a;
+}
+
+std::vector<double> values_of(const tf::attributes& a, const char* element, const char* column) {
+    const tf::column* c = tf::find_column(*tf::find_element(a, element), column);
+    REQUIRE(c != nullptr);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < tf::value_count(*c); ++i) values.push_back(tf::number_at(*c, i));
+    return values;
+}
+
+bool same_values(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+void check_faces(const tf::mesh& mesh, const tf::mesh_weld_result& welded) {
+    std::uint64_t collapsed = 0;
+    std::uint64_t degenerate = 0;
+    std::vector<tf::face> faces;
+    ids old;
+    for (std::uint32_t i = 0; i < mesh.faces.size(); ++i) {
+        tf::face f = mesh.faces[i];
+        for (std::uint32_t& corner : f) corner = welded.groups.group_of_point[corner];
+        if (!three_corners(mesh.faces[i])) ++degenerate;
+        if (three_corners(mesh.faces[i]) && !three_corners(f)) ++collapsed;
+        if (!three_corners(f)) continue;
+        faces.push_back(f);
+        old.push_back(i);
+    }
+    CHECK(welded.mesh.faces == faces);
+    CHECK(welded.face_of_new == old);
+    CHECK(welded.collapsed == collapsed);
+    CHECK(welded.degenerate == degenerate);
+}
+
+void check_move(const tf::mesh& mesh, const tf::mesh_weld_result& welded) {
+    bool reached = welded.largest_move == 0.0;
+    const double less = std::nextafter(welded.largest_move, 0.0);
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        const tf::point3& now = welded.mesh.points[welded.groups.group_of_point[i]];
+        CHECK(within(mesh.points[i], now, welded.largest_move));
+        reached = reached || !within(mesh.points[i], now, less);
+    }
+    CHECK(reached);
+}
+
+/// What the header says of any result with `weld_keep::first`, by plain loops.
+void check_result(const tf::mesh& mesh, const tf::mesh_weld_options& options) {
+    const tf::mesh_weld_result welded = tf::weld_mesh(mesh, {}, options);
+    const tf::point_groups groups = tf::weld_points(mesh.points, options.points);
+    CHECK(welded.groups.group_of_point == groups.group_of_point);
+    CHECK(welded.groups.first_of_group == groups.first_of_group);
+    CHECK(welded.point_of_group == groups.first_of_group);
+    for (std::size_t g = 0; g < groups.first_of_group.size(); ++g)
+        CHECK(welded.mesh.points[g] == mesh.points[groups.first_of_group[g]]);
+    check_faces(mesh, welded);
+    check_move(mesh, welded);
+    const auto before = tf::count_topology(mesh.points.size(), mesh.faces);
+    const auto after = tf::count_topology(welded.mesh.points.size(), welded.mesh.faces);
+    CHECK(welded.nonmanifold_before == before.nonmanifold_edges);
+    CHECK(welded.nonmanifold_after == after.nonmanifold_edges);
+    std::uint64_t flipped = 0;
+    for (std::size_t i = 0; i < welded.mesh.faces.size(); ++i) {
+        const auto plane = [](const tf::mesh& m, const tf::face& f) {
+            return tf::plane_points{m.points[f[0]], m.points[f[1]], m.points[f[2]]};
+        };
+        const tf::face& old = mesh.faces[welded.face_of_new[i]];
+        const tf::face& now = welded.mesh.faces[i];
+        flipped += tf::normal_dot(plane(mesh, old), plane(welded.mesh, now)) < 0 ? 1 : 0;
+    }
+    CHECK(welded.flipped == flipped);
+    if (options.points.rule != tf::weld_rule::first) return;
+    const tf::mesh_weld_result again = tf::weld_mesh(welded.mesh, {}, options);
+    CHECK(again.mesh == welded.mesh);
+    CHECK(again.largest_move == 0.0);
+}
+
+void check_same(const tf::mesh_weld_result& a, const tf::mesh_weld_result& b) {
+    CHECK(a.mesh == b.mesh);
+    CHECK(a.attributes == b.attributes);
+    CHECK(a.groups.group_of_point == b.groups.group_of_point);
+    CHECK(a.point_of_group == b.point_of_group);
+    CHECK(a.face_of_new == b.face_of_new);
+    CHECK(a.collapsed == b.collapsed);
+    CHECK(a.degenerate == b.degenerate);
+    CHECK(a.largest_move == b.largest_move);
+    CHECK(a.nonmanifold_before == b.nonmanifold_before);
+    CHECK(a.nonmanifold_after == b.nonmanifold_after);
+    CHECK(a.flipped == b.flipped);
+    CHECK(a.left_alone == b.left_alone);
+}
+
+}  // namespace
+
+TEST_CASE("weld_mesh: nothing comes of nothing, and one point of one") {
+    const tf::mesh_weld_result none = tf::weld_mesh({}, {}, {});
+    CHECK(none.mesh == tf::mesh{});
+    CHECK(none.groups.group_of_point.empty());
+    CHECK(none.largest_move == 0.0);
+    for (const auto keep : {tf::weld_keep::first, tf::weld_keep::mean, tf::weld_keep::last}) {
+        const tf::mesh one{{{1, 2, 3}}, {}};
+        CHECK(tf::weld_mesh(one, {}, {.keep = keep, .only_borders = true}).mesh == one);
+    }
+}
+
+TEST_CASE("weld_mesh: the triangles of a cube become eight points and stay twelve faces") {
+    const tf::mesh_file cube = tf::read_mesh(data / "cube.stl");
+    const auto welded = tf::weld_mesh(cube.mesh, cube.attributes, {});
+    CHECK(welded.mesh.points.size() == 8);
+    CHECK(welded.mesh.faces.size() == 12);
+    CHECK(welded.collapsed + welded.degenerate == 0);
+    CHECK(welded.largest_move == 0.0);
+    const auto counts = tf::count_topology(8, welded.mesh.faces);
+    CHECK(counts.closed);
+    CHECK(counts.misoriented_edges == 0);
+}
+
+TEST_CASE("weld_mesh: as its parts say on lattices, where points are equal and distances tie") {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        const tf::mesh soup = test::lattice_soup(source, 60, 50, 5);
+        for (const double tolerance : {0.0, 1.0, 1.5})
+            for (const auto rule : {tf::weld_rule::first, tf::weld_rule::chain})
+                check_result(soup, {.points = {.tolerance = tolerance, .rule = rule}});
+    }
+}
+
+TEST_CASE("weld_mesh: as its parts say on random triangles of any size") {
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        const tf::mesh soup = test::random_soup(source, 60, seed % 2 == 0 ? 0.3 : 0.01);
+        for (const double tolerance : {0.0, 0.02, 0.2})
+            for (const int exponent : {0, -1040, 900})
+                check_result(test::scaled(soup, std::ldexp(1.0, exponent)),
+                             {.points = {.tolerance = std::ldexp(tolerance, exponent)}});
+    }
+}
+
+TEST_CASE("weld_mesh: a face that turns over is counted, one that only tilts is not") {
+    const tf::mesh mesh{{{0, 0, 0}, {4, 0, 0}, {1, -0.5, 0}, {1, 0.25, 0}, {4, 3, 0}},
+                        {{0, 1, 3}, {0, 1, 4}}};
+    const auto welded = tf::weld_mesh(mesh, {}, {.points = {.tolerance = 0.75}});
+    CHECK(welded.mesh.points.size() == 4);
+    CHECK(welded.flipped == 1);
+    CHECK(welded.largest_move == 0.75);
+}
+
+TEST_CASE("weld_mesh: faces that repeat a corner are dropped, or kept when asked for") {
+    const tf::mesh mesh{{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                        {{0, 1, 2}, {2, 2, 3}, {0, 2, 3}, {1, 2, 3}}};
+    const auto welded = tf::weld_mesh(mesh, {}, {});
+    CHECK(welded.collapsed == 1);
+    CHECK(welded.degenerate == 1);
+    CHECK(welded.face_of_new == ids{2, 3});
+    CHECK(welded.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {0, 1, 2}});
+
+    const auto kept = tf::weld_mesh(mesh, {}, {.keep_collapsed = true});
+    CHECK(kept.collapsed == 1);
+    CHECK(kept.degenerate == 1);
+    CHECK(kept.face_of_new == ids{0, 1, 2, 3});
+    CHECK(kept.mesh.faces == std::vector<tf::face>{{0, 0, 1}, {1, 1, 2}, {0, 1, 2}, {0, 1, 2}});
+}
+
+TEST_CASE("weld_mesh: points that are not finite stay as they are and are not computed with") {
+    const tf::mesh mesh{{{not_a_number, 0, 0},
+                         {not_a_number, 0, 0},
+                         {infinite, 0, 0},
+                         {infinite, 0, 0},
+                         {0, 0, 0},
+                         {1, 0, 0}},
+                        {{0, 4, 5}, {2, 4, 5}}};
+    for (const auto keep : {tf::weld_keep::first, tf::weld_keep::mean, tf::weld_keep::last}) {
+        const auto welded = tf::weld_mesh(mesh, {}, {.points = {.tolerance = 1.0}, .keep = keep});
+        CHECK(welded.groups.group_of_point == ids{0, 1, 2, 3, 4, 4});
+        CHECK(std::isnan(welded.mesh.points[1].x));
+        CHECK(welded.mesh.points[2].x == infinite);
+        CHECK(welded.largest_move == (keep == tf::weld_keep::mean ? 0.5 : 1.0));
+        CHECK(welded.flipped == 0);
+    }
+}
+
+TEST_CASE("weld_mesh: a property that must be equal keeps points apart, NaN being equal to NaN") {
+    const tf::mesh cloud{std::vector<tf::point3>(8), {}};
+    const auto properties = vertex_columns(
+        {{"nx", {0.0, -0.0, not_a_number, not_a_number, infinite, infinite, 0.0, 1.0}},
+         {"t", {1, 1, 2, 2, 3, 3, 1, 1}},
+         {"blue", {1, 1, 1, 1, 1, 1, not_a_number, 1}}});
+    const auto groups = [&](std::vector<tf::weld_condition> conditions) {
+        return tf::weld_mesh(cloud, properties, {.conditions = std::move(conditions)})
+            .groups.group_of_point;
+    };
+    CHECK(groups({}) == ids(8, 0));
+    CHECK(groups({{"nx"}}) == ids{0, 0, 1, 1, 2, 2, 0, 3});
+    CHECK(groups({{"nx"}, {"t"}}) == ids{0, 0, 1, 1, 2, 2, 0, 3});
+    CHECK(groups({{"nx"}, {"t"}, {"blue"}}) == ids{0, 0, 1, 1, 2, 2, 3, 4});
+    CHECK(groups({{"nx", 1.0}}) == ids{0, 0, 1, 1, 2, 2, 0, 0});
+    CHECK(groups(tf::seam_conditions(properties)) == ids{0, 0, 1, 1, 2, 2, 3, 4});
+    CHECK(tf::seam_conditions(properties).size() == 3);
+    CHECK(tf::seam_conditions({}).empty());
+}
+
+TEST_CASE("weld_mesh: the tolerance of a property is inclusive to the last bit") {
+    const tf::mesh cloud{std::vector<tf::point3>(2), {}};
+    const auto joined = [&](double a, double b, double tolerance) {
+        const auto properties = vertex_columns({{"quality", {a, b}}});
+        return tf::weld_mesh(cloud, properties, {.conditions = {{"quality", tolerance}}})
+                   .mesh.points.size() == 1;
+    };
+    CHECK(joined(0.5, 0.75, 0.25));
+    CHECK_FALSE(joined(0.5, 0.75, std::nextafter(0.25, 0.0)));
+    // The difference is 1 + 2^-80 or 1 - 2^-80, rounded to 1 either way.
+    CHECK_FALSE(joined(1.0, -0x1p-80, 1.0));
+    CHECK(joined(1.0, 0x1p-80, 1.0));
+    CHECK_FALSE(joined(-0x1p-80, 1.0, 1.0));
+    CHECK(joined(0x1p-80, 1.0, 1.0));
+    const double most = std::numeric_limits<double>::max();
+    CHECK_FALSE(joined(-most, most, most));
+    CHECK(joined(0, most, most));
+    CHECK_FALSE(joined(infinite, most, most));
+    CHECK_FALSE(joined(not_a_number, 0, most));
+}
+
+TEST_CASE("weld_mesh: conditions are those of the groups by definition") {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        const tf::mesh cloud = test::lattice_soup(source, 0, 120, 3);
+        std::vector<std::vector<double>> columns(4, std::vector<double>(120));
+        for (auto& c : columns)
+            for (double& x : c)
+                x = source.below(5) == 0 ? not_a_number : static_cast<double>(source.below(3));
+        ids kind(120);
+        for (auto& k : kind) k = static_cast<std::uint32_t>(source.below(2)) * 0xfffffffeU;
+        const auto properties = vertex_columns(
+            {{"a", columns[0]}, {"b", columns[1]}, {"c", columns[2]}, {"d", columns[3]}});
+        const auto equal = [](double x, double y, double tolerance) {
+            return (std::isnan(x) && std::isnan(y)) || std::abs(x - y) <= tolerance;
+        };
+        const auto odd = [](std::uint32_t i, std::uint32_t j) { return (i + j) % 7 != 3; };
+        const tf::weld_options by_definition{
+            .tolerance = 1.0, .kind = kind, .agree = [&](std::uint32_t i, std::uint32_t j) {
+                return equal(columns[0][i], columns[0][j], 0.0) &&
+                       equal(columns[1][i], columns[1][j], 0.0) &&
+                       equal(columns[2][i], columns[2][j], 0.0) &&
+                       equal(columns[3][i], columns[3][j], 1.0) && odd(i, j);
+            }};
+        const auto welded =
+            tf::weld_mesh(cloud, properties,
+                          {.points = {.tolerance = 1.0, .kind = kind, .agree = odd},
+                           .conditions = {{"a", 0.0}, {"d", 1.0}, {"b", 0.0}, {"c", 0.0}}});
+        CHECK(welded.groups.group_of_point ==
+              tf::weld_points(cloud.points, by_definition).group_of_point);
+    }
+}
+
+TEST_CASE("weld_mesh: the point that is kept is the one asked for") {
+    const tf::mesh cloud{{{0, 0, 3}, {0, 0, 5}, {0, 0, 2}, {0, 0, 2}, {9, 0, 0}}, {}};
+    const auto properties = vertex_columns({{"q", {not_a_number, 7, 7, 1, not_a_number}}});
+    const auto kept = [&](tf::weld_keep keep, const char* by = "") {
+        const auto welded = tf::weld_mesh(
+            cloud, properties, {.points = {.tolerance = 4.0}, .keep = keep, .keep_by = by});
+        CHECK(welded.groups.first_of_group == ids{0, 4});
+        CHECK(welded.mesh.points[0] == cloud.points[welded.point_of_group[0]]);
+        return welded.point_of_group;
+    };
+    CHECK(kept(tf::weld_keep::first) == ids{0, 4});
+    CHECK(kept(tf::weld_keep::last) == ids{3, 4});
+    CHECK(kept(tf::weld_keep::lowest, "z") == ids{2, 4});
+    CHECK(kept(tf::weld_keep::highest, "z") == ids{1, 4});
+    CHECK(kept(tf::weld_keep::lowest, "q") == ids{3, 4});
+    CHECK(kept(tf::weld_keep::highest, "q") == ids{1, 4});
+}
+
+TEST_CASE("weld_mesh: means are of places and of floating-point columns") {
+    const tf::mesh cloud{{{0, 0, 0}, {1, 0, 0}, {0, 4, 0}, {50, 0, 0}}, {}};
+    auto properties = vertex_columns({{"q", {1, 2, 6, 0.1}}});
+    tf::element& vertices = properties.elements[0];
+    const std::vector<float> single{0.5F, 1.0F, 0.0F, 0.1F};
+    const std::vector<std::uint8_t> whole{7, 8, 9, 10};
+    vertices.columns.push_back(tf::make_column<float>("f", single));
+    vertices.columns.push_back(tf::make_column<std::uint8_t>("red", whole));
+    const auto welded = tf::weld_mesh(cloud, properties,
+                                      {.points = {.tolerance = 4.0}, .keep = tf::weld_keep::mean});
+    CHECK(welded.groups.group_of_point == ids{0, 0, 0, 1});
+    CHECK(welded.mesh.points[0].x == doctest::Approx(1.0 / 3.0).epsilon(1e-15));
+    CHECK(welded.mesh.points[0].y == doctest::Approx(4.0 / 3.0).epsilon(1e-15));
+    CHECK(welded.mesh.points[1] == cloud.points[3]);
+    CHECK(same_values(values_of(welded.attributes, "vertex", "q"), {3.0, 0.1}));
+    CHECK(
+        same_values(values_of(welded.attributes, "vertex", "f"), {0.5, static_cast<double>(0.1F)}));
+    CHECK(same_values(values_of(welded.attributes, "vertex", "red"), {7.0, 10.0}));
+}
+
+TEST_CASE("weld_mesh: a mean stays among its values, however large, small or many") {
+    const double most = std::numeric_limits<double>::max();
+    const auto mean = [](const std::vector<double>& values) {
+        const tf::mesh cloud{std::vector<tf::point3>(values.size()), {}};
+        const auto welded =
+            tf::weld_mesh(cloud, vertex_columns({{"q", values}}), {.keep = tf::weld_keep::mean});
+        return values_of(welded.attributes, "vertex", "q").at(0);
+    };
+    CHECK(mean(std::vector<double>(1000, 0.1)) == 0.1);
+    CHECK(mean({most, most, most}) == most);
+    CHECK(mean({-most, most}) == 0.0);
+    CHECK(mean({-most, most, most, -most, most / 2, most / 2, 0, 0}) ==
+          doctest::Approx(most / 8).epsilon(1e-15));
+    CHECK(mean({5e-324, 5e-324}) == 5e-324);
+    CHECK(std::isnan(mean({1.0, not_a_number})));
+    CHECK(std::isnan(mean({1.0, infinite})));
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        test::random source(seed);
+        std::vector<double> values(3 + source.below(40));
+        long double sum = 0;
+        for (double& x : values) sum += x = source.in(1.0, 1.5);
+        const auto exact = static_cast<double>(sum / static_cast<long double>(values.size()));
+        CHECK(std::abs(mean(values) - exact) <= static_cast<double>(values.size()) * 0x1p-53);
+    }
+}
+
+TEST_CASE("weld_mesh: rows of vertices, faces and edges follow, parts keep their faces") {
+    const tf::mesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                        {{1, 2, 0}, {0, 1, 3}, {0, 2, 4}, {2, 1, 3}, {3, 2, 4}}};
+    tf::attributes properties = vertex_columns({{"q", {10, 11, 12, 13, 14}}});
+    tf::element& faces = tf::obtain_element(properties, "face", 5);
+    const std::vector<std::int16_t> material{0, 1, 2, 3, 4};
+    faces.columns.push_back(tf::make_column<std::int16_t>("material", material));
+    tf::column wedge{
+        .name = "texcoord", .type = tf::scalar_type::uint8, .list_length = tf::scalar_type::uint8};
+    wedge.list_begin = {0, 1, 1, 3, 4, 6};
+    for (std::uint8_t i = 0; i < 6; ++i) wedge.values.push_back(std::byte{i});
+    faces.columns.push_back(wedge);
+    tf::element& edges = tf::obtain_element(properties, "edge", 3);
+    const std::vector<std::int32_t> ends[] = {{0, 1, -1}, {2, 4, 77}};
+    edges.columns.push_back(tf::make_column<std::int32_t>("vertex1", ends[0]));
+    edges.columns.push_back(tf::make_column<std::int32_t>("vertex2", ends[1]));
+    properties.parts = {{.object = "a"},
+                        {.object = "b", .first_face = 1},
+                        {.object = "c", .first_face = 3},
+                        {.object = "d", .first_face = 4}};
+    properties.comments = {"kept"};
+
+    const auto welded = tf::weld_mesh(mesh, properties, {.keep = tf::weld_keep::last});
+    CHECK(welded.face_of_new == ids{1, 2, 4});
+    const tf::attributes& now = welded.attributes;
+    CHECK(same_values(values_of(now, "vertex", "q"), {10, 12, 13, 14}));
+    CHECK(same_values(values_of(now, "face", "material"), {1, 2, 4}));
+    CHECK(same_values(values_of(now, "face", "texcoord"), {1, 2, 4, 5}));
+    CHECK(same_values(values_of(now, "edge", "vertex1"), {0, 1, -1}));
+    CHECK(same_values(values_of(now, "edge", "vertex2"), {1, 3, 77}));
+    CHECK(now.comments == properties.comments);
+    ids first_faces;
+    for (const tf::part& p : now.parts) first_faces.push_back(p.first_face);
+    CHECK(first_faces == ids{0, 0, 2, 2});
+}
+
+TEST_CASE("weld_mesh: only borders are stitched when asked for") {
+    tf::mesh sheets = test::together(test::grid(3), test::moved(test::grid(3), {3, 0, 0}));
+    sheets.points.push_back({3, 0, 0});  // on the border of both, but of no face
+    sheets.points.push_back({1, 1, 0});
+    sheets.points[5] = {4, 0, 0};  // an inner point at a corner of the other sheet
+    const auto all = tf::weld_mesh(sheets, {}, {});
+    CHECK(all.mesh.points.size() == 28);
+    const auto borders = tf::weld_mesh(sheets, {}, {.only_borders = true});
+    CHECK(borders.mesh.points.size() == 30);
+    CHECK(borders.groups.group_of_point[3] == borders.groups.group_of_point[16]);
+    CHECK(borders.groups.group_of_point[5] == 5);
+    CHECK(borders.groups.group_of_point[32] == 28);
+    const tf::mesh cloud{std::vector<tf::point3>(4), {}};
+    CHECK(tf::weld_mesh(cloud, {}, {.only_borders = true}).mesh.points.size() == 4);
+}
+
+TEST_CASE("weld_mesh: threads change nothing, nor does a scale by a power of two") {
+    test::random source(5);
+    const tf::mesh soup = test::random_soup(source, 70000, 0.02);
+    std::vector<double> q(soup.points.size());
+    for (double& x : q) x = static_cast<double>(source.below(3));
+    const auto properties = vertex_columns({{"q", q}});
+    for (const auto keep : {tf::weld_keep::first, tf::weld_keep::mean}) {
+        const tf::mesh_weld_options options{.points = {.tolerance = 0.01},
+                                            .conditions = {{"q"}},
+                                            .keep = keep,
+                                            .only_borders = true};
+        const auto once = tf::weld_mesh(soup, properties, options);
+        CHECK(once.mesh.points.size() < soup.points.size());
+        for (const unsigned threads : {1U, 2U, 8U}) {
+            const tf::thread_scope scope(threads);
+            check_same(tf::weld_mesh(soup, properties, options), once);
+        }
+        tf::mesh_weld_options other = options;
+        other.points.tolerance = std::ldexp(0.01, 40);
+        const auto large = tf::weld_mesh(test::scaled(soup, 0x1p40), properties, other);
+        CHECK(large.mesh == test::scaled(once.mesh, 0x1p40));
+        CHECK(large.attributes == once.attributes);
+        CHECK(large.largest_move == std::ldexp(once.largest_move, 40));
+        CHECK(large.flipped == once.flipped);
+    }
+}
+
+TEST_CASE("weld_mesh: a search that is stopped leaves nothing but word of it") {
+    const tf::mesh mesh = test::grid(2);
+    const auto welded =
+        tf::weld_mesh(mesh, {}, {.points = {.progress = [](double) { return false; }}});
+    CHECK(welded.groups.stopped);
+    CHECK(welded.mesh == tf::mesh{});
+}
+
+TEST_CASE("weld_mesh: what cannot be meant is refused by name") {
+    const tf::mesh mesh = test::grid(1);
+    const auto refused = [&](const tf::attributes& properties, const tf::mesh_weld_options& options,
+                             const char* text) {
+        CHECK_THROWS_WITH_AS((void)tf::weld_mesh(mesh, properties, options), text,
+                             std::invalid_argument);
+    };
+    refused({}, {.conditions = {{"q"}}}, "tf::weld_mesh: no vertex property 'q'");
+    refused({}, {.keep = tf::weld_keep::lowest}, "tf::weld_mesh: no vertex property ''");
+    refused({}, {.conditions = {{"xy"}}}, "tf::weld_mesh: no vertex property 'xy'");
+    for (const double bad : {-1.0, not_a_number, infinite})
+        refused({}, {.conditions = {{"x", bad}}},
+                "tf::weld_mesh: the tolerance of 'x' must be finite and not negative");
+    const ids kind(3);
+    refused({}, {.points = {.kind = kind}, .conditions = {{"x"}}},
+            "tf::weld_mesh: 3 kinds for 4 points");
+    tf::attributes properties = vertex_columns({{"q", {1, 2, 3}}});
+    refused(properties, {}, "tf::weld_mesh: element 'vertex' has 3 rows for 4 points");
+    properties.elements[0].rows = 4;
+    refused(properties, {}, "tf::weld_mesh: column 'q' does not fit element 'vertex'");
+    tf::attributes list;
+    tf::obtain_element(list, "vertex", 4).columns = {
+        {.name = "l", .list_length = tf::scalar_type::uint8, .list_begin = {0, 0, 0, 0, 0}}};
+    refused(list, {.conditions = {{"l"}}}, "tf::weld_mesh: the vertex property 'l' is a list");
+    tf::attributes faces;
+    faces.elements.push_back({.name = "face", .rows = 1});
+    refused(faces, {}, "tf::weld_mesh: element 'face' has 1 rows for 2 faces");
+    CHECK_THROWS_WITH_AS((void)tf::weld_mesh(tf::mesh{mesh.points, {{0, 1, 2}, {1, 2, 9}}}, {}, {}),
+                         "tf::weld_mesh: face 1 has a corner that is no point",
+                         std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::weld_mesh(mesh, {}, {.points = {.tolerance = -1.0}}),
+                    std::invalid_argument);
+}
