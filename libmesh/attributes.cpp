@@ -53,6 +53,10 @@ double number_at(const column& c, std::size_t i) {
             return load<std::int32_t>(at);
         case scalar_type::uint32:
             return load<std::uint32_t>(at);
+        case scalar_type::int64:
+            return load<std::int64_t>(at);
+        case scalar_type::uint64:
+            return load<std::uint64_t>(at);
         case scalar_type::float32:
             return load<float>(at);
         case scalar_type::float64:

@@ -24,13 +24,15 @@ enum class scalar_type : std::uint8_t {
     uint16,
     int32,
     uint32,
+    int64,
+    uint64,
     float32,
     float64
 };
 
 /// Bytes that one value takes.
 [[nodiscard]] constexpr std::size_t size_of(scalar_type type) {
-    constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+    constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
     return sizes[static_cast<std::size_t>(type)];
 }
 
@@ -48,6 +50,10 @@ template <class T>
         return scalar_type::int32;
     else if constexpr (std::is_same_v<T, std::uint32_t>)
         return scalar_type::uint32;
+    else if constexpr (std::is_same_v<T, std::int64_t>)
+        return scalar_type::int64;
+    else if constexpr (std::is_same_v<T, std::uint64_t>)
+        return scalar_type::uint64;
     else if constexpr (std::is_same_v<T, float>)
         return scalar_type::float32;
     else {
@@ -78,7 +84,7 @@ struct column {
     return c.values.size() / size_of(c.type);
 }
 
-/// Value number `i` as a double (exact for every type).
+/// Value number `i` as a double: exact, but for whole numbers beyond 2^53, which are rounded.
 [[nodiscard]] TREEFORM_API double number_at(const column& c, std::size_t i);
 
 /// A column with one value a row.

@@ -1,5 +1,6 @@
 #include <libmesh/io/detail/byte_order.hpp>
 #include <libmesh/io/detail/detect.hpp>
+#include <libmesh/io/detail/heading.hpp>
 #include <libmesh/io/detail/readers.hpp>
 #include <libmesh/io/detail/text.hpp>
 
@@ -51,10 +52,25 @@ void refuse_unless_text(const source& in) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+/// The comment ahead of it is often missing.
+[[nodiscard]] bool is_pcd_header(text t) {
+    if (t.text_done() || t.word() != "VERSION") return false;
+    t.skip_line();
+    if (t.text_done()) return false;
+    const std::string_view next = t.word();
+    return next == "FIELDS" || next == "COLUMNS";
+}
+
+[[noreturn]] void refuse_las(const source& in) {
+    in.fail("LAS and LAZ are not read; convert it first, with PDAL: pdal translate in.laz out.ply");
+}
+
 [[nodiscard]] std::optional<detected> by_magic(const source& in, std::string_view extension) {
     text t(in);
     if (t.starts_with("ply\n") || t.starts_with("ply\r") || t.starts_with("ply "))
         return detected{file_kind::ply};
+    if (t.starts_with("# .PCD") || is_pcd_header(t)) return detected{file_kind::pcd};
+    if (t.starts_with("LASF")) refuse_las(in);
     if (t.starts_with("glTF")) return detected{file_kind::scene, "glb"};
     if (is_binary_stl(in)) return detected{file_kind::stl_binary};
     if (t.starts_with("PK\x03\x04"))
@@ -75,7 +91,8 @@ void refuse_unless_text(const source& in) {
 [[nodiscard]] std::optional<file_kind> text_kind(std::string_view extension) {
     if (extension == "obj") return file_kind::obj;
     if (extension == "off") return file_kind::off;
-    constexpr std::array<std::string_view, 5> tables{"xyz", "txt", "pts", "asc", "csv"};
+    if (extension == "csv") return file_kind::csv;
+    constexpr std::array<std::string_view, 4> tables{"xyz", "txt", "pts", "asc"};
     if (std::find(tables.begin(), tables.end(), extension) != tables.end()) return file_kind::xyz;
     return std::nullopt;
 }
@@ -87,6 +104,9 @@ void refuse_unless_text(const source& in) {
     if (starts_with_word(t.at, t.end, "solid")) return stl_kind(in);
     if (!is_text(head_of(in))) return std::nullopt;
     if (parse_number(t.at, t.end).end != nullptr) return detected{file_kind::xyz};
+    const std::string_view line = text(t).rest_of_line();
+    if (find_axes(split_heading(line)))
+        return detected{line.find(',') == std::string_view::npos ? file_kind::xyz : file_kind::csv};
     if (is_obj_word(t.word())) return detected{file_kind::obj};
     return std::nullopt;
 }
@@ -99,6 +119,8 @@ detected detect(const source& in, std::string_view format, std::string_view exte
     if (format.empty())
         if (auto found = by_magic(in, extension)) return *std::move(found);
     if (wanted == "ply") return {file_kind::ply};
+    if (wanted == "pcd") return {file_kind::pcd};
+    if (wanted == "las" || wanted == "laz") refuse_las(in);
     if (wanted == "stl") return is_binary_stl(in) ? detected{file_kind::stl_binary} : stl_kind(in);
     if (const auto kind = text_kind(wanted)) {
         refuse_unless_text(in);

@@ -11,14 +11,17 @@ constexpr known_format formats[] = {
     {"ply", "ply-binary-le", "ply-ascii", write_ply, write_ply, false, start_ply_points},
     {"off", "", "off", nullptr, write_off, false, nullptr},
     {"xyz", "", "xyz", nullptr, write_xyz, false, start_xyz_points},
+    {"csv", "", "csv", nullptr, write_csv, false, start_csv_points},
+    {"pcd", "pcd-binary", "pcd-ascii", write_pcd, write_pcd, false, start_pcd_points},
     {"glb", "glb", "", write_glb, nullptr, true, nullptr},
 };
 
 }  // namespace
 
 const known_format& find_format(const std::filesystem::path& path, const write_options& options) {
-    const std::string wanted =
+    std::string wanted =
         options.format.empty() ? extension_of(path) : plain_extension(options.format);
+    if (wanted == "txt" || wanted == "asc" || wanted == "pts") wanted = "xyz";
     for (const known_format& f : formats)
         if (f.extension == wanted) return f;
     throw io_error(path.string() + ": format '" + wanted + "' cannot be written");

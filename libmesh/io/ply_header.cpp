@@ -8,13 +8,16 @@ namespace tf::detail {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, scalar_type>, 16> type_names{{
+/// The first ones in the order of `scalar_type`: those that are written.
+constexpr std::array<std::pair<std::string_view, scalar_type>, 18> type_names{{
     {"char", scalar_type::int8},
     {"uchar", scalar_type::uint8},
     {"short", scalar_type::int16},
     {"ushort", scalar_type::uint16},
     {"int", scalar_type::int32},
     {"uint", scalar_type::uint32},
+    {"int64", scalar_type::int64},  // not of the format as first described
+    {"uint64", scalar_type::uint64},
     {"float", scalar_type::float32},
     {"double", scalar_type::float64},
     {"int8", scalar_type::int8},

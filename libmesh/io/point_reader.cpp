@@ -18,8 +18,12 @@ namespace {
     switch (found.kind) {
         case detail::file_kind::ply:
             return detail::open_ply_points(in);
+        case detail::file_kind::pcd:
+            return detail::open_pcd_points(in);
         case detail::file_kind::xyz:
-            return detail::open_xyz_points(in);
+            return detail::open_xyz_points(in, "xyz");
+        case detail::file_kind::csv:
+            return detail::open_xyz_points(in, "csv");
         default:
             in.fail("only PLY, PCD, XYZ and CSV are read in blocks");
     }

@@ -23,8 +23,12 @@ namespace {
             return detail::read_ply(in);
         case detail::file_kind::off:
             return detail::read_off(in);
+        case detail::file_kind::pcd:
+            return detail::read_pcd(in);
         case detail::file_kind::xyz:
-            return detail::read_xyz(in);
+            return detail::read_xyz(in, "xyz");
+        case detail::file_kind::csv:
+            return detail::read_xyz(in, "csv");
         case detail::file_kind::scene:
             break;
     }

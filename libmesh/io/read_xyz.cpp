@@ -233,10 +233,10 @@ class xyz_reader {
 
 }  // namespace
 
-mesh_file read_xyz(const source& in) {
+mesh_file read_xyz(const source& in, std::string_view format) {
     xyz_reader reader(in);
     mesh_file file;
-    file.format = "xyz";
+    file.format = format;
     file.attributes.elements = reader.elements();
     element none{.name = "vertex"};
     element& vertices = file.attributes.elements.empty() ? none : file.attributes.elements[0];
@@ -253,11 +253,11 @@ mesh_file read_xyz(const source& in) {
     return file;
 }
 
-point_rows open_xyz_points(const source& in) {
+point_rows open_xyz_points(const source& in, std::string_view format) {
     auto reader = std::make_shared<xyz_reader>(in);
     point_rows rows;
     rows.count = reader->survey();
-    rows.head.format = "xyz";
+    rows.head.format = format;
     rows.head.warnings = reader->warnings();
     rows.head.attributes.elements = reader->elements();
     rows.append = [reader](std::vector<point3>& points, element& vertices, std::size_t most,

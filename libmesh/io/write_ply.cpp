@@ -1,3 +1,4 @@
+#include <libmesh/io/detail/declared_vertices.hpp>
 #include <libmesh/io/detail/number.hpp>
 #include <libmesh/io/detail/ply_header.hpp>
 #include <libmesh/io/detail/vertex_columns.hpp>
@@ -16,22 +17,6 @@ namespace tf::detail {
 
 namespace {
 
-/// True when every coordinate of that axis is a value of the type.
-[[nodiscard]] bool fits(std::span<const point3> points, column_role axis, scalar_type type) {
-    if (type == scalar_type::float64) return true;
-    return with_type(type, [&]<class T>(T) {
-        return std::all_of(points.begin(), points.end(), [&](const point3& p) {
-            const double x = p[axis_number(axis)];
-            if constexpr (std::is_floating_point_v<T>) {
-                const point3 alone{x, x, x};
-                return fits_single(std::span(&alone, 1));
-            }
-            return x >= std::numeric_limits<T>::min() && x <= std::numeric_limits<T>::max() &&
-                   x == std::floor(x);
-        });
-    });
-}
-
 [[nodiscard]] ply_encoding encoding_for(const write_job& job) {
     if (job.options.ascii) return ply_encoding::ascii;
     return job.file.format == "ply-binary-be" ? ply_encoding::big_endian
@@ -44,14 +29,13 @@ class ply_writer {
     explicit ply_writer(const write_job& job, std::optional<std::uint64_t> by_runs = {})
         : job_(job),
           encoding_(encoding_for(job)),
-          by_runs_(by_runs.has_value()),
           count_(by_runs.value_or(job.file.mesh.points.size())) {
         if (encoding_ == ply_encoding::big_endian) job.result.format = "ply-binary-be";
         for (const element& e : job.file.attributes.elements) {
             names_.push_back({.name = e.name, .rows = e.rows});
             for (const column& c : e.columns) names_.back().columns.push_back(declaration(c));
         }
-        declare_vertices();
+        declare_vertices(by_runs.has_value());
         declare_faces();
     }
 
@@ -82,7 +66,7 @@ class ply_writer {
 
     void put_points(std::span<const point3> points, const element* source) {
         const element& e = *find_vertices();
-        for (const column& c : e.columns) check_axis(points, c);
+        check_axes(job_, is_text(), e, points);
         put_rows(e, source, points.size(), points);
     }
 
@@ -100,46 +84,11 @@ class ply_writer {
                               {.name = std::string(name), .rows = rows});
     }
 
-    void declare_vertices() {
+    void declare_vertices(bool by_runs) {
+        const std::span<const point3> all(job_.file.mesh.points);
         element& e = declared("vertex", count_, 0);
+        e = detail::declare_vertices(job_, is_text(), by_runs ? std::nullopt : std::optional(all));
         e.rows = count_;
-        const scalar_type wanted = job_.single() ? scalar_type::float32 : scalar_type::float64;
-        constexpr column_role axes[] = {column_role::x, column_role::y, column_role::z};
-        // By runs: floats that are not to be single come from text, or have been moved.
-        widen_ = by_runs_ && !job_.single() && has_single_axes(e);
-        std::ptrdiff_t added = 0;  // missing ones go ahead of all others
-        for (std::size_t a = 0; a < 3; ++a) {
-            if (with_role(e, axes[a]) != nullptr) {
-                choose_type(e, axes[a], wanted);
-                continue;
-            }
-            column axis{.name = std::string(1, "xyz"[a]), .type = wanted, .role = axes[a]};
-            e.columns.insert(e.columns.begin() + added++, std::move(axis));
-        }
-    }
-
-    /// A declared type stays where it can: text may have more digits than the type, bytes may not.
-    void choose_type(element& e, column_role axis, scalar_type wanted) {
-        for (column& c : e.columns) {
-            if (c.role != axis) continue;
-            const bool is_float = c.type == scalar_type::float32;
-            if (job_.options.precision)
-                c.type = wanted;
-            else if (is_text() && is_float)
-                continue;
-            else if ((is_float && widen_) || !fits(job_.file.mesh.points, axis, c.type))
-                c.type = wanted;
-        }
-    }
-
-    /// Of points that come by runs the type is chosen before they are known.
-    void check_axis(std::span<const point3> points, const column& c) const {
-        if (c.role == column_role::data || job_.single()) return;
-        if (is_text() && c.type == scalar_type::float32) return;
-        if (!fits(points, c.role, c.type))
-            throw std::invalid_argument("point_writer: a coordinate is no " +
-                                        std::string(name_of(c.type)) + ", as column " + c.name +
-                                        " wants it");
     }
 
     void declare_faces() {
@@ -173,6 +122,9 @@ class ply_writer {
 
     void put_property(const column& c) {
         sink& out = job_.out;
+        if (c.type == scalar_type::int64 || c.type == scalar_type::uint64)
+            job_.result.warnings.push_back(
+                {"ply-int64", "not every reader of PLY knows the type of property " + c.name});
         out.put("property ");
         if (c.list_length) {
             out.put("list ");
@@ -227,21 +179,13 @@ class ply_writer {
 
     void put_coordinate(const column& c, double x) {
         // In text a float column has the digits of the double, as in every text format.
-        const bool digits = is_text() && c.type == scalar_type::float32;
-        put_as(digits ? scalar_type::float64 : c.type, job_.rounded(x));
+        put_as(is_text() && keeps_digits(c) ? scalar_type::float64 : c.type, job_.rounded(x));
     }
 
     void put_data(const column& c, std::size_t row) {
         if (!c.list_length) return put_value(c, row);
         put_as(*c.list_length, c.list_begin[row + 1] - c.list_begin[row]);
         for (std::uint64_t i = c.list_begin[row]; i < c.list_begin[row + 1]; ++i) put_value(c, i);
-    }
-
-    /// The column with the values that belongs to number `i` of the declared ones.
-    [[nodiscard]] static const column& with_values(const element& declared, const element* source,
-                                                   std::size_t i) {
-        // Columns that the writer has added stand ahead of all others.
-        return source->columns[i - (declared.columns.size() - source->columns.size())];
     }
 
     void end_row() {
@@ -283,8 +227,6 @@ class ply_writer {
 
     write_job job_;
     ply_encoding encoding_;
-    bool by_runs_;
-    bool widen_ = false;
     std::uint64_t count_;
     std::vector<element> names_{};  ///< what the header declares; without values
     bool row_started_ = false;

@@ -22,8 +22,7 @@ void put_rows(const write_job& job, std::span<const point3> points, const elemen
 
 void write_xyz(const write_job& job) {
     put_rows(job, job.file.mesh.points, find_element(job.file.attributes, "vertex"));
-    if (!job.file.mesh.faces.empty())
-        job.result.warnings.push_back({"faces-dropped", "XYZ holds points only"});
+    warn_of_faces(job, "XYZ");
 }
 
 point_sink start_xyz_points(const write_job& job, std::uint64_t) {

@@ -61,6 +61,10 @@ void renumber_points(column& c, const std::vector<std::uint32_t>& new_of_old) {
             return renumber_values<std::int32_t>(c, new_of_old);
         case scalar_type::uint32:
             return renumber_values<std::uint32_t>(c, new_of_old);
+        case scalar_type::int64:
+            return renumber_values<std::int64_t>(c, new_of_old);
+        case scalar_type::uint64:
+            return renumber_values<std::uint64_t>(c, new_of_old);
         case scalar_type::float32:
         case scalar_type::float64:
             return;

@@ -107,11 +107,13 @@ tf::mesh_file cloud(std::size_t count, bool single) {
 struct kind {
     const char* format;
     bool ascii;
-    const char* read_as;  ///< for the byte order of PLY
+    const char* read_as;  ///< for the byte order of PLY, and for compression
 };
 
 constexpr kind kinds[] = {
-    {"ply", true, ""}, {"ply", false, ""}, {"ply", false, "ply-binary-be"}, {"xyz", false, ""}};
+    {"ply", true, ""},  {"ply", false, ""}, {"ply", false, "ply-binary-be"},
+    {"pcd", true, ""},  {"pcd", false, ""}, {"pcd", false, "pcd-binary-compressed"},
+    {"csv", false, ""}, {"xyz", false, ""}};
 
 }  // namespace
 

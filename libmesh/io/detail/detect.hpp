@@ -10,7 +10,7 @@
 
 namespace tf::detail {
 
-enum class file_kind : std::uint8_t { stl_binary, stl_text, obj, ply, off, xyz, scene };
+enum class file_kind : std::uint8_t { stl_binary, stl_text, obj, ply, off, pcd, xyz, csv, scene };
 
 struct detected {
     file_kind kind = file_kind::scene;

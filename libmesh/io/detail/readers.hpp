@@ -15,7 +15,9 @@ namespace tf::detail {
 [[nodiscard]] mesh_file read_obj(const source& in);
 [[nodiscard]] mesh_file read_ply(const source& in);
 [[nodiscard]] mesh_file read_off(const source& in);
-[[nodiscard]] mesh_file read_xyz(const source& in);
+[[nodiscard]] mesh_file read_pcd(const source& in);
+/// `format` is "xyz" or "csv", which are read alike.
+[[nodiscard]] mesh_file read_xyz(const source& in, std::string_view format);
 
 /// True when the library behind `read_scene` knows files of this extension (no dot).
 [[nodiscard]] bool scene_format(std::string_view extension);

@@ -87,13 +87,20 @@ class text_values {
   private:
     template <class T>
     [[nodiscard]] parsed<T> parse() const {
-        if constexpr (std::is_floating_point_v<T>) return parse_number<T>(text_.at, text_.end);
-        // Some files write whole numbers with a point: 255.0.
-        const parsed<double> n = parse_number(text_.at, text_.end);
-        if (n.end == nullptr || !(n.value >= std::numeric_limits<T>::min()) ||
-            !(n.value <= std::numeric_limits<T>::max()) || n.value != std::floor(n.value))
-            return {};
-        return {static_cast<T>(n.value), n.end};
+        if constexpr (std::is_floating_point_v<T>) {
+            return parse_number<T>(text_.at, text_.end);
+        } else {
+            if constexpr (sizeof(T) == 8) {
+                T value{};  // a double would round it
+                const auto [stop, error] = std::from_chars(text_.at, text_.end, value);
+                if (error == std::errc{} && (stop == text_.end || is_space(*stop)))
+                    return {value, stop};
+            }
+            // Some files write whole numbers with a point: 255.0.
+            const parsed<double> n = parse_number(text_.at, text_.end);
+            if (n.end == nullptr || !is_value_of<T>(n.value)) return {};
+            return {static_cast<T>(n.value), n.end};
+        }
     }
 
     text text_;

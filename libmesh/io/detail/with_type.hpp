@@ -4,7 +4,10 @@
 
 #include <libmesh/attributes.hpp>
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <type_traits>
 
 namespace tf::detail {
 
@@ -24,12 +27,25 @@ decltype(auto) with_type(scalar_type type, F&& f) {
             return f(std::int32_t{});
         case scalar_type::uint32:
             return f(std::uint32_t{});
+        case scalar_type::int64:
+            return f(std::int64_t{});
+        case scalar_type::uint64:
+            return f(std::uint64_t{});
         case scalar_type::float32:
             return f(float{});
         case scalar_type::float64:
             break;
     }
     return f(double{});
+}
+
+/// True when x is a value of the integer type T. The limits are powers of two, which doubles hold.
+template <class T>
+requires std::is_integral_v<T>
+[[nodiscard]] bool is_value_of(double x) {
+    constexpr double beyond = 2.0 * static_cast<double>(std::numeric_limits<T>::max() / 2 + 1);
+    constexpr auto least = static_cast<double>(std::numeric_limits<T>::min());
+    return x >= least && x < beyond && x == std::floor(x);
 }
 
 }  // namespace tf::detail

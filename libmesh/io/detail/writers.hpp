@@ -54,10 +54,20 @@ void write_ply(const write_job& job);
 void write_off(const write_job& job);
 void write_xyz(const write_job& job);
 void write_glb(const write_job& job);
+void write_csv(const write_job& job);
+void write_pcd(const write_job& job);
 
 /// Start a file of `count` points; the points of the job's file are not looked at.
 [[nodiscard]] point_sink start_ply_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_xyz_points(const write_job& job, std::uint64_t count);
+[[nodiscard]] point_sink start_csv_points(const write_job& job, std::uint64_t count);
+[[nodiscard]] point_sink start_pcd_points(const write_job& job, std::uint64_t count);
+
+/// For formats of points: says that faces are not written, if there are any.
+inline void warn_of_faces(const write_job& job, const std::string& format) {
+    if (!job.file.mesh.faces.empty())
+        job.result.warnings.push_back({"faces-dropped", format + " holds points only"});
+}
 
 /// \throws std::invalid_argument for a column that is not as long as the element, or whose name
 ///         no format can hold

@@ -1,0 +1,68 @@
+#include <libmesh/io/detail/declared_vertices.hpp>
+#include <libmesh/io/detail/ply_header.hpp>
+#include <libmesh/io/detail/vertex_columns.hpp>
+#include <libmesh/io/detail/with_type.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace tf::detail {
+
+namespace {
+
+/// True when every coordinate of that axis is a value of the type.
+[[nodiscard]] bool fits(std::span<const point3> points, column_role axis, scalar_type type) {
+    if (type == scalar_type::float64) return true;
+    return with_type(type, [&]<class T>(T) {
+        return std::all_of(points.begin(), points.end(), [&](const point3& p) {
+            const double x = p[axis_number(axis)];
+            if constexpr (std::is_floating_point_v<T>) {
+                const point3 alone{x, x, x};
+                return fits_single(std::span(&alone, 1));
+            } else {
+                return is_value_of<T>(x);
+            }
+        });
+    });
+}
+
+}  // namespace
+
+element declare_vertices(const write_job& job, bool text,
+                         std::optional<std::span<const point3>> points) {
+    element e{.name = "vertex"};
+    if (const element* source = find_element(job.file.attributes, "vertex"))
+        for (const column& c : source->columns) e.columns.push_back(declaration(c));
+    const scalar_type wanted = job.single() ? scalar_type::float32 : scalar_type::float64;
+    // Floats that are not to be single come from text, or have been moved.
+    const bool widen = !points && !job.single() && has_single_axes(e);
+    std::ptrdiff_t added = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const column_role role = role_of_axis(axis);
+        const auto at = std::find_if(e.columns.begin(), e.columns.end(),
+                                     [&](const column& c) { return c.role == role; });
+        if (at == e.columns.end())
+            e.columns.insert(e.columns.begin() + added++,
+                             {.name = std::string(1, "xyz"[axis]), .type = wanted, .role = role});
+        else if (job.options.precision)
+            at->type = wanted;
+        else if (!(text && keeps_digits(*at)) &&
+                 ((widen && keeps_digits(*at)) || (points && !fits(*points, role, at->type))))
+            at->type = wanted;
+    }
+    return e;
+}
+
+void check_axes(const write_job& job, bool text, const element& declared,
+                std::span<const point3> points) {
+    if (job.options.precision) return;
+    for (const column& c : declared.columns) {
+        if (c.role == column_role::data || (text && keeps_digits(c))) continue;
+        if (!fits(points, c.role, c.type))
+            throw std::invalid_argument("point_writer: a coordinate is no " +
+                                        std::string(name_of(c.type)) + ", as column " + c.name +
+                                        " wants it");
+    }
+}
+
+}  // namespace tf::detail

@@ -1,0 +1,149 @@
+#include <libmesh/io/detail/lzf.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace tf::detail {
+
+namespace {
+
+constexpr std::size_t most_literals = 32;
+constexpr std::size_t most_back = 8192;
+constexpr std::size_t most_copied = 264;
+constexpr std::size_t progress_step = std::size_t{16} << 20;
+
+[[nodiscard]] std::size_t byte_at(const char* at) { return static_cast<unsigned char>(*at); }
+
+/// Copies what may overlap its own result: a run repeats the bytes between.
+void copy_back(char* to, std::size_t back, std::size_t count) {
+    if (back >= count) {
+        std::memcpy(to, to - back, count);
+        return;
+    }
+    for (std::size_t i = 0; i < count; ++i) to[i] = to[static_cast<std::ptrdiff_t>(i - back)];
+}
+
+class packer {
+  public:
+    packer(std::string_view bytes, char* to) : bytes_(bytes), begin_(to), to_(to) {}
+
+    std::size_t pack(const lzf_progress& progress) {
+        std::size_t next_report = progress_step;
+        while (at_ + 2 < bytes_.size()) {
+            if (progress && at_ >= next_report) {
+                progress(static_cast<std::size_t>(to_ - begin_), at_);
+                next_report = at_ + progress_step;
+            }
+            const std::size_t from = std::exchange(last_[hash()], at_ + 1);
+            const std::size_t count = from == 0 ? 0 : match(from - 1);
+            if (count < 3) {
+                ++at_;
+                continue;
+            }
+            put_literals();
+            put_copy(at_ - (from - 1), count);
+            remember(count);
+        }
+        at_ = bytes_.size();
+        put_literals();
+        return static_cast<std::size_t>(to_ - begin_);
+    }
+
+  private:
+    static constexpr unsigned hash_bits = 16;
+
+    [[nodiscard]] std::size_t hash() const {
+        const char* const at = bytes_.data() + at_;
+        const std::uint32_t three =
+            static_cast<std::uint32_t>(byte_at(at) | byte_at(at + 1) << 8 | byte_at(at + 2) << 16);
+        return (three * 2654435761U) >> (32 - hash_bits);
+    }
+
+    /// How many bytes from here on stand at `from`, too.
+    [[nodiscard]] std::size_t match(std::size_t from) const {
+        if (at_ - from > most_back) return 0;
+        const std::size_t most = std::min(bytes_.size() - at_, most_copied);
+        std::size_t count = 0;
+        while (count < most && bytes_[from + count] == bytes_[at_ + count]) ++count;
+        return count;
+    }
+
+    void put(std::size_t byte) { *to_++ = static_cast<char>(byte); }
+
+    /// The bytes since the last copy.
+    void put_literals() {
+        while (literals_ < at_) {
+            const std::size_t some = std::min(at_ - literals_, most_literals);
+            put(some - 1);
+            std::memcpy(to_, bytes_.data() + literals_, some);
+            to_ += some;
+            literals_ += some;
+        }
+    }
+
+    void put_copy(std::size_t back, std::size_t count) {
+        const std::size_t length = count - 2;
+        put(std::min<std::size_t>(length, 7) << 5 | (back - 1) >> 8);
+        if (length >= 7) put(length - 7);
+        put((back - 1) & 255);
+    }
+
+    /// Goes on behind the copy; its last bytes can start another one.
+    void remember(std::size_t count) {
+        const std::size_t stop = at_ + count;
+        for (at_ = stop - 2; at_ < stop && at_ + 2 < bytes_.size(); ++at_) last_[hash()] = at_ + 1;
+        at_ = stop;
+        literals_ = stop;
+    }
+
+    std::string_view bytes_;
+    char* begin_;
+    char* to_;
+    std::size_t at_ = 0;
+    std::size_t literals_ = 0;  ///< first byte that is in no copy and not yet written
+    /// One more than where three bytes of that hash stood last; zero for never.
+    std::vector<std::size_t> last_ = std::vector<std::size_t>(std::size_t{1} << hash_bits);
+};
+
+}  // namespace
+
+bool lzf_unpack(std::string_view packed, char* to, std::size_t size, const lzf_progress& progress) {
+    const char* const begin = packed.data();
+    const char* const end = begin + packed.size();
+    std::size_t done = 0;
+    std::size_t next_report = progress_step;
+    for (const char* at = begin; at < end;) {
+        const std::size_t control = byte_at(at++);
+        const auto left = static_cast<std::size_t>(end - at);
+        if (control < most_literals) {
+            const std::size_t count = control + 1;
+            if (count > left || count > size - done) return false;
+            std::memcpy(to + done, at, count);
+            at += count;
+            done += count;
+        } else {
+            std::size_t count = (control >> 5) + 2;
+            const bool is_long = count == 9;
+            if (left < (is_long ? 2U : 1U)) return false;
+            if (is_long) count += byte_at(at++);
+            const std::size_t back = ((control & 31) << 8 | byte_at(at++)) + 1;
+            if (back > done || count > size - done) return false;
+            copy_back(to + done, back, count);
+            done += count;
+        }
+        if (progress && done >= next_report) {
+            progress(static_cast<std::size_t>(at - begin), done);
+            next_report = done + progress_step;
+        }
+    }
+    return done == size;
+}
+
+std::size_t lzf_pack(std::string_view bytes, char* to, const lzf_progress& progress) {
+    return packer(bytes, to).pack(progress);
+}
+
+}  // namespace tf::detail

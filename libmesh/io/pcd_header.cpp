@@ -1,0 +1,247 @@
+#include <libmesh/io/detail/pcd_header.hpp>
+#include <libmesh/io/detail/text.hpp>
+#include <libmesh/io/detail/vertex_columns.hpp>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace tf::detail {
+
+namespace {
+
+constexpr std::size_t most_values = 65'536;  ///< in a row; a field of many is a histogram
+
+struct field {
+    std::string name{};
+    char kind = 'F';
+    std::size_t size = 4;
+    std::size_t count = 1;
+};
+
+[[nodiscard]] std::optional<scalar_type> type_of(const field& f) {
+    constexpr std::array<std::pair<const char*, scalar_type>, 10> types{{
+        {"I1", scalar_type::int8},
+        {"U1", scalar_type::uint8},
+        {"I2", scalar_type::int16},
+        {"U2", scalar_type::uint16},
+        {"I4", scalar_type::int32},
+        {"U4", scalar_type::uint32},
+        {"I8", scalar_type::int64},
+        {"U8", scalar_type::uint64},
+        {"F4", scalar_type::float32},
+        {"F8", scalar_type::float64},
+    }};
+    for (const auto& [name, type] : types)
+        if (f.kind == name[0] && f.size == static_cast<std::size_t>(name[1] - '0')) return type;
+    return std::nullopt;
+}
+
+class header_reader {
+  public:
+    explicit header_reader(const source& in) : text_(in) {}
+
+    pcd_header read() {
+        while (!has_data_) {
+            if (text_.done()) text_.fail("the file ends without 'DATA'");
+            statement();
+            end_line();
+        }
+        header_.body = text_.at;
+        place_fields();
+        place_axes();
+        count_points();
+        return std::move(header_);
+    }
+
+  private:
+    void statement() {
+        text_.skip_blanks();
+        if (!text_.done() && *text_.at == '#') return comment();
+        start_ = text_.at;
+        const std::string_view keyword = text_.word();
+        if (keyword.empty()) return;
+        if (keyword == "VERSION")
+            (void)text_.rest_of_line();
+        else if (keyword == "FIELDS" || keyword == "COLUMNS")
+            names();
+        else if (keyword == "SIZE")
+            each([&](field& f) { f.size = number(8); });
+        else if (keyword == "TYPE")
+            each([&](field& f) { f.kind = kind(); });
+        else if (keyword == "COUNT")
+            each([&](field& f) { f.count = number(most_values); });
+        else if (keyword == "WIDTH")
+            width_ = number_at_word();
+        else if (keyword == "HEIGHT")
+            height_ = number_at_word();
+        else if (keyword == "POINTS")
+            points_ = number_at_word();
+        else if (keyword == "VIEWPOINT")
+            viewpoint_ = text_.rest_of_line();
+        else if (keyword == "DATA")
+            encoding();
+        else
+            fail("unknown word in the header: " + quoted(start_, text_.end));
+    }
+
+    [[noreturn]] void fail(const std::string& reason) {
+        text_.at = start_;
+        text_.fail(reason);
+    }
+
+    /// Data may start with any byte, so exactly one line end is taken.
+    void end_line() {
+        text_.skip_blanks();
+        if (text_.starts_with("\r\n"))
+            text_.at += 2;
+        else if (!text_.done() && *text_.at == '\n')
+            ++text_.at;
+        else if (!text_.done())
+            fail("more words than expected");
+    }
+
+    void comment() {
+        const std::string_view line = text_.rest_of_line().substr(1);
+        if (line.starts_with(" .PCD")) return;
+        header_.remarks.comments.emplace_back(line.starts_with(' ') ? line.substr(1) : line);
+    }
+
+    void names() {
+        if (!fields_.empty()) fail("fields declared twice");
+        while (!line_ends()) fields_.push_back({.name = std::string(text_.word())});
+    }
+
+    [[nodiscard]] bool line_ends() {
+        text_.skip_blanks();
+        return text_.done() || is_newline(*text_.at);
+    }
+
+    template <class F>
+    void each(F&& f) {
+        for (field& one : fields_) {
+            if (line_ends()) fail("fewer words than fields");
+            f(one);
+        }
+    }
+
+    [[nodiscard]] std::size_t number(std::size_t most) {
+        const std::int64_t value = text_.integer("a number");
+        if (value < 1 || static_cast<std::size_t>(value) > most)
+            fail("a number from 1 to " + std::to_string(most) + " should stand here");
+        return static_cast<std::size_t>(value);
+    }
+
+    [[nodiscard]] std::uint64_t number_at_word() {
+        text_.skip_blanks();
+        const std::int64_t value = text_.integer("a number");
+        if (value < 0) fail("a negative number");
+        return static_cast<std::uint64_t>(value);
+    }
+
+    [[nodiscard]] char kind() {
+        const std::string_view word = text_.word();
+        if (word != "I" && word != "U" && word != "F") fail("a type that is none of I, U, F");
+        return word[0];
+    }
+
+    void encoding() {
+        text_.skip_blanks();
+        const std::string_view name = text_.word();
+        if (name == "ascii")
+            header_.encoding = pcd_encoding::ascii;
+        else if (name == "binary")
+            header_.encoding = pcd_encoding::binary;
+        else if (name == "binary_compressed")
+            header_.encoding = pcd_encoding::compressed;
+        else
+            fail("unknown encoding");
+        has_data_ = true;
+    }
+
+    void place_fields() {
+        std::size_t values = 0;
+        for (const field& f : fields_) {
+            const auto type = type_of(f);
+            if (!type)
+                text_.file.fail("field " + f.name + ": no type " + f.kind + " has " +
+                                std::to_string(f.size) + " bytes");
+            if ((values += f.count) > most_values) text_.file.fail("too many values in a row");
+            if (f.name != "_" || header_.encoding == pcd_encoding::ascii) add_columns(f, *type);
+            header_.row_size += f.size * f.count;
+        }
+    }
+
+    void add_columns(const field& f, scalar_type type) {
+        for (std::size_t i = 0; i < f.count; ++i) {
+            const std::string number = f.count > 1 ? '[' + std::to_string(i) + ']' : "";
+            header_.vertices.columns.push_back({.name = f.name + number, .type = type});
+            header_.places.push_back({.in_row = header_.row_size + i * f.size,
+                                      .fields_ahead = header_.row_size,
+                                      .in_field = i * f.size,
+                                      .field_size = f.size * f.count});
+        }
+    }
+
+    void place_axes() {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::string name(1, "xyz"[axis]);
+            auto& columns = header_.vertices.columns;
+            const auto at = std::find_if(columns.begin(), columns.end(),
+                                         [&](const column& c) { return c.name == name; });
+            if (at == columns.end()) text_.file.fail("no field " + name);
+            at->role = role_of_axis(axis);
+        }
+    }
+
+    void count_points() {
+        if (!points_ && !width_) text_.file.fail("no number of points in the header");
+        const std::uint64_t height = height_.value_or(1);
+        // Numbers are below 2^44, so the product of two can be too large for 64 bits.
+        const bool product_fits =
+            height == 0 || width_.value_or(0) <= (std::uint64_t{1} << 62) / height;
+        const std::uint64_t product =
+            product_fits ? width_.value_or(0) * height : ~std::uint64_t{0};
+        if (points_ && width_ && product != *points_)
+            text_.file.fail("POINTS is " + std::to_string(*points_) + ", but WIDTH times HEIGHT " +
+                            (product_fits ? std::to_string(product) : "more"));
+        header_.vertices.rows = points_.value_or(product);
+        auto& info = header_.remarks.obj_info;
+        if (width_ && height > 1) {
+            info.push_back("num_cols " + std::to_string(*width_));
+            info.push_back("num_rows " + std::to_string(height));
+        }
+        if (!viewpoint_.empty() && viewpoint_ != "0 0 0 1 0 0 0")
+            info.push_back("viewpoint " + std::string(viewpoint_));
+    }
+
+    text text_;
+    pcd_header header_{};
+    std::vector<field> fields_{};
+    const char* start_ = nullptr;  ///< of the statement
+    std::optional<std::uint64_t> width_{};
+    std::optional<std::uint64_t> height_{};
+    std::optional<std::uint64_t> points_{};
+    std::string_view viewpoint_{};
+    bool has_data_ = false;
+};
+
+}  // namespace
+
+std::string_view name_of(pcd_encoding encoding) {
+    switch (encoding) {
+        case pcd_encoding::ascii:
+            return "pcd-ascii";
+        case pcd_encoding::binary:
+            return "pcd-binary";
+        case pcd_encoding::compressed:
+            break;
+    }
+    return "pcd-binary-compressed";
+}
+
+pcd_header read_pcd_header(const source& in) { return header_reader(in).read(); }
+
+}  // namespace tf::detail

@@ -1,0 +1,167 @@
+#include <libmesh/io/detail/byte_order.hpp>
+#include <libmesh/io/detail/lzf.hpp>
+#include <libmesh/io/detail/pcd_header.hpp>
+#include <libmesh/io/detail/point_rows.hpp>
+#include <libmesh/io/detail/readers.hpp>
+#include <libmesh/io/detail/reserve.hpp>
+#include <libmesh/io/detail/scratch.hpp>
+#include <libmesh/io/detail/vertex_columns.hpp>
+#include <libmesh/io/detail/vertex_rows.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace tf::detail {
+
+namespace {
+
+using warnings = std::vector<io_warning>;
+
+void look_behind(bool more, warnings& said) {
+    if (more) said.push_back({"trailing-bytes", "there is more after the last point"});
+}
+
+[[noreturn]] void fail_short(const source& in, const pcd_header& header) {
+    in.fail_byte(header.body, "the file ends in the points: " +
+                                  std::to_string(header.vertices.rows) + " promised");
+}
+
+[[nodiscard]] std::size_t bytes_of_body(const source& in, const pcd_header& header) {
+    return static_cast<std::size_t>(in.end() - header.body);
+}
+
+/// A row a line.
+[[nodiscard]] auto text_runs(const source& in, const pcd_header& header) {
+    text_values values(in, header.body);
+    if (!text_values::can_hold(values.bytes_left(), header.vertices.rows, header.vertices))
+        fail_short(in, header);
+    return [values, left = header.vertices.rows](std::vector<point3>& points, element& vertices,
+                                                 std::size_t most, warnings& said) mutable {
+        const std::size_t rows = std::min(most, left);
+        append_vertices(values, vertices, points, rows);
+        left -= rows;
+        if (rows == 0) look_behind(!values.only_blanks_left(), said);
+        return rows;
+    };
+}
+
+/// Rows of bytes, which are those of the machines that write such files: little endian.
+[[nodiscard]] auto row_runs(const source& in, const pcd_header& header) {
+    if (header.vertices.rows > bytes_of_body(in, header) / header.row_size) fail_short(in, header);
+    return [&in, at = header.body, row_size = header.row_size, offsets = header.places,
+            left = header.vertices.rows](std::vector<point3>& points, element& vertices,
+                                         std::size_t most, warnings& said) mutable {
+        constexpr std::size_t megabyte = std::size_t{1} << 20;
+        const std::size_t rows = std::min(most, left);
+        std::vector<value_place> places(offsets.size());
+        for (std::size_t done = 0; done < rows;) {
+            const std::size_t some = std::min(rows - done, 1 + megabyte / row_size);
+            for (std::size_t i = 0; i < places.size(); ++i)
+                places[i] = {at + offsets[i].in_row, row_size};
+            append_fixed_rows(vertices, points, some, places, std::endian::little);
+            at += some * row_size;
+            done += some;
+            in.release_before(at);
+        }
+        left -= rows;
+        if (rows == 0) look_behind(at != in.end(), said);
+        return rows;
+    };
+}
+
+/// The unpacked bytes: a block a field.
+[[nodiscard]] std::shared_ptr<scratch> unpack(const source& in, const pcd_header& header,
+                                              scratch_place place) {
+    const std::size_t there = bytes_of_body(in, header);
+    if (there < 8) in.fail_byte(header.body, "the file ends in the lengths of the data");
+    const std::size_t packed = load<std::uint32_t, std::endian::little>(header.body);
+    const std::size_t size = load<std::uint32_t, std::endian::little>(header.body + 4);
+    if (packed > there - 8)
+        in.fail_byte(header.body,
+                     "the file ends in the data: " + std::to_string(packed) + " bytes promised");
+    if (size / header.row_size != header.vertices.rows || size % header.row_size != 0)
+        in.fail_byte(header.body + 4, std::to_string(size) + " bytes of data are not those of " +
+                                          std::to_string(header.vertices.rows) + " points");
+    if (size / lzf_most_ratio > packed)
+        in.fail_byte(header.body, "the data cannot become as long as promised");
+    auto bytes = std::make_shared<scratch>(size, place, in.name());
+    const char* const first = header.body + 8;
+    const bool good =
+        lzf_unpack({first, packed}, bytes->data(), size, [&](std::size_t used, std::size_t) {
+            in.release_before(first + used);
+            bytes->give_back();
+        });
+    if (!good) in.fail_byte(header.body + 8, "the packed data are damaged");
+    return bytes;
+}
+
+[[nodiscard]] auto block_runs(const source& in, const pcd_header& header, scratch_place place) {
+    const auto bytes = unpack(in, header, place);
+    const std::size_t count = header.vertices.rows;
+    const bool more =
+        bytes_of_body(in, header) - 8 > load<std::uint32_t, std::endian::little>(header.body);
+    return [bytes, count, more, offsets = header.places, first = std::size_t{0}](
+               std::vector<point3>& points, element& vertices, std::size_t most,
+               warnings& said) mutable {
+        const std::size_t rows = std::min(most, count - first);
+        std::vector<value_place> places;
+        for (const pcd_place& p : offsets)
+            places.push_back(
+                {bytes->data() + p.fields_ahead * count + first * p.field_size + p.in_field,
+                 p.field_size});
+        append_fixed_rows(vertices, points, rows, places, std::endian::little);
+        bytes->give_back();
+        first += rows;
+        if (rows == 0) look_behind(more, said);
+        return rows;
+    };
+}
+
+[[nodiscard]] point_rows open(const source& in, scratch_place place) {
+    pcd_header header = read_pcd_header(in);
+    point_rows rows;
+    rows.count = header.vertices.rows;
+    switch (header.encoding) {
+        case pcd_encoding::ascii:
+            rows.append = text_runs(in, header);
+            break;
+        case pcd_encoding::binary:
+            rows.append = row_runs(in, header);
+            break;
+        case pcd_encoding::compressed:
+            rows.append = block_runs(in, header, place);
+            break;
+    }
+    rows.head.format = name_of(header.encoding);
+    rows.head.stored_as = header.encoding != pcd_encoding::ascii && has_single_axes(header.vertices)
+                              ? precision::single_
+                              : precision::double_;
+    rows.head.attributes = std::move(header.remarks);
+    header.vertices.rows = 0;
+    rows.head.attributes.elements = {std::move(header.vertices)};
+    return rows;
+}
+
+}  // namespace
+
+mesh_file read_pcd(const source& in) {
+    point_rows rows = open(in, scratch_place::memory);
+    if (*rows.count > std::numeric_limits<std::uint32_t>::max())
+        in.fail("more points than 32-bit numbers can name");
+    mesh_file file = std::move(rows.head);
+    element& vertices = file.attributes.elements[0];
+    const auto count = static_cast<std::size_t>(*rows.count);
+    start_columns(vertices, count);
+    reserve_large(file.mesh.points, count);
+    while (rows.append(file.mesh.points, vertices, count, file.warnings) > 0) continue;
+    vertices.rows = count;
+    file.stored_as = fits_single(file.mesh.points) ? precision::single_ : precision::double_;
+    return file;
+}
+
+point_rows open_pcd_points(const source& in) { return open(in, scratch_place::file); }
+
+}  // namespace tf::detail
