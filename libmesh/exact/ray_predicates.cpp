@@ -55,9 +55,14 @@ int line_side(int axis, const point3& o, const point3& d, const point3& p,
 
 int compare_cuts(const point3& o, const point3& d, const cutting_plane& p, const cutting_plane& q,
                  predicate_counters* counters) {
+    return compare_cuts(d, o, p, o, q, counters);
+}
+
+int compare_cuts(const point3& d, const point3& o, const cutting_plane& p, const point3& r,
+                 const cutting_plane& q, predicate_counters* counters) {
     return staged<detail::compare_cuts_polynomial>(counters, o, d, zero, p.at, p.u_from, p.u_to,
                                                    p.v_from, p.v_to, q.at, q.u_from, q.u_to,
-                                                   q.v_from, q.v_to);
+                                                   q.v_from, q.v_to, r);
 }
 
 int compare_cut(const point3& o, const point3& d, const cutting_plane& p, double s,

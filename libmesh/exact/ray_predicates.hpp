@@ -38,6 +38,12 @@ struct cutting_plane {
                                             const cutting_plane& p, const cutting_plane& q,
                                             predicate_counters* counters = nullptr);
 
+/// The same for two lines of one direction: t at which o + t d meets p, s at which r + s d meets q.
+[[nodiscard]] TREEFORM_API int compare_cuts(const point3& d, const point3& o,
+                                            const cutting_plane& p, const point3& r,
+                                            const cutting_plane& q,
+                                            predicate_counters* counters = nullptr);
+
 /// Sign of t - s for the parameter t at which the line o + t d meets plane p.
 /// \pre normal . d > 0, s is finite
 [[nodiscard]] TREEFORM_API int compare_cut(const point3& o, const point3& d, const cutting_plane& p,

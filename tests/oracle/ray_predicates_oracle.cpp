@@ -109,8 +109,10 @@ TEST_CASE("predicates about lines agree with GMP's rationals, and parameters nea
                 cut.add(tf::compare_cut(o, d, a, approximate, &counters),
                         cmp(t, mpq_class(approximate)));
             cut.add(tf::compare_cut(o, d, a, p[9].x, &counters), cmp(t, mpq_class(p[9].x)));
-            if (turned_plane(p, 7, d, b))
-                cuts.add(tf::compare_cuts(o, d, a, b, &counters), cmp(t, parameter(o, d, b)));
+            if (!turned_plane(p, 7, d, b)) continue;
+            cuts.add(tf::compare_cuts(o, d, a, b, &counters), cmp(t, parameter(o, d, b)));
+            const point3& r = i % 3 == 0 ? p[7] : p[4];
+            cuts.add(tf::compare_cuts(d, o, a, r, b, &counters), cmp(t, parameter(r, d, b)));
         }
         std::printf("%-12s", family.c_str());
         for (const tally* t : {&side, &left, &cut, &cuts}) {

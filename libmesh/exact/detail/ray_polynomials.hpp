@@ -92,9 +92,9 @@ struct compare_cut_polynomial {
     }
 };
 
-/// (n . (a - o)) (m . d) - (m . (b - o)) (n . d). Growth: two products of two determinants.
+/// (n . (a - o)) (m . d) - (m . (b - p)) (n . d). Growth: two products of two determinants.
 struct compare_cuts_polynomial {
-    static constexpr std::size_t points = 13;  // those of cut_polynomial, then another plane
+    static constexpr std::size_t points = 14;  // of cut_polynomial, then another plane, and p
     static constexpr int degree = 6;
     static constexpr int growth = 5;
     static constexpr int roundings = 18;
@@ -103,8 +103,8 @@ struct compare_cuts_polynomial {
 
     template <class Number>
     static constexpr auto differences(const std::array<vector<Number>, points>& p) {
-        return std::array{p[5] - p[4],   p[7] - p[6], p[3] - p[0], p[10] - p[9],
-                          p[12] - p[11], p[8] - p[0], p[1] - p[2]};
+        return std::array{p[5] - p[4],   p[7] - p[6],  p[3] - p[0], p[10] - p[9],
+                          p[12] - p[11], p[8] - p[13], p[1] - p[2]};
     }
     template <class Number>
     static constexpr auto value(const std::array<vector<Number>, 7>& d) {
