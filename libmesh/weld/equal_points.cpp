@@ -1,4 +1,6 @@
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/weld/detail/equal_firsts.hpp>
+#include <libmesh/weld/detail/number_groups.hpp>
 #include <libmesh/weld/equal_points.hpp>
 #include <libtree/detail/buffer.hpp>
 #include <libtree/parallel.hpp>
@@ -31,8 +33,8 @@ bool has_nan(const point3& p) { return p.x != p.x || p.y != p.y || p.z != p.z; }
 
 /// A product by an odd number carries low bits up, the shift carries high ones down: coordinates
 /// that were floats differ in their high bits only. Each step is a bijection of what came before.
-std::uint32_t hash_of(const point3& p) {
-    std::uint64_t h = 0x243f6a8885a308d3;
+std::uint32_t hash_of(const point3& p, std::uint32_t kind) {
+    std::uint64_t h = 0x243f6a8885a308d3 + kind;
     for (const double x : {p.x, p.y, p.z}) {
         h = (h + bits_of(x)) * 0x9e3779b97f4a7c15;
         h ^= h >> 32;
@@ -101,7 +103,8 @@ class buckets {
 /// equal points need little memory.
 class distinct_points {
   public:
-    explicit distinct_points(points_view points) : points_(points) {}
+    distinct_points(points_view points, std::span<const std::uint32_t> kind)
+        : points_(points), kind_(kind) {}
 
     void clear() {
         slots_.assign(std::min<std::size_t>(slots_.size(), largest_kept), empty);
@@ -118,7 +121,8 @@ class distinct_points {
                 ++used_;
                 return e.point;
             }
-            if (slot.hash == e.hash && same(points_[slot.point], points_[e.point]))
+            if (slot.hash == e.hash && same(points_[slot.point], points_[e.point]) &&
+                (kind_.empty() || kind_[slot.point] == kind_[e.point]))
                 return slot.point;
         }
     }
@@ -142,17 +146,19 @@ class distinct_points {
     }
 
     points_view points_;
+    std::span<const std::uint32_t> kind_;
     std::vector<entry> slots_;
     std::size_t used_ = 0;
 };
 
 /// Puts the first point like it in the place of each point's hash.
-void find_firsts(points_view points, std::vector<std::uint32_t>& hash_then_first) {
+void find_firsts(points_view points, std::span<const std::uint32_t> kind,
+                 std::vector<std::uint32_t>& hash_then_first) {
     constexpr std::size_t ahead = 16;      // entries whose memory is under way
     constexpr std::size_t per_chunk = 16;  // buckets that share a table
     const buckets parts(hash_then_first);
     for_chunks(parts.count(), per_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-        distinct_points distinct(points);
+        distinct_points distinct(points, kind);
         for (std::size_t b = begin; b < end; ++b) {
             const std::span<const entry> bucket = parts[b];
             distinct.clear();
@@ -169,46 +175,25 @@ void find_firsts(points_view points, std::vector<std::uint32_t>& hash_then_first
     });
 }
 
-/// Numbers the points that are their own first, and gives every point the number of its first.
-void number(equal_points& result) {
-    std::vector<std::uint32_t>& first = result.new_of_old;
-    std::vector<std::uint32_t> next(chunk_count(first.size(), grain), 0);
-    for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t i = begin; i < end; ++i) next[c] += first[i] == i ? 1 : 0;
-    });
-    std::uint32_t total = 0;
-    for (std::uint32_t& n : next) {
-        const std::uint32_t count = n;
-        n = total;
-        total += count;
-    }
-    result.first_of_new.resize(total);
-    detail::buffer<std::uint32_t> number_of(first.size());
-    for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        std::uint32_t n = next[c];
-        for (std::size_t i = begin; i < end; ++i) {
-            if (first[i] != i) continue;
-            result.first_of_new[n] = static_cast<std::uint32_t>(i);
-            number_of[i] = n++;
-        }
-    });
-    for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) first[i] = number_of[first[i]];
-    });
-}
-
 }  // namespace
+
+std::vector<std::uint32_t> detail::equal_firsts(points_view points,
+                                                std::span<const std::uint32_t> kind) {
+    std::vector<std::uint32_t> hash_then_first(points.size());
+    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
+            hash_then_first[i] = hash_of(points[i], kind.empty() ? 0 : kind[i]);
+    });
+    find_firsts(points, kind, hash_then_first);
+    return hash_then_first;
+}
 
 equal_points find_equal_points(points_view points) {
     if (points.size() > nobody)
         throw std::invalid_argument("tf::find_equal_points: more than 2^32 - 1 points");
     equal_points result;
-    result.new_of_old.resize(points.size());
-    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) result.new_of_old[i] = hash_of(points[i]);
-    });
-    find_firsts(points, result.new_of_old);
-    number(result);
+    result.new_of_old = detail::equal_firsts(points, {});
+    result.first_of_new = detail::number_groups(result.new_of_old);
     return result;
 }
 

@@ -1,180 +1,92 @@
 #include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/weld/detail/reach.hpp>
+#include <libmesh/weld/detail/dense.hpp>
+#include <libmesh/weld/detail/equal_firsts.hpp>
+#include <libmesh/weld/detail/lattice.hpp>
+#include <libmesh/weld/detail/number_groups.hpp>
+#include <libmesh/weld/detail/sparse.hpp>
 #include <libmesh/weld/weld_points.hpp>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tf {
 namespace {
 
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+using numbers = std::vector<std::uint32_t>;
 
-bool finite(const point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+constexpr std::size_t largest_count = std::numeric_limits<std::uint32_t>::max() - 1;
+
+/// Cuts the members of one place, ascending, into what may be put together, and writes the first
+/// of each part. By `first`, one agrees with the earliest that was kept.
+void split_kept(std::span<const std::uint32_t> members, const weld_options& options,
+                numbers& first_of) {
+    numbers kept;
+    for (const std::uint32_t i : members) {
+        const auto agreed = std::find_if(
+            kept.begin(), kept.end(), [&](std::uint32_t other) { return options.agree(i, other); });
+        first_of[i] = agreed == kept.end() ? i : *agreed;
+        if (agreed == kept.end()) kept.push_back(i);
+    }
 }
 
-/// Cubes of edge `edge_` >= 2 * distance about a corner of the box. Two points within `distance`
-/// then lie in cubes that are equal or adjacent, and on each axis only towards the nearer side.
-class cells {
-  public:
-    cells(points_view points, double distance) {
-        const double big = std::numeric_limits<double>::infinity();
-        std::array<double, 3> low{big, big, big};
-        std::array<double, 3> high{-big, -big, -big};
-        for (const point3& p : points) {
-            if (!finite(p)) continue;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                low[axis] = std::min(low[axis], p[axis] * 0.25);
-                high[axis] = std::max(high[axis], p[axis] * 0.25);
-            }
-        }
-        double extent = 0.0;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            extent = std::max(extent, high[axis] - low[axis]);
-        // Quarters keep the extent of any finite box finite. At most 2^20 cubes a side: an index
-        // fits 21 bits. The quotient below is at most 2^20 and off by less than 2^-31, so a
-        // surplus of 2^-20 in the edge keeps what is within `distance` less than 0.5 apart.
-        low_ = low;
-        edge_ = std::max({0.5 * distance * (1.0 + 0x1p-20), extent * 0x1p-20, 1e-300});
-    }
-
-    /// The cubes that may hold a point within reach of `p`; the first is its own.
-    [[nodiscard]] std::array<std::uint64_t, 8> around(const point3& p) const {
-        std::array<std::uint64_t, 3> own{};
-        std::array<std::uint64_t, 3> side{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double at = (p[axis] * 0.25 - low_[axis]) / edge_;
-            const double whole = std::floor(at);
-            own[axis] = static_cast<std::uint64_t>(whole) + 1;  // room for the side below
-            side[axis] = at - whole < 0.5 ? own[axis] - 1 : own[axis] + 1;
-        }
-        std::array<std::uint64_t, 8> keys{};
-        for (std::size_t i = 0; i < keys.size(); ++i) {
-            const std::uint64_t x = (i & 1) != 0 ? side[0] : own[0];
-            const std::uint64_t y = (i & 2) != 0 ? side[1] : own[1];
-            const std::uint64_t z = (i & 4) != 0 ? side[2] : own[2];
-            keys[i] = x << 42 | y << 21 | z;
-        }
-        return keys;
-    }
-
-  private:
-    std::array<double, 3> low_{};
-    double edge_ = 1.0;
-};
-
-/// Points by cube: open addressing, a list of points behind each key.
-class points_by_cell {
-  public:
-    explicit points_by_cell(std::size_t count)
-        : slots_(std::bit_ceil(count + count / 2 + 2)), next_(count, nobody) {}
-
-    void add(std::uint64_t key, std::uint32_t point) {
-        slot& s = slots_[find(key)];
-        s.key = key;
-        next_[point] = s.head;
-        s.head = point;
-    }
-
-    template <class Visit>
-    void visit(std::uint64_t key, Visit&& visit_point) const {
-        for (std::uint32_t i = slots_[find(key)].head; i != nobody; i = next_[i]) visit_point(i);
-    }
-
-  private:
-    struct slot {
-        std::uint64_t key = 0;
-        std::uint32_t head = nobody;
-    };
-
-    [[nodiscard]] std::size_t find(std::uint64_t key) const {
-        const std::size_t mask = slots_.size() - 1;
-        std::size_t at = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> 20) & mask;
-        while (slots_[at].head != nobody && slots_[at].key != key) at = (at + 1) & mask;
-        return at;
-    }
-
-    std::vector<slot> slots_;
-    std::vector<std::uint32_t> next_;
-};
-
-/// Whether two points may be put together.
-class matcher {
-  public:
-    matcher(points_view points, const weld_options& options)
-        : points_(points), options_(&options), within_(options.tolerance) {}
-
-    [[nodiscard]] bool operator()(std::uint32_t i, std::uint32_t j) const {
-        return (options_->kind.empty() || options_->kind[i] == options_->kind[j]) &&
-               within_.holds(points_[i], points_[j]) && (!options_->agree || options_->agree(i, j));
-    }
-
-  private:
-    points_view points_;
-    const weld_options* options_;
-    detail::reach within_;
-};
-
-/// The kept point that each point belongs to.
-std::vector<std::uint32_t> leaders(points_view points, const weld_options& options) {
-    std::vector<std::uint32_t> leader_of(points.size());
-    const cells grid(points, options.tolerance);
-    const matcher match(points, options);
-    points_by_cell kept(points.size());
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        leader_of[i] = i;
-        if (!finite(points[i])) continue;
-        std::uint32_t best = nobody;
-        const auto keys = grid.around(points[i]);
-        for (const std::uint64_t key : keys)
-            kept.visit(key, [&](std::uint32_t other) {
-                if (!match(i, other)) return;
-                const int order =
-                    best == nobody ? -1
-                                   : detail::reach::compare(points[i], points[other], points[best]);
-                if (order < 0 || (order == 0 && other < best)) best = other;
+/// By `chain`, one joins all parts in which another agrees with it.
+void split_chains(std::span<const std::uint32_t> members, const weld_options& options,
+                  numbers& first_of) {
+    std::vector<numbers> parts;
+    for (const std::uint32_t i : members) {
+        numbers joined;
+        std::erase_if(parts, [&](const numbers& part) {
+            const bool agreed = std::any_of(part.begin(), part.end(), [&](std::uint32_t other) {
+                return options.agree(i, other);
             });
-        if (best == nobody)
-            kept.add(keys[0], i);
+            if (agreed) joined.insert(joined.end(), part.begin(), part.end());
+            return agreed;
+        });
+        joined.push_back(i);
+        parts.push_back(std::move(joined));
+    }
+    for (const numbers& part : parts)
+        for (const std::uint32_t i : part)
+            first_of[i] = *std::min_element(part.begin(), part.end());
+}
+
+/// Equal points that differ by `agree`.
+void split_by_agreement(const weld_options& options, numbers& first_of) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> placed;  // first, then point
+    for (std::uint32_t i = 0; i < first_of.size(); ++i)
+        if (first_of[i] != i) placed.emplace_back(first_of[i], i);
+    std::sort(placed.begin(), placed.end());
+    for (std::size_t begin = 0; begin < placed.size();) {
+        numbers members{placed[begin].first};
+        std::size_t end = begin;
+        for (; end < placed.size() && placed[end].first == members[0]; ++end)
+            members.push_back(placed[end].second);
+        if (options.rule == weld_rule::first)
+            split_kept(members, options, first_of);
         else
-            leader_of[i] = best;
+            split_chains(members, options, first_of);
+        begin = end;
     }
-    return leader_of;
 }
 
-/// The earliest point of the chain that each point is part of.
-std::vector<std::uint32_t> roots(points_view points, const weld_options& options) {
-    detail::union_find sets(points.size());
-    const cells grid(points, options.tolerance);
-    const matcher match(points, options);
-    points_by_cell earlier(points.size());
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        if (!finite(points[i])) continue;
-        const auto keys = grid.around(points[i]);
-        for (const std::uint64_t key : keys)
-            earlier.visit(key, [&](std::uint32_t other) {
-                if (sets.root(i) != sets.root(other) && match(i, other)) sets.join(i, other);
-            });
-        earlier.add(keys[0], i);
-    }
-    std::vector<std::uint32_t> root_of(points.size());
-    for (std::uint32_t i = 0; i < points.size(); ++i) root_of[i] = sets.root(i);
-    return root_of;
+numbers by_equality(points_view points, const weld_options& options) {
+    numbers first_of = detail::equal_firsts(points, options.kind);
+    for (std::uint32_t i = 0; i < points.size(); ++i)
+        if (first_of[i] != i && !detail::is_finite(points[i])) first_of[i] = i;
+    if (options.agree) split_by_agreement(options, first_of);
+    return first_of;
 }
 
 void check(points_view points, const weld_options& options) {
     if (!(options.tolerance >= 0.0) || !std::isfinite(options.tolerance))
         throw std::invalid_argument(
             "tf::weld_points: the tolerance must be finite and not negative");
-    if (points.size() >= nobody)
+    if (points.size() > largest_count)
         throw std::invalid_argument("tf::weld_points: more than 2^32 - 2 points");
     if (!options.kind.empty() && options.kind.size() != points.size())
         throw std::invalid_argument("tf::weld_points: " + std::to_string(options.kind.size()) +
@@ -183,23 +95,35 @@ void check(points_view points, const weld_options& options) {
 
 }  // namespace
 
-point_groups weld_points(points_view points, const weld_options& options) {
-    check(points, options);
-    if (options.progress && !options.progress(0.0)) return {{}, {}, true};
+point_groups weld_points(points_view points, const weld_options& given) {
+    check(points, given);
+    bool stopped = false;
+    double furthest = 0.0;
+    weld_options options = given;
+    if (given.progress)
+        options.progress = [&](double done) {
+            furthest = std::max(furthest, done);
+            stopped = stopped || !given.progress(furthest);
+            return !stopped;
+        };
+    const auto go_on = [&](double done) { return !options.progress || options.progress(done); };
+
     point_groups result;
-    result.group_of_point =
-        options.rule == weld_rule::first ? leaders(points, options) : roots(points, options);
-    // A first point comes before all others of its group.
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        const std::uint32_t first = result.group_of_point[i];
-        if (first == i) {
-            result.group_of_point[i] = static_cast<std::uint32_t>(result.first_of_group.size());
-            result.first_of_group.push_back(i);
-        } else {
-            result.group_of_point[i] = result.group_of_point[first];
-        }
+    numbers& first_of = result.group_of_point;
+    const bool by_first = options.rule == weld_rule::first;
+    if (!go_on(0.0)) return {{}, {}, true};
+    if (options.tolerance == 0.0) {
+        first_of = by_equality(points, options);
+    } else {
+        first_of = by_first ? detail::sparse_leaders(points, options)
+                            : detail::sparse_chains(points, options);
+        if (first_of.size() != points.size() && !stopped)
+            first_of = by_first ? detail::dense_leaders(points, options)
+                                : detail::dense_chains(points, options);
     }
-    if (options.progress && !options.progress(1.0)) return {{}, {}, true};
+    if (stopped || !go_on(0.95)) return {{}, {}, true};
+    result.first_of_group = detail::number_groups(first_of);
+    if (!go_on(1.0)) return {{}, {}, true};
     return result;
 }
 

@@ -1,0 +1,147 @@
+#include <libmesh/weld/detail/near_pairs.hpp>
+#include <libmesh/weld/detail/sort_by_key.hpp>
+
+#include <cmath>
+
+namespace tf::detail {
+namespace {
+
+/// Cubes at least twice as wide as the reach, and about a third of what a point would have to
+/// itself if the points filled their box: what lies on surfaces has a few points a cube then.
+class cubes {
+  public:
+    cubes(std::size_t points, const lattice& steps, int key_bits)
+        : shift_(64 - key_bits), reach_(steps.reach()) {
+        double volume = 1.0;
+        for (const double e : steps.extent()) volume *= std::max(e, 1.0);
+        const double own = std::cbrt(volume / static_cast<double>(points + 1)) / 3.0;
+        const double width = std::clamp(own, 2.0 * reach_ + 2.0, 0x1p30);
+        per_step_ = static_cast<std::uint64_t>(0x1p32 / width);
+    }
+
+    [[nodiscard]] std::uint32_t cell(std::int32_t at) const {
+        const std::int64_t ahead = std::int64_t{at} + reach_;  // not negative for any at - reach
+        return static_cast<std::uint32_t>(static_cast<std::uint64_t>(ahead) * per_step_ >> 32);
+    }
+    [[nodiscard]] std::uint32_t key(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+        std::uint64_t h = x * 0x9e3779b97f4a7c15;
+        h = (h ^ h >> 32 ^ y) * 0xd1342543de82ef95;
+        h = (h ^ h >> 32 ^ z) * 0xaf251af3b0f025b5;
+        return static_cast<std::uint32_t>(h >> shift_);
+    }
+    [[nodiscard]] std::uint32_t key(const place_record& r) const {
+        return key(cell(r.x), cell(r.y), cell(r.z));
+    }
+    [[nodiscard]] std::int32_t reach() const { return reach_; }
+
+  private:
+    std::uint64_t per_step_ = 1;
+    int shift_;
+    std::int32_t reach_;
+};
+
+using sorted_places = sorted_records<place_record>;
+
+bool same_place(const place_record& a, const place_record& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/// The points by the key of their cube. `first_of_key[k]` is the place of the first of key k, or
+/// of a later key; the last entry is the end.
+sorted_places sort_by_cube(const near_pairs_task& task, const lattice& steps, const key_bits& bits,
+                           const cubes& grid, buffer<std::uint32_t>& first_of_key) {
+    const auto key = [&](const place_record& r) { return grid.key(r); };
+    auto sorted = distribute<place_record>(
+        task.points.size(), bits,
+        [&](std::size_t i, place_record& r) {
+            if (!is_finite(task.points[i])) return false;
+            r = steps.place(task.points[i], static_cast<std::uint32_t>(i));
+            return true;
+        },
+        key);
+    sort_buckets(
+        sorted, bits, key,
+        [](const place_record& a, const place_record& b) {
+            if (a.x != b.x) return a.x < b.x;
+            if (a.y != b.y) return a.y < b.y;
+            return a.z != b.z ? a.z < b.z : a.id < b.id;
+        },
+        [&](std::size_t b, std::span<place_record> bucket) {
+            const std::size_t size = collapse_equal(task, bucket, same_place);
+            auto k = static_cast<std::uint32_t>(b << bits.fine);
+            const auto begin = static_cast<std::uint32_t>(sorted.begin[b]);
+            for (std::uint32_t i = 0; i < size; ++i)
+                for (const std::uint32_t own = grid.key(bucket[i]); k <= own; ++k)
+                    first_of_key[k] = begin + i;
+            for (; k < (b + 1) << bits.fine; ++k)
+                first_of_key[k] = begin + static_cast<std::uint32_t>(size);
+            return size;
+        });
+    return sorted;
+}
+
+}  // namespace
+
+bool pairs_by_cells(const near_pairs_task& task, const lattice& steps) {
+    constexpr std::size_t chunk = 16384;
+    constexpr std::size_t patience = 512;  // comparisons a point
+    const key_bits bits(task.points.size());
+    const cubes grid(task.points.size(), steps, bits.all());
+    buffer<std::uint32_t> first_of_key((std::size_t{1} << bits.all()) + 1);
+    const sorted_places sorted = sort_by_cube(task, steps, bits, grid, first_of_key);
+    const std::size_t buckets = sorted.size.size();
+    const std::size_t average = sorted.records.size() / buckets + 1;
+    std::atomic<bool> stopped = false;
+
+    const auto near = [&](const place_record& a, const place_record& b) {
+        return std::abs(a.x - b.x) <= grid.reach() && std::abs(a.y - b.y) <= grid.reach() &&
+               std::abs(a.z - b.z) <= grid.reach();
+    };
+    for_chunks(
+        buckets, std::max<std::size_t>(1, chunk / average),
+        [&](std::size_t begin, std::size_t end, std::size_t) {
+            if (stopped.load(std::memory_order_relaxed)) return;
+            pair_collector found(task);
+            std::size_t taken = 0;
+            std::size_t own = chunk;
+            bool more = true;
+            const auto meet = [&](const place_record& a, const place_record* b,
+                                  const place_record* last) {
+                taken += static_cast<std::size_t>(last - b);
+                for (; b != last && more; ++b)
+                    if (near(a, *b)) more = found.add(a.id, b->id, steps.compare(a, *b));
+            };
+            // A bucket's last key ends where the bucket does.
+            const auto end_of_key = [&](std::uint32_t k) {
+                const std::size_t b = k >> bits.fine;
+                const std::size_t next = std::size_t{k} + 1;
+                return sorted.records.data() + (next >> bits.fine == b
+                                                    ? first_of_key[next]
+                                                    : sorted.begin[b] + sorted.size[b]);
+            };
+            for (std::size_t b = begin; b < end && more; ++b) {
+                const std::span<const place_record> bucket = sorted.bucket(b);
+                own += bucket.size();
+                for (std::size_t i = 0; i < bucket.size() && more; ++i) {
+                    const place_record& a = bucket[i];
+                    const std::uint32_t x = grid.cell(a.x), y = grid.cell(a.y), z = grid.cell(a.z);
+                    const std::uint32_t key = grid.key(x, y, z);
+                    meet(a, &a + 1, end_of_key(key));
+                    // Cubes within reach; each pair of cubes is looked at from the lower one.
+                    const std::int32_t r = grid.reach();
+                    for (std::uint32_t cx = x; cx <= grid.cell(a.x + r); ++cx)
+                        for (std::uint32_t cy = cx == x ? y : grid.cell(a.y - r);
+                             cy <= grid.cell(a.y + r); ++cy)
+                            for (std::uint32_t cz = cx == x && cy == y ? z + 1 : grid.cell(a.z - r);
+                                 cz <= grid.cell(a.z + r); ++cz)
+                                if (const std::uint32_t k = grid.key(cx, cy, cz); k != key)
+                                    meet(a, sorted.records.data() + first_of_key[k], end_of_key(k));
+                }
+                if (taken > patience * own) more = false;
+            }
+            if (!more || !found.flush()) stopped.store(true, std::memory_order_relaxed);
+        });
+    return !stopped;
+}
+
+}  // namespace tf::detail
