@@ -16,19 +16,6 @@ namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 16;
 
-/// Whether |a - b| <= t, for t finite and not negative. The rounded difference settles it unless it
-/// equals t, since rounding is monotone; then the sign of its error does, which the six operations
-/// (Knuth's two-sum) give without rounding.
-bool differ_by_at_most(double a, double b, double t) {
-    if (a == b || (std::isnan(a) && std::isnan(b))) return true;
-    if (a < b) std::swap(a, b);
-    const double d = a - b;
-    if (d != t) return d < t;
-    const double b_seen = d - a;
-    const double error = (a - (d - b_seen)) - (b + b_seen);
-    return error <= 0.0;
-}
-
 /// Numbers that are equal where the numbers in `kind` are and where the values of both columns are;
 /// NaN equals NaN here, and a point that takes no part nothing. Empty arrays do not tell points
 /// apart.
@@ -61,22 +48,6 @@ std::vector<std::uint32_t> refine(std::size_t count, std::span<const std::uint32
 
 }  // namespace
 
-buffer<double> vertex_values(points_view points, const attributes& properties,
-                             const std::string& name) {
-    const element* vertices = find_element(properties, "vertex");
-    const column* c = vertices == nullptr ? nullptr : find_column(*vertices, name);
-    const bool is_data = c != nullptr && c->role == column_role::data;
-    const std::size_t axis = std::string_view("xyz").find(name);
-    if (!is_data && (name.size() != 1 || axis > 2)) refuse("no vertex property '" + name + "'");
-    if (is_data && c->list_length) refuse("the vertex property '" + name + "' is a list");
-    buffer<double> values(points.size());
-    for_chunks(values.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            values[i] = is_data ? number_at(*c, i) : points[i][axis];
-    });
-    return values;
-}
-
 conditions::conditions(points_view points, const attributes& properties,
                        const mesh_weld_options& options, std::span<const std::uint8_t> takes_part)
     : given_(options.points) {
@@ -84,7 +55,7 @@ conditions::conditions(points_view points, const attributes& properties,
         refuse(std::to_string(given_.kind.size()) + " kinds for " + std::to_string(points.size()) +
                " points");
     std::vector<buffer<double>> equal;
-    // Two columns a round, and a round more for points that take no part and an odd column.
+    // Two columns a round.
     const auto refine_by_columns = [&] {
         const auto values = [&](std::size_t i) {
             return i < equal.size() ? equal[i].span() : std::span<const double>{};
@@ -97,11 +68,13 @@ conditions::conditions(points_view points, const attributes& properties,
         const double tolerance = condition.tolerance;
         if (!(tolerance >= 0.0) || !std::isfinite(tolerance))
             refuse("the tolerance of '" + condition.property + "' must be finite and not negative");
-        buffer<double> values = vertex_values(points, properties, condition.property);
+        vertex_values values(points, properties, condition.property);
         if (tolerance > 0.0) {
             questions_.push_back({std::move(values), tolerance});
-        } else {
-            equal.push_back(std::move(values));
+            continue;
+        }
+        for (buffer<double>& column : std::move(values).take_columns()) {
+            equal.push_back(std::move(column));
             if (equal.size() == 2) refine_by_columns();
         }
     }
@@ -110,7 +83,7 @@ conditions::conditions(points_view points, const attributes& properties,
 
 bool conditions::agree(std::uint32_t i, std::uint32_t j) const {
     for (const question& q : questions_)
-        if (!differ_by_at_most(q.values[i], q.values[j], q.tolerance)) return false;
+        if (!q.values.agree(i, j, q.tolerance)) return false;
     return !given_.agree || given_.agree(i, j);
 }
 

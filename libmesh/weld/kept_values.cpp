@@ -1,6 +1,6 @@
 #include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/weld/detail/conditions.hpp>
 #include <libmesh/weld/detail/kept_values.hpp>
+#include <libmesh/weld/detail/vertex_values.hpp>
 #include <libtree/parallel.hpp>
 
 #include <algorithm>
@@ -70,13 +70,12 @@ std::vector<std::uint32_t> kept_points(points_view points, const attributes& pro
     if (options.keep == weld_keep::last)
         for (std::uint32_t i = 0; i < group_of.size(); ++i) kept[group_of[i]] = i;
     if (options.keep != weld_keep::lowest && options.keep != weld_keep::highest) return kept;
-    const buffer<double> values = vertex_values(points, properties, options.keep_by);
-    const double sign = options.keep == weld_keep::lowest ? 1.0 : -1.0;
+    const vertex_values values(points, properties, options.keep_by);
+    const bool lowest = options.keep == weld_keep::lowest;
     for (std::uint32_t i = 0; i < group_of.size(); ++i) {
         std::uint32_t& best = kept[group_of[i]];
-        const double mine = sign * values[i];
-        const double least = sign * values[best];
-        if (mine < least || (std::isnan(least) && !std::isnan(mine))) best = i;
+        const bool better = lowest ? values.less(i, best) : values.less(best, i);
+        if (better || (values.is_nan(best) && !values.is_nan(i))) best = i;
     }
     return kept;
 }

@@ -263,6 +263,38 @@ TEST_CASE("weld_mesh: the tolerance of a property is inclusive to the last bit")
     CHECK_FALSE(joined(not_a_number, 0, most));
 }
 
+TEST_CASE("weld_mesh: whole numbers that no double holds are told apart") {
+    const tf::mesh cloud{std::vector<tf::point3>(3), {}};
+    constexpr std::int64_t large = std::int64_t{1} << 60;
+    const std::vector<std::int64_t> time{large + 1, large, large + 3};
+    const std::vector<std::uint64_t> id{~std::uint64_t{0}, ~std::uint64_t{0} - 1, 0};
+    tf::attributes properties;
+    tf::obtain_element(properties, "vertex", 3).columns = {
+        tf::make_column<std::int64_t>("time", time), tf::make_column<std::uint64_t>("id", id)};
+    const auto groups = [&](const char* name, double tolerance) {
+        return tf::weld_mesh(cloud, properties, {.conditions = {{name, tolerance}}})
+            .groups.group_of_point;
+    };
+    CHECK(groups("time", 0.0) == ids{0, 1, 2});
+    CHECK(groups("time", 1.75) == ids{0, 0, 1});
+    CHECK(groups("time", 2.0) == ids{0, 0, 0});
+    CHECK(groups("id", 0.0) == ids{0, 1, 2});
+    CHECK(groups("id", 1.0) == ids{0, 0, 1});
+    CHECK(groups("id", 0x1p63) == ids{0, 0, 1});
+    CHECK(groups("id", 0x1p64) == ids{0, 0, 0});
+    const auto kept = [&](tf::weld_keep keep, const char* by) {
+        return tf::weld_mesh(cloud, properties, {.keep = keep, .keep_by = by}).point_of_group;
+    };
+    CHECK(kept(tf::weld_keep::lowest, "time") == ids{1});
+    CHECK(kept(tf::weld_keep::highest, "time") == ids{2});
+    CHECK(kept(tf::weld_keep::highest, "id") == ids{0});
+    const std::vector<std::int64_t> below{-1, 0, std::numeric_limits<std::int64_t>::min()};
+    tf::obtain_element(properties, "vertex", 3).columns[0] =
+        tf::make_column<std::int64_t>("time", below);
+    CHECK(kept(tf::weld_keep::lowest, "time") == ids{2});
+    CHECK(groups("time", 1.0) == ids{0, 0, 1});
+}
+
 TEST_CASE("weld_mesh: conditions are those of the groups by definition") {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         CAPTURE(seed);

@@ -1,22 +1,15 @@
 #pragma once
 /// \file
-/// Vertex properties as numbers, and the conditions on them in the terms of `weld_points`.
+/// Conditions on vertex properties in the terms of `weld_points`.
 
+#include <libmesh/weld/detail/vertex_values.hpp>
 #include <libmesh/weld/weld_mesh.hpp>
-#include <libtree/detail/buffer.hpp>
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace tf::detail {
-
-/// [V] the values of a column of "vertex", or coordinates for "x", "y" and "z".
-///
-/// \throws std::invalid_argument when it is not there or is a list
-[[nodiscard]] buffer<double> vertex_values(points_view points, const attributes& properties,
-                                           const std::string& name);
 
 /// Conditions as kinds, for those of tolerance 0, and as questions, for the others.
 class conditions {
@@ -33,7 +26,7 @@ class conditions {
 
   private:
     struct question {
-        buffer<double> values;  ///< [V]
+        vertex_values values;
         double tolerance;
     };
 

@@ -1,0 +1,90 @@
+#include <libmesh/weld/detail/vertex_values.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace tf::detail {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 16;
+
+[[noreturn]] void refuse(const std::string& why) {
+    throw std::invalid_argument("tf::weld_mesh: " + why);
+}
+
+template <class T, class Value>
+buffer<T> filled(std::size_t count, const Value& value) {
+    buffer<T> values(count);
+    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) values[i] = value(i);
+    });
+    return values;
+}
+
+/// Whether |a - b| <= t, for t finite and not negative. The rounded difference settles it unless it
+/// equals t, since rounding is monotone; then the sign of its error does, which the four operations
+/// (Dekker's fast two-sum, with the larger magnitude first) give without rounding.
+bool differ_by_at_most(double a, double b, double t) {
+    if (a == b || (std::isnan(a) && std::isnan(b))) return true;
+    if (a < b) std::swap(a, b);
+    const double d = a - b;
+    if (d != t) return d < t;
+    const double large = std::abs(a) < std::abs(b) ? -b : a;
+    const double small = std::abs(a) < std::abs(b) ? a : -b;
+    return small - (d - large) <= 0.0;
+}
+
+bool differ_by_at_most(std::uint64_t a, std::uint64_t b, double t) {
+    const std::uint64_t d = a < b ? b - a : a - b;
+    return t >= 0x1p64 || d <= static_cast<std::uint64_t>(t);
+}
+
+}  // namespace
+
+vertex_values::vertex_values(points_view points, const attributes& properties,
+                             const std::string& name) {
+    const element* vertices = find_element(properties, "vertex");
+    const column* c = vertices == nullptr ? nullptr : find_column(*vertices, name);
+    if (c == nullptr || c->role != column_role::data) {
+        const std::size_t axis = name.size() == 1 ? std::string_view("xyz").find(name) : 3;
+        if (axis > 2) refuse("no vertex property '" + name + "'");
+        number_ = filled<double>(points.size(), [&](std::size_t i) { return points[i][axis]; });
+        return;
+    }
+    if (c->list_length) refuse("the vertex property '" + name + "' is a list");
+    const bool is_signed = c->type == scalar_type::int64;
+    if (!is_signed && c->type != scalar_type::uint64) {
+        number_ = filled<double>(points.size(), [&](std::size_t i) { return number_at(*c, i); });
+        return;
+    }
+    whole_ = filled<std::uint64_t>(points.size(), [&](std::size_t i) {
+        std::uint64_t value = 0;
+        std::memcpy(&value, c->values.data() + i * sizeof value, sizeof value);
+        return is_signed ? value ^ std::uint64_t{1} << 63 : value;
+    });
+}
+
+bool vertex_values::agree(std::size_t i, std::size_t j, double tolerance) const {
+    return whole_.size() > 0 ? differ_by_at_most(whole_[i], whole_[j], tolerance)
+                             : differ_by_at_most(number_[i], number_[j], tolerance);
+}
+
+std::vector<buffer<double>> vertex_values::take_columns() && {
+    std::vector<buffer<double>> columns;
+    if (whole_.size() == 0) {
+        columns.push_back(std::move(number_));
+        return columns;
+    }
+    for (const unsigned shift : {0U, 32U})
+        columns.push_back(filled<double>(whole_.size(), [&](std::size_t i) {
+            return static_cast<double>(static_cast<std::uint32_t>(whole_[i] >> shift));
+        }));
+    return columns;
+}
+
+}  // namespace tf::detail
