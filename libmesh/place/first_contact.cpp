@@ -1,0 +1,125 @@
+#include <libmesh/face_tree.hpp>
+#include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/place/first_contact.hpp>
+#include <libtree/sweep.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace tf {
+namespace {
+
+triangle3 triangle_of(mesh_view mesh, std::uint32_t face, const transform<3>& by, bool moves) {
+    triangle3 t;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const point3& p = mesh.points[mesh.faces[face][i]];
+        t[i] = moves ? by(p) : p;
+    }
+    return t;
+}
+
+/// The pairs of faces with the least time so far.
+struct earliest {
+    struct pair {
+        std::uint32_t a, b;
+        contact at;
+    };
+    std::optional<sweep_contact> first;
+    std::vector<pair> pairs;
+
+    void offer(const point3& motion, std::uint32_t a, std::uint32_t b, const sweep_contact& one) {
+        const int order = first ? compare(motion, one, *first) : -1;
+        if (order > 0) return;
+        if (order < 0) pairs.clear();
+        pairs.push_back({a, b, one.at});
+        // Of equal times, which plane stands for them depends on no order of search.
+        if (order < 0 || std::pair(a, b) < lowest_) {
+            first = one;
+            lowest_ = {a, b};
+        }
+    }
+
+  private:
+    std::pair<std::uint32_t, std::uint32_t> lowest_{};
+};
+
+}  // namespace
+
+double time_not_beyond(const sweep_contact& contact, const point3& motion) {
+    const auto beyond = [&](double time) {
+        return compare_cut(contact.from, motion, contact.until, time) < 0;
+    };
+    constexpr double largest = std::numeric_limits<double>::max();
+    // The rounded time is off by at most 2^-40 of the exact one, or by a few denormals.
+    double low = std::clamp(contact.time * (1.0 - 0x1p-39) - 0x1p-1060, 0.0, largest);
+    double high = std::min(contact.time * (1.0 + 0x1p-39) + 0x1p-1060, largest);
+    if (!beyond(high)) return high;
+    if (beyond(low)) low = 0.0;
+    while (true) {
+        const double middle = low + (high - low) / 2;
+        if (middle <= low || middle >= high) return low;
+        (beyond(middle) ? high : low) = middle;
+    }
+}
+
+first_mesh_contact first_contact(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                 const tree<3>& tree_b, const point3& motion,
+                                 const first_contact_options& options) {
+    first_mesh_contact result;
+    if (!(options.latest >= 0.0))
+        throw std::invalid_argument("tf::first_contact: the latest time is negative or NaN");
+    if (intersects(a, tree_a, b, tree_b, {options.move_a, options.move_b})) {
+        result.end = motion_end::at_start;
+        return result;
+    }
+    const transformed<3> moving(tree_a, options.move_a);
+    const transformed<3> still(tree_b, options.move_b);
+    const auto face_a = [&](std::uint32_t f) {
+        return triangle_of(a, f, options.move_a, moving.moves());
+    };
+    const auto face_b = [&](std::uint32_t f) {
+        return triangle_of(b, f, options.move_b, still.moves());
+    };
+
+    earliest found;
+    visit_swept(
+        moving, still, motion,
+        [&](std::uint32_t i, std::uint32_t j) {
+            ++result.pairs_tested;
+            if (const auto one = first_contact(face_a(i), face_b(j), motion))
+                found.offer(motion, i, j, *one);
+            return found.first ? found.first->time * (1.0 + 0x1p-38) : options.latest;
+        },
+        options.latest);
+    if (!found.first) return result;
+    if (std::isfinite(options.latest) &&
+        compare_cut(found.first->from, motion, found.first->until, options.latest) > 0)
+        return result;
+
+    result.end = motion_end::contact;
+    result.exact = *found.first;
+    result.time = time_not_beyond(*found.first, motion);
+    result.contact_count = found.pairs.size();
+    std::sort(found.pairs.begin(), found.pairs.end(), [](const auto& x, const auto& y) {
+        return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+    });
+    found.pairs.resize(std::min(found.pairs.size(), options.limit));
+    for (const auto& pair : found.pairs) {
+        triangle3 t = face_a(pair.a);
+        for (point3& p : t)
+            for (std::size_t k = 0; k < 3; ++k) p[k] += result.time * motion[k];
+        result.contacts.push_back(
+            {pair.a, pair.b, pair.at, closest_points(t, face_b(pair.b)).on_b});
+    }
+    return result;
+}
+
+first_mesh_contact first_contact(mesh_view a, mesh_view b, const point3& motion,
+                                 const first_contact_options& options) {
+    return first_contact(a, face_tree(a), b, face_tree(b), motion, options);
+}
+
+}  // namespace tf
