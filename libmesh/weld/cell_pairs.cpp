@@ -84,7 +84,8 @@ sorted_places sort_by_cube(const near_pairs_task& task, const lattice& steps, co
 
 bool pairs_by_cells(const near_pairs_task& task, const lattice& steps) {
     constexpr std::size_t chunk = 16384;
-    constexpr std::size_t patience = 512;  // comparisons a point
+    constexpr std::size_t patience = 1024;  // comparisons a point, of which a hit costs as 32
+    constexpr std::size_t per_hit = 32;
     const key_bits bits(task.points.size());
     const cubes grid(task.points.size(), steps, bits.all());
     buffer<std::uint32_t> first_of_key((std::size_t{1} << bits.all()) + 1);
@@ -108,8 +109,11 @@ bool pairs_by_cells(const near_pairs_task& task, const lattice& steps) {
             const auto meet = [&](const place_record& a, const place_record* b,
                                   const place_record* last) {
                 taken += static_cast<std::size_t>(last - b);
-                for (; b != last && more; ++b)
-                    if (near(a, *b)) more = found.add(a.id, b->id, steps.compare(a, *b));
+                for (; b != last && more && taken <= patience * own; ++b)
+                    if (near(a, *b)) {
+                        taken += per_hit;
+                        more = found.add(a.id, b->id, steps.compare(a, *b));
+                    }
             };
             // A bucket's last key ends where the bucket does.
             const auto end_of_key = [&](std::uint32_t k) {

@@ -37,11 +37,51 @@ bounds bounds_of(points_view points) {
     return all;
 }
 
+/// The box of most points, and as much again on each side, judged from some thousands of them.
+bounds bounds_of_most(points_view points) {
+    constexpr std::size_t sample = 2048;
+    std::array<std::vector<double>, 3> at;
+    const std::size_t stride = std::max<std::size_t>(1, points.size() / sample);
+    for (std::size_t i = 0; i < points.size(); i += stride)
+        if (is_finite(points[i]))
+            for (std::size_t k = 0; k < 3; ++k) at[k].push_back(points[i][k]);
+    bounds most;
+    for (std::size_t k = 0; k < 3 && !at[k].empty(); ++k) {
+        std::sort(at[k].begin(), at[k].end());
+        const std::size_t few = at[k].size() / 32;
+        const double low = at[k][few], high = at[k][at[k].size() - 1 - few];
+        most.min[k] = low - (high - low);
+        most.max[k] = high + (high - low);
+    }
+    return most;
+}
+
+double longest_side(const bounds& box) {
+    double longest = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+        longest = std::max(longest, box.max[k] * 0x1p-4 - box.min[k] * 0x1p-4);
+    return longest;
+}
+
+/// Where a few points lie far off the others, the box of the others, that steps are fine enough.
+bounds useful_part(const bounds& all, points_view points) {
+    constexpr double far = 64.0;
+    bounds most = bounds_of_most(points);
+    if (!(longest_side(most) * far < longest_side(all)) || longest_side(most) == 0.0) return all;
+    for (std::size_t k = 0; k < 3; ++k) {
+        most.min[k] = std::max(most.min[k], all.min[k]);
+        most.max[k] = std::min(most.max[k], all.max[k]);
+    }
+    return most;
+}
+
 }  // namespace
 
 std::optional<lattice> lattice::over(points_view points, double tolerance) {
-    const bounds box = bounds_of(points);
+    const bounds all = bounds_of(points);
+    const bounds box = useful_part(all, points);
     lattice result;
+    result.cut_ = box.min != all.min || box.max != all.max;
     if (!(box.min[0] <= box.max[0])) return result;  // nothing is finite
     double largest = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -83,7 +123,8 @@ std::optional<lattice> lattice::over(points_view points, double tolerance) {
     const double error = off * std::sqrt(2.0 * off * off + off_z * off_z);
     const double within = std::max(0.0, result.tolerance_ - error);
     const double beyond = result.tolerance_ + error;
-    result.surely_within_ = within * within * (1.0 - 0x1p-30);
+    // Points outside the box count as on its rim, which brings no two further apart.
+    result.surely_within_ = result.cut_ ? 0.0 : within * within * (1.0 - 0x1p-30);
     result.surely_beyond_ = beyond * beyond * (1.0 + 0x1p-30);
     result.reach_ = static_cast<std::int32_t>(result.tolerance_) + 2;
     result.reach_along_ = static_cast<std::int32_t>(result.tolerance_ * length * off) + 3;

@@ -55,20 +55,22 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Calls `hit` for the pairs i < j, i < own, whose s, x and y are all within reach, until it
-/// returns false or more than `most` steps were taken. A lane is an i; step k meets it with i + k.
+/// returns false or more than `most` pairs were looked at, of which a hit costs as much as 64. A
+/// lane is an i; step k meets it with i + k.
 bool scan_window(const window_arrays& arrays, const lattice& steps, std::size_t most,
                  const window_hit& hit) {
     const hn::CappedTag<std::int32_t, 16> d;
     const std::size_t lanes = hn::Lanes(d);
     const auto along = hn::Set(d, steps.reach_along() + 1);
     const auto across = hn::Set(d, steps.reach() + 1);
+    constexpr std::size_t per_hit = 64;
     std::size_t taken = 0;
     for (std::size_t i = 0; i < arrays.own; i += lanes) {
         const auto live = hn::FirstN(d, arrays.own - i);
         const auto s = hn::LoadU(d, arrays.s.data() + i);
         const auto x = hn::LoadU(d, arrays.x.data() + i);
         const auto y = hn::LoadU(d, arrays.y.data() + i);
-        for (std::size_t j = i + 1;; ++j, ++taken) {
+        for (std::size_t j = i + 1; taken <= most; ++j, taken += lanes) {
             const auto ahead = hn::Sub(hn::LoadU(d, arrays.s.data() + j), s);
             const auto in_window = hn::And(hn::Lt(ahead, along), live);
             if (hn::AllFalse(d, in_window)) break;
@@ -80,6 +82,7 @@ bool scan_window(const window_arrays& arrays, const lattice& steps, std::size_t 
             hn::StoreMaskBits(d, near, bytes);
             for (unsigned bits = bytes[0] | unsigned{bytes[1]} << 8; bits != 0; bits &= bits - 1) {
                 const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+                taken += per_hit;
                 if (!hit(i + lane, j + lane)) return false;
             }
         }
@@ -160,7 +163,7 @@ bool gather(const sorted_points& sorted, const lattice& steps, std::size_t begin
 
 bool pairs_by_window(const near_pairs_task& task, const lattice& steps) {
     constexpr std::size_t chunk = 16384;
-    constexpr std::size_t patience = 1024;  // steps a point, more than any other way takes
+    constexpr std::size_t patience = 2048;  // pairs a point, more than any other way looks at
     const sorted_points sorted = sort_along(task, steps);
     const std::size_t buckets = sorted.size.size();
     const std::size_t average = sorted.records.size() / buckets + 1;

@@ -272,3 +272,255 @@ TEST_CASE("join_groups: faces stay, also those that collapse, and kept points ar
         static_cast<void>(tf::join_groups(mesh, weld_points(mesh.points, {.tolerance = 0.05}))),
         std::invalid_argument);
 }
+
+namespace {
+
+struct family {
+    const char* name;
+    std::vector<point3> points;
+    double tolerance;
+};
+
+point3 moved(const point3& p, double by, std::mt19937_64& engine) {
+    return {p.x + by * (unit_number(engine) - 0.5), p.y + by * (unit_number(engine) - 0.5),
+            p.z + by * (unit_number(engine) - 0.5)};
+}
+
+/// `count` points each of what windows, cells and dense places find hard.
+std::vector<family> families(std::uint64_t seed, std::size_t count) {
+    std::mt19937_64 engine(seed);
+    const auto filled = [&](const auto& make) {
+        std::vector<point3> points;
+        while (points.size() < count) points.push_back(make(points));
+        return points;
+    };
+    const auto any_of = [&](const std::vector<point3>& points) {
+        return points[engine() % points.size()];
+    };
+    const auto uniform = [&](const auto&) { return unit_point(engine); };
+    const auto copies = [&](double by) {
+        return filled([&](const std::vector<point3>& points) {
+            return points.empty() || engine() % 2 == 0 ? unit_point(engine)
+                                                       : moved(any_of(points), by, engine);
+        });
+    };
+    const auto soup = filled([&](const std::vector<point3>& points) {
+        return points.size() < 30 || engine() % 6 == 0 ? unit_point(engine) : any_of(points);
+    });
+    const auto clustered = filled([&](const std::vector<point3>& points) {
+        return points.size() < 5 ? unit_point(engine) : moved(points[engine() % 5], 1e-6, engine);
+    });
+    const auto line = filled([&](const std::vector<point3>& points) {
+        return point3{static_cast<double>(points.size() * 37 % 211), 0, 0};
+    });
+    const auto plane = filled([&](const auto&) {  // one place along the line windows are sorted by
+        const double u = unit_number(engine), v = unit_number(engine);
+        return point3{0.621 * u, -0.537 * u + 0.570 * v, -0.621 * v};
+    });
+    const auto grid = filled([&](const auto&) {
+        const auto at = [&] { return static_cast<double>(engine() % 9); };
+        const double x = at(), y = at();
+        return point3{x, y, at()};
+    });
+    const auto two_balls = filled([&](const std::vector<point3>& points) {
+        return moved({points.size() % 2 == 0 ? 0.0 : 1.0, 0, 0}, 0.02, engine);
+    });
+    auto outliers = copies(1e-3);
+    outliers[0] = {1e300, 0, 0};
+    outliers[7] = {-1e300, 1e-300, 5e17};
+    auto mixed = filled([&](const auto&) {
+        const point3 p = unit_point(engine);
+        const double scale = std::ldexp(1.0, static_cast<int>(engine() % 40) - 20);
+        return point3{p.x * scale, p.y * scale, p.z * scale};
+    });
+    return {{"uniform", filled(uniform), 0.02},
+            {"moved copies", copies(1e-3), 1e-3},
+            {"moved copies, half within", copies(2e-3), 1e-3},
+            {"copies", copies(0.0), 1e-3},
+            {"copies, tiny tolerance", copies(0.0), 1e-18},
+            {"soup", soup, 0.1},
+            {"soup, all neighbours", soup, 0.7},
+            {"clusters", clustered, 1e-3},
+            {"clusters, dissolved", clustered, 1e-7},
+            {"line", line, 1.0},
+            {"plane", plane, 0.02},
+            {"grid", grid, 1.0},
+            {"grid, diagonals", grid, std::sqrt(2.0)},
+            {"balls at the tolerance", two_balls, 0.985},
+            {"outliers", outliers, 1e-3},
+            {"mixed scales", mixed, 1e-3},
+            {"larger than the box", filled(uniform), 5.0},
+            {"all equal", std::vector<point3>(count, {1, 2, 3}), 0.5},
+            {"all equal, exactly", std::vector<point3>(count, {1, 2, 3}), 0.0}};
+}
+
+weld_options options_of(double tolerance, weld_rule rule,
+                        neighbor_search search = neighbor_search::automatic) {
+    return {.tolerance = tolerance, .rule = rule, .search = search};
+}
+
+}  // namespace
+
+TEST_CASE("weld_points: every search and rule is its definition on every family") {
+    for (std::uint64_t seed = 0; seed < 2; ++seed)
+        for (const family& f : families(seed, 240)) {
+            CAPTURE(seed);
+            CAPTURE(f.name);
+            check_definition(f.points, {.tolerance = f.tolerance});
+            numbers kinds;
+            for (std::uint32_t i = 0; i < f.points.size(); ++i) kinds.push_back(i * i % 3);
+            check_definition(f.points, {.tolerance = f.tolerance, .kind = kinds});
+            const auto agree = [](std::uint32_t i, std::uint32_t j) { return (i + j) % 7 != 0; };
+            check_definition(f.points, {.tolerance = f.tolerance, .agree = agree});
+        }
+}
+
+TEST_CASE("weld_points: kept points are apart, dropped ones with the nearest earlier kept one") {
+    for (const family& f : families(5, 700)) {
+        CAPTURE(f.name);
+        const point_groups groups = weld_points(f.points, {.tolerance = f.tolerance});
+        const weld_options options{.tolerance = f.tolerance};
+        for (std::uint32_t i = 0; i < f.points.size(); ++i) {
+            const std::uint32_t own = groups.first_of_group[groups.group_of_point[i]];
+            REQUIRE((own == i || linked(f.points, options, i, own)));
+            for (const std::uint32_t kept : groups.first_of_group) {
+                if (kept >= i) break;
+                if (own == i)
+                    REQUIRE_FALSE(linked(f.points, options, i, kept));
+                else
+                    REQUIRE(tf::compare_distance(f.points[i], f.points[own], f.points[i],
+                                                 f.points[kept]) <= 0);
+            }
+        }
+        std::vector<point3> once;
+        for (const std::uint32_t i : groups.first_of_group) once.push_back(f.points[i]);
+        CHECK(weld_points(once, options).first_of_group.size() == once.size());
+    }
+}
+
+TEST_CASE("weld_points: the number of threads changes nothing") {
+    std::vector<family> all = families(11, 3'000);
+    const std::vector<family> large = families(12, 100'000);  // several chunks of every loop
+    all.insert(all.end(), large.begin() + 1, large.begin() + 3);
+    all.back().tolerance = 1e-4;
+    for (const family& f : all)
+        for (const weld_rule rule : rules)
+            for (const neighbor_search search : searches) {
+                CAPTURE(f.name);
+                point_groups one;
+                for (const unsigned threads : {1U, 2U, 8U}) {
+                    if (threads == 8 && search == neighbor_search::tree) continue;
+                    const tf::thread_scope scope(threads);
+                    const point_groups found =
+                        weld_points(f.points, options_of(f.tolerance, rule, search));
+                    if (threads == 1) one = found;
+                    REQUIRE(found.group_of_point == one.group_of_point);
+                    REQUIRE(found.first_of_group == one.first_of_group);
+                }
+            }
+}
+
+TEST_CASE("weld_points: searches agree on many points") {
+    for (const family& f : families(13, 4'000))
+        for (const weld_rule rule : rules) {
+            CAPTURE(f.name);
+            const point_groups expected =
+                weld_points(f.points, options_of(f.tolerance, rule, neighbor_search::tree));
+            for (const neighbor_search search : searches)
+                REQUIRE(
+                    weld_points(f.points, options_of(f.tolerance, rule, search)).group_of_point ==
+                    expected.group_of_point);
+        }
+}
+
+TEST_CASE("weld_points: powers of two scale nothing away") {
+    for (const family& f : families(17, 500)) {
+        if (f.points[0].x == 1e300) continue;  // has no room
+        for (const weld_rule rule : rules) {
+            CAPTURE(f.name);
+            const point_groups expected = weld_points(f.points, options_of(f.tolerance, rule));
+            for (const int exponent : {-900, -200, 13, 700, 990}) {
+                std::vector<point3> scaled;
+                for (const point3& p : f.points)
+                    scaled.push_back({std::ldexp(p.x, exponent), std::ldexp(p.y, exponent),
+                                      std::ldexp(p.z, exponent)});
+                const double tolerance = std::ldexp(f.tolerance, exponent);
+                REQUIRE(weld_points(scaled, options_of(tolerance, rule)).group_of_point ==
+                        expected.group_of_point);
+            }
+        }
+    }
+}
+
+TEST_CASE("weld_points: chains do not depend on the order of points") {
+    for (const family& f : families(19, 2'000)) {
+        CAPTURE(f.name);
+        numbers order(f.points.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::mt19937_64 engine(1);
+        for (std::size_t i = order.size() - 1; i > 0; --i)
+            std::swap(order[i], order[engine() % (i + 1)]);
+        std::vector<point3> shuffled;
+        for (const std::uint32_t i : order) shuffled.push_back(f.points[i]);
+        const point_groups given = weld_points(f.points, options_of(f.tolerance, weld_rule::chain));
+        const point_groups found = weld_points(shuffled, options_of(f.tolerance, weld_rule::chain));
+        REQUIRE(found.first_of_group.size() == given.first_of_group.size());
+        for (std::uint32_t i = 0; i < order.size(); ++i) {  // one group of one is one of the other
+            const std::uint32_t first = order[found.first_of_group[found.group_of_point[i]]];
+            REQUIRE(given.group_of_point[order[i]] == given.group_of_point[first]);
+        }
+    }
+}
+
+TEST_CASE("weld_points: many kinds at one place take no time") {
+    const std::size_t count = 50'000;
+    const std::vector<point3> points(count, {1, 2, 3});
+    numbers kinds(count);
+    for (std::uint32_t i = 0; i < count; ++i) kinds[i] = i % (count / 2);
+    for (const weld_rule rule : rules)
+        for (const double tolerance : {0.0, 1e-3}) {
+            const point_groups groups =
+                weld_points(points, {.tolerance = tolerance, .rule = rule, .kind = kinds});
+            REQUIRE(groups.first_of_group.size() == count / 2);
+            CHECK(groups.group_of_point[count - 1] == count / 2 - 1);
+        }
+}
+
+TEST_CASE("weld_points: agree is asked about equal points, too, and most may agree") {
+    const std::size_t count = 20'000;
+    const std::vector<point3> points(count, {1, 2, 3});
+    const auto agree = [](std::uint32_t i, std::uint32_t j) { return (i == 5) == (j == 5); };
+    for (const weld_rule rule : rules)
+        for (const double tolerance : {0.0, 1e-3}) {
+            const point_groups groups =
+                weld_points(points, {.tolerance = tolerance, .rule = rule, .agree = agree});
+            CHECK(groups.first_of_group == numbers{0, 5});
+        }
+}
+
+TEST_CASE("weld_points: progress never decreases, and stops the work when it says so") {
+    for (const family& f : families(23, 3'000))
+        for (const weld_rule rule : rules) {
+            CAPTURE(f.name);
+            weld_options options = options_of(f.tolerance, rule);
+            double last = 0.0;
+            int calls = 0;
+            options.progress = [&](double done) {
+                CHECK(done >= last);
+                CHECK(done <= 1.0);
+                last = done;
+                ++calls;
+                return true;
+            };
+            CHECK_FALSE(weld_points(f.points, options).stopped);
+            CHECK(last == 1.0);
+            for (int stop = 0; stop < calls; ++stop) {
+                int left = stop;
+                options.progress = [&](double) { return left-- > 0; };
+                const point_groups groups = weld_points(f.points, options);
+                CHECK(groups.stopped);
+                CHECK(groups.group_of_point.empty());
+                CHECK(groups.first_of_group.empty());
+            }
+        }
+}

@@ -5,8 +5,9 @@
 
 #include <libmesh/points.hpp>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -41,13 +42,18 @@ class lattice {
     static constexpr int steps_bits = 30;
 
     /// None where steps cannot be had: the tolerance is more than a fourth of the box, or the box
-    /// is smaller than doubles can divide. Points that are not finite are looked past.
+    /// is smaller than doubles can divide. Points that are not finite are looked past. A few that
+    /// are far off the others are left outside the box.
     static std::optional<lattice> over(points_view points, double tolerance);
 
     /// \pre `p` is finite and one of the points
     [[nodiscard]] std::array<double, 3> steps(const point3& p) const {
-        return {(p.x * shrink_ - low_[0]) * scale_, (p.y * shrink_ - low_[1]) * scale_,
-                (p.z * shrink_ - low_[2]) * scale_};
+        std::array<double, 3> at{(p.x * shrink_ - low_[0]) * scale_,
+                                 (p.y * shrink_ - low_[1]) * scale_,
+                                 (p.z * shrink_ - low_[2]) * scale_};
+        if (cut_)
+            for (std::size_t k = 0; k < 3; ++k) at[k] = std::clamp(at[k], 0.0, extent_[k]);
+        return at;
     }
     [[nodiscard]] lattice_record record(const point3& p, std::uint32_t id) const {
         const std::array<double, 3> at = steps(p);
@@ -100,6 +106,7 @@ class lattice {
     double surely_beyond_ = 0.0;
     std::int32_t reach_ = 0;
     std::int32_t reach_along_ = 0;
+    bool cut_ = false;  ///< some points are outside the box
 };
 
 }  // namespace tf::detail

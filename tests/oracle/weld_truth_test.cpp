@@ -1,0 +1,92 @@
+/// \file
+/// Groups of the points of real files against those that an exact kernel found: the columns of
+/// TRUTH.csv about welding. Without TREEFORM_MODELS_DIR nothing is checked.
+
+#include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/io/read.hpp>
+#include <libmesh/weld/weld_points.hpp>
+
+#include <doctest/doctest.h>
+#include <support/truth.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace {
+
+struct tolerance_column {
+    const char* groups;
+    const char* tolerance;  ///< null: 0
+};
+constexpr std::array columns{
+    tolerance_column{"weld_eps0", nullptr}, tolerance_column{"weld_1e-6", "eps_1e-6"},
+    tolerance_column{"weld_1e-4", "eps_1e-4"}, tolerance_column{"weld_1e-3", "eps_1e-3"}};
+
+std::vector<tf::point3> finite_points(const std::vector<tf::point3>& stored, bool as_float) {
+    using tf::detail::nearest_float;
+    std::vector<tf::point3> points;
+    for (tf::point3 p : stored) {
+        if (as_float) p = {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
+        if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) points.push_back(p);
+    }
+    return points;
+}
+
+double exact_number(const std::string& text) {
+    double value = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
+
+/// Distinct points of the largest group.
+std::int64_t largest_group(const std::vector<tf::point3>& points, const tf::point_groups& groups) {
+    const tf::point_groups equal = tf::weld_points(points, {});
+    std::vector<std::int64_t> size(groups.first_of_group.size(), 0);
+    for (const std::uint32_t first : equal.first_of_group) ++size[groups.group_of_point[first]];
+    return size.empty() ? 0 : *std::max_element(size.begin(), size.end());
+}
+
+}  // namespace
+
+TEST_CASE("truth: chains are as many as an exact kernel found, by every search") {
+    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
+    if (folder.empty()) {
+        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
+        return;
+    }
+    int figures = 0;
+    for (const test::truth_row& row : test::read_truth(folder / "TRUTH.csv")) {
+        if (row.text("status") != "ok") continue;
+        CAPTURE(row.text("file"));
+        CAPTURE(row.text("precision"));
+        const tf::mesh_file file = tf::read_mesh(folder / row.text("file"));
+        const std::vector<tf::point3> points =
+            finite_points(file.mesh.points, row.text("precision") == "f32");
+        for (const tolerance_column& column : columns)
+            for (const tf::neighbor_search search :
+                 {tf::neighbor_search::automatic, tf::neighbor_search::window,
+                  tf::neighbor_search::cells, tf::neighbor_search::tree}) {
+                CAPTURE(column.groups);
+                CAPTURE(static_cast<int>(search));
+                const double tolerance =
+                    column.tolerance == nullptr ? 0.0 : exact_number(row.text(column.tolerance));
+                const tf::point_groups groups = tf::weld_points(
+                    points,
+                    {.tolerance = tolerance, .rule = tf::weld_rule::chain, .search = search});
+                CHECK(static_cast<std::int64_t>(groups.first_of_group.size()) ==
+                      row.number(column.groups));
+                if (std::string(column.groups) == "weld_1e-3")
+                    CHECK(largest_group(points, groups) == row.number("largest_cluster_1e-3"));
+                ++figures;
+            }
+    }
+    CHECK(figures > 0);
+    MESSAGE(figures << " figures checked");
+}
