@@ -196,7 +196,7 @@ class splitter {
             linked.join(static_cast<std::uint32_t>(v),
                         given_.first_of_group[given_.group_of_point[v]]);
         for (const face& f : given_faces_)
-            for (const std::size_t k : {1, 2}) linked.join(f[0], f[k]);
+            for (const std::uint32_t corner : f) linked.join(f[0], corner);
         std::vector<std::uint8_t> hit(point_count(), 0);
         for (const std::uint32_t v : faulty) hit[linked.root(v)] = 1;
         for (const std::uint32_t first : given_.first_of_group)
@@ -236,6 +236,17 @@ class splitter {
     std::vector<std::uint8_t> single_;  ///< [G] whether the group is split into single points
     std::vector<std::uint8_t> several_fans_before_;
 };
+
+bool all_equal(points_view points, const point_groups& given) {
+    std::vector<std::uint8_t> differ(chunk_count(points.size(), grain), 0);
+    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t v = begin; v < end && differ[c] == 0; ++v) {
+            const std::uint32_t first = given.first_of_group[given.group_of_point[v]];
+            if (first != v && !(points[v] == points[first])) differ[c] = 1;
+        }
+    });
+    return std::find(differ.begin(), differ.end(), 1) == differ.end();
+}
 
 /// The groups with only points of equal coordinates left together.
 point_groups with_equal_coordinates(points_view points, const point_groups& given) {
@@ -283,11 +294,14 @@ std::uint64_t count_split(const point_groups& given, const point_groups& parts) 
 manifold_groups split_to_manifold(mesh_view mesh, const point_groups& given, int rounds) {
     if (mesh.faces.size() > nobody / 3)
         throw std::invalid_argument("tf::weld_mesh: more than 2^32 / 3 faces with keep_manifold");
-    const point_groups equal = with_equal_coordinates(mesh.points, given);
-    point_groups parts = splitter(mesh.faces, equal).run(rounds);
-    if (equal.first_of_group.size() > given.first_of_group.size()) {
+    const bool equal = all_equal(mesh.points, given);
+    point_groups parts =
+        equal ? splitter(mesh.faces, given).run(rounds)
+              : splitter(mesh.faces, with_equal_coordinates(mesh.points, given)).run(rounds);
+    if (!equal) {
         const std::vector<face> faces = renamed(mesh.faces, parts.group_of_point);
-        parts = put_together(parts, splitter(faces, of_parts(given, parts)).run(rounds));
+        const point_groups of_part = splitter(faces, of_parts(given, parts)).run(rounds);
+        parts = put_together(std::move(parts), of_part);
     }
     const std::uint64_t split = count_split(given, parts);
     return {std::move(parts), split};

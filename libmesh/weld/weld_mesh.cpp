@@ -103,10 +103,12 @@ mesh_weld_result weld_mesh(mesh_view mesh, const attributes& properties,
     result.point_of_group = detail::kept_points(mesh.points, properties, options, result.groups);
     carry_faces(mesh.faces, options.keep_collapsed, result);
     carry_points(mesh.points, properties, options, result);
-    result.largest_move =
-        detail::largest_move(mesh.points, result.groups.group_of_point, result.mesh.points);
+    if (options.points.tolerance > 0.0)  // else nothing has moved
+        result.largest_move =
+            detail::largest_move(mesh.points, result.groups.group_of_point, result.mesh.points);
     if (mesh.faces.empty()) return result;
-    result.flipped = detail::count_flipped(mesh, result.mesh, result.face_of_new);
+    if (result.largest_move > 0.0)
+        result.flipped = detail::count_flipped(mesh, result.mesh, result.face_of_new);
     result.nonmanifold_before = detail::count_nonmanifold_edges(mesh.points.size(), mesh.faces);
     result.nonmanifold_after =
         detail::count_nonmanifold_edges(result.mesh.points.size(), result.mesh.faces);

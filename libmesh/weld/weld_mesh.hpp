@@ -70,19 +70,22 @@ struct mesh_weld_result {
 /// the `degenerate` alike: without it, faces given = faces of the result + collapsed + degenerate.
 /// Faces that have become equal to others stay. Edges are counted over faces with three corners.
 ///
-/// With `keep` other than `first`, kept points may be within the tolerance of each other again.
+/// With `keep` other than `first`, kept points may be within the tolerance of each other again, and
+/// with the rule `first` a point may move by twice the tolerance.
 /// Means are sums of differences from the first point's value in the order of points, rounded at
 /// each step (for n values that differ by at most d, off by no more than n d 2^-52 and a last
 /// place), and lie between the least and the greatest value; float32 columns round once more.
-/// Averaged normals are not made unit vectors again. A property with a NaN in its group is NaN.
+/// Averaged normals are not made unit vectors again. A property with a NaN or an
+/// infinity among several is NaN.
 ///
 /// `keep_manifold` joins points of a group only along edges: those of two faces that the groups
 /// make one edge of at most two faces, and edges that shrink to a point. What hangs together so
 /// becomes one point; others of the group are points of their own, each part with its own first,
 /// last or mean, and points that no face uses go with the lowest part that has faces. So the seams
 /// of a surface cut open close as one, and solids that meet in an edge or a corner come apart.
-/// Where the groups would still do harm, for meshes that were not manifold before or whose faces
-/// shrink, they are split further: into points with equal coordinates, then into single ones. Every
+/// Where a group would still do harm, because points were not manifold before or faces shrink, it
+/// is left as single points; this is done to points with equal coordinates first, and then to what
+/// they became, so that coinciding corners stay joined where the rest of a group does not. Every
 /// edge of more than two faces in the result was one before, every point of several fans has such a
 /// point in it. Points of one group may thus stay within the tolerance of each other, and with the
 /// rule `first` a point may move by twice the tolerance.
@@ -96,9 +99,8 @@ struct mesh_weld_result {
 ///         is not there or is a list, a tolerance of a condition that is negative or not finite,
 ///         rows that are not one a point and one a face, columns that do not fit their rows, or
 ///         more than 2^32 / 3 faces with `keep_manifold`
-/// \cost   as `weld_points`, and O(F log F); about 40 bytes a face and 8 a point besides the
-/// result,
-///         100 a face with `keep_manifold`
+/// \cost   as `weld_points`, and O(F log F); about 24 bytes a face and 8 a point besides
+///         the result, 100 a face with `keep_manifold`, 8 a point and property for conditions
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API mesh_weld_result weld_mesh(mesh_view mesh, const attributes& properties,
                                                       const mesh_weld_options& options);

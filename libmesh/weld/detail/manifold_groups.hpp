@@ -14,9 +14,10 @@ struct manifold_groups {
     std::uint64_t split_up = 0;  ///< groups given that were not left whole
 };
 
-/// Splits groups as `weld_mesh` says under `keep_manifold`. After `rounds` rounds of splitting,
-/// all groups of a component of the welded mesh that still has a fault are split into single
-/// points.
+/// Splits groups as `weld_mesh` says under `keep_manifold`: first those of equal coordinates, then
+/// those of what has come of these, so that a group that must stay apart does not tear its faces
+/// from each other. After `rounds` rounds of splitting, all groups of a component of the welded
+/// mesh that still has a fault are split into single points.
 ///
 /// \pre  every corner is a point, every point is in a group
 /// \throws std::invalid_argument for more than 2^32 / 3 faces
