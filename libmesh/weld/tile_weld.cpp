@@ -1,0 +1,425 @@
+#include <libmesh/exact/predicates.hpp>
+#include <libmesh/weld/detail/moves.hpp>
+#include <libmesh/weld/detail/near_cells.hpp>
+#include <libmesh/weld/detail/reach.hpp>
+#include <libmesh/weld/tile_weld.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+
+namespace tf {
+namespace {
+
+void check_tolerance(const char* where, double tolerance) {
+    if (!(tolerance >= 0.0) || !std::isfinite(tolerance))
+        throw std::invalid_argument(std::string("tf::") + where +
+                                    ": the tolerance must be finite and not negative");
+}
+
+/// The nearest of the points met, the lowest of equally near ones.
+class nearest {
+  public:
+    explicit nearest(const point3& p) : p_(p) {}
+
+    [[nodiscard]] bool any() const { return any_; }
+    [[nodiscard]] std::uint64_t id() const { return id_; }
+    [[nodiscard]] const point3& at() const { return at_; }
+
+    void consider(std::uint64_t id, const point3& at) {
+        if (any_ && !precedes(id, at)) return;
+        any_ = true;
+        id_ = id;
+        at_ = at;
+    }
+    /// Whether that point is nearer than the one found. \pre any()
+    [[nodiscard]] bool precedes(std::uint64_t id, const point3& at) const {
+        const int order = detail::reach::compare(p_, at, at_);
+        return order < 0 || (order == 0 && id < id_);
+    }
+
+  private:
+    point3 p_;
+    point3 at_{};
+    std::uint64_t id_ = 0;
+    bool any_ = false;
+};
+
+/// A point that is remembered. An open one that `stands` does so for all open points within a
+/// fourth of the tolerance.
+struct remembered {
+    point3 at{};
+    std::uint64_t tag = 0;
+
+    static remembered make(std::uint64_t id, const point3& at, bool open) {
+        return {at, id << 2 | (open ? 1U : 0U)};
+    }
+    [[nodiscard]] std::uint64_t id() const { return tag >> 2; }
+    [[nodiscard]] bool open() const { return (tag & 1) != 0; }
+    [[nodiscard]] bool stands() const { return (tag & 2) != 0; }
+    void stand() { tag |= 2; }
+};
+
+/// The rule first inside a tile.
+class first_in_tile {
+  public:
+    explicit first_in_tile(double tolerance)
+        : within_(tolerance),
+          // Where 1.26 tolerances leave the doubles, open points stand for equal ones only.
+          within_fourth_(tolerance < largest ? 0.25 * tolerance : 0.0),
+          within_more_(tolerance < largest ? detail::cube_map::reach * tolerance : tolerance),
+          cells_(tolerance) {}
+
+    void reserve(std::size_t points) { cells_.reserve(points); }
+
+    void add(std::span<const tile_point> points, tile_result& out) {
+        constexpr std::size_t ahead = 12;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (i + 2 * ahead < points.size()) cells_.prefetch(points[i + 2 * ahead].at);
+            if (i + ahead < points.size()) cells_.prefetch_entry(points[i + ahead].at);
+            add(points[i], out);
+        }
+    }
+
+  private:
+    static constexpr double largest = 0x1p1000;
+
+    void add(const tile_point& p, tile_result& out) {
+        const bool own = p.role() != tile_role::halo;
+        const neighbors around = look(p.at);
+        if (around.kept.any()) {
+            if (own) drop(p, around, out);
+        } else if (!own || around.some_open) {
+            if (own) out.border.push_back(at(p, border_kind::open));
+            if (around.covering != nullptr)
+                around.covering->stand();
+            else
+                cells_.add(remembered::make(p.id(), p.at, true));
+        } else {
+            if (p.role() == tile_role::shared) out.border.push_back(at(p, border_kind::kept));
+            cells_.add(remembered::make(p.id(), p.at, false));
+        }
+    }
+
+    struct neighbors {
+        nearest kept;
+        nearest open;            ///< of those that stand for themselves
+        double standing_square;  ///< of the distance of the nearest other one, rounded
+        bool some_open;
+        remembered* covering;
+    };
+
+    neighbors look(const point3& p) {
+        neighbors found{nearest(p), nearest(p), infinity, false, nullptr};
+        cells_.visit(p, [&](remembered& q) {
+            if (!q.open()) {
+                if (within_.holds(p, q.at)) found.kept.consider(q.id(), q.at);
+                return;
+            }
+            if (!(q.stands() ? within_more_ : within_).holds(p, q.at)) return;
+            found.some_open = true;
+            if (q.stands())
+                found.standing_square =
+                    std::min(found.standing_square, detail::rounded_squared_distance(p, q.at));
+            else
+                found.open.consider(q.id(), q.at);
+            if (within_fourth_.holds(p, q.at)) found.covering = &q;
+        });
+        return found;
+    }
+
+    void drop(const tile_point& p, const neighbors& around, tile_result& out) {
+        const nearest& kept = around.kept;
+        if (!open_may_precede(p.at, around)) {
+            out.dropped.push_back({p.id(), kept.id()});
+            out.move.consider(p.at, kept.at());
+            return;
+        }
+        border_point leaning = at(p, border_kind::leaning);
+        leaning.leader = kept.id();
+        leaning.leader_at = kept.at();
+        out.border.push_back(leaning);
+    }
+
+    /// What stands for others is nearer by a fourth of the tolerance, as far as is known.
+    [[nodiscard]] bool open_may_precede(const point3& p, const neighbors& around) const {
+        if (!around.some_open) return false;
+        if (around.open.any() && around.kept.precedes(around.open.id(), around.open.at()))
+            return true;
+        if (!(around.standing_square < infinity)) return around.standing_square != infinity;
+        const double kept = detail::rounded_squared_distance(p, around.kept.at());
+        const double least = around.standing_square;
+        // The roots of sums in this range are off by less than a part in 2^48.
+        if (!(least > 0x1p-900 && kept > 0x1p-900 && kept < 0x1p1000)) return true;
+        return std::sqrt(least) - within_fourth_.distance() * (1.0 + 0x1p-40) <=
+               std::sqrt(kept) * (1.0 + 0x1p-40);
+    }
+
+    [[nodiscard]] static border_point at(const tile_point& p, border_kind kind) {
+        border_point b = border_point::make(p.id(), kind);
+        b.at = p.at;
+        return b;
+    }
+
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    detail::reach within_;
+    detail::reach within_fourth_;
+    detail::reach within_more_;
+    detail::near_cells<remembered> cells_;
+};
+
+/// The rule chain inside a tile.
+class chain_in_tile {
+  public:
+    explicit chain_in_tile(double tolerance) : tolerance_(tolerance) {}
+
+    void reserve(std::size_t points) {
+        points_.reserve(points);
+        tags_.reserve(points);
+    }
+
+    void add(std::span<const tile_point> points) {
+        for (const tile_point& p : points) {
+            points_.push_back(p.at);
+            tags_.push_back(p.tag);
+        }
+    }
+
+    void finish(tile_result& out) {
+        const point_groups groups =
+            weld_points(points_, {.tolerance = tolerance_, .rule = weld_rule::chain});
+        points_ = {};
+        for (std::size_t i = 0; i < tags_.size(); ++i) {
+            const tile_point p{tags_[i], {}};
+            const std::uint64_t lowest =
+                tags_[groups.first_of_group[groups.group_of_point[i]]] >> 2;
+            if (p.role() != tile_role::halo && lowest != p.id())
+                out.dropped.push_back({p.id(), lowest});
+            if (p.role() == tile_role::own) continue;
+            border_point link = border_point::make(p.id(), border_kind::link);
+            link.leader = lowest;
+            out.border.push_back(link);
+        }
+        tags_ = {};
+    }
+
+  private:
+    double tolerance_;
+    std::vector<point3> points_{};
+    std::vector<std::uint64_t> tags_{};
+};
+
+/// Sets of numbers; each is known by its lowest.
+class sparse_sets {
+  public:
+    void join(std::uint64_t a, std::uint64_t b) {
+        if (a == b) return;
+        a = shorten(a);
+        b = shorten(b);
+        if (a != b) above_[std::max(a, b)] = std::min(a, b);
+    }
+    [[nodiscard]] std::uint64_t lowest(std::uint64_t a) const {
+        for (auto up = above_.find(a); up != above_.end(); up = above_.find(a)) a = up->second;
+        return a;
+    }
+    /// All that are not lowest, ascending, each with its lowest.
+    [[nodiscard]] std::vector<tile_drop> flatten() {
+        std::vector<tile_drop> all;
+        all.reserve(above_.size());
+        for (const auto& [id, up] : above_) all.push_back({id, up});
+        std::sort(all.begin(), all.end(),
+                  [](const tile_drop& a, const tile_drop& b) { return a.id < b.id; });
+        for (tile_drop& d : all) {  // what is above has been flattened
+            const auto up = above_.find(d.leader);
+            if (up != above_.end()) d.leader = up->second;
+            above_[d.id] = d.leader;
+        }
+        return all;
+    }
+
+  private:
+    /// As `lowest`, and hangs what is on the way directly below it.
+    std::uint64_t shorten(std::uint64_t a) {
+        const std::uint64_t top = lowest(a);
+        for (auto up = above_.find(a); up != above_.end(); up = above_.find(a)) {
+            a = up->second;
+            up->second = top;
+            if (a == top) break;
+        }
+        return top;
+    }
+
+    std::unordered_map<std::uint64_t, std::uint64_t> above_{};
+};
+
+point3 direction_for(points_view sample) {
+    constexpr double big = std::numeric_limits<double>::infinity();
+    std::array<double, 3> low{big, big, big};
+    std::array<double, 3> high{-big, -big, -big};
+    for (const point3& p : sample)
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], 0.5 * p[k]);
+            high[k] = std::max(high[k], 0.5 * p[k]);
+        }
+    std::size_t longest = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (high[k] - low[k] > high[longest] - low[longest]) longest = k;
+    // Mostly along the cloud, and perpendicular to no plane that people build. Less than a fourth
+    // long, so that nothing overflows.
+    point3 direction;
+    direction[longest] = 0.25 * 0.90;
+    direction[(longest + 1) % 3] = 0.25 * 0.34;
+    direction[(longest + 2) % 3] = 0.25 * 0.27;
+    return direction;
+}
+
+}  // namespace
+
+tile_slabs::tile_slabs(points_view sample, double tolerance, std::size_t count)
+    : direction_(direction_for(sample)), tolerance_(tolerance) {
+    check_tolerance("tile_slabs", tolerance);
+    if (count == 0) throw std::invalid_argument("tf::tile_slabs: no slab at all");
+    std::vector<double> places;
+    places.reserve(sample.size());
+    for (const point3& p : sample) places.push_back(along(p));
+    std::sort(places.begin(), places.end());
+    for (std::size_t i = 1; i < count && !places.empty(); ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(count);
+        const double cut =
+            places[static_cast<std::size_t>(share * static_cast<double>(places.size()))];
+        if (cuts_.empty() || cuts_.back() < cut) cuts_.push_back(cut);
+    }
+}
+
+double tile_slabs::along(const point3& p) const {
+    return direction_.x * p.x + direction_.y * p.y + direction_.z * p.z;
+}
+
+tile_slabs::place tile_slabs::find(const point3& p) const {
+    // The places of two points within the tolerance differ by at most a fourth of it. Each is off
+    // by at most 2^-51 of the sum of its terms' sizes (and a few denormals), and the sums of the
+    // two differ by less than the tolerance.
+    const double at = along(p);
+    const double sizes =
+        direction_.x * std::abs(p.x) + direction_.y * std::abs(p.y) + direction_.z * std::abs(p.z);
+    const double margin = 0.25 * tolerance_ + 0x1p-48 * (sizes + 0.25 * tolerance_) + 0x1p-1000;
+    const auto slab = [&](double s) {
+        return static_cast<std::uint32_t>(std::upper_bound(cuts_.begin(), cuts_.end(), s) -
+                                          cuts_.begin());
+    };
+    const std::uint32_t own = slab(at);
+    const bool alone = (own == 0 || cuts_[own - 1] < at - margin) &&
+                       (own == cuts_.size() || at + margin < cuts_[own]);
+    if (alone) return {own, own, own};
+    return {own, slab(at - margin), slab(at + margin)};
+}
+
+void longest_move::consider(const point3& from, const point3& to) {
+    if (from == to) return;
+    const detail::order known = detail::compare_rounded(
+        detail::rounded_squared_distance(from, to), detail::rounded_squared_distance(from_, to_));
+    if (known == detail::order::less) return;
+    if (known == detail::order::unsure && compare_distance(from, to, from_, to_) <= 0) return;
+    from_ = from;
+    to_ = to;
+}
+
+double longest_move::length() const {
+    const std::array<std::uint32_t, 1> only{0};
+    return detail::largest_move({&from_, 1}, only, {&to_, 1});
+}
+
+struct tile_weld::state {
+    std::optional<first_in_tile> first{};
+    std::optional<chain_in_tile> chain{};
+};
+
+tile_weld::tile_weld(weld_rule rule, double tolerance) : state_(std::make_unique<state>()) {
+    check_tolerance("tile_weld", tolerance);
+    if (rule == weld_rule::first)
+        state_->first.emplace(tolerance);
+    else
+        state_->chain.emplace(tolerance);
+}
+tile_weld::~tile_weld() = default;
+tile_weld::tile_weld(tile_weld&&) noexcept = default;
+tile_weld& tile_weld::operator=(tile_weld&&) noexcept = default;
+
+void tile_weld::reserve(std::size_t points) {
+    if (state_->first) state_->first->reserve(points);
+    if (state_->chain) state_->chain->reserve(points);
+}
+
+void tile_weld::add(std::span<const tile_point> points, tile_result& out) {
+    if (state_->first) state_->first->add(points, out);
+    if (state_->chain) state_->chain->add(points);
+}
+
+void tile_weld::finish(tile_result& out) {
+    if (state_->chain) state_->chain->finish(out);
+}
+
+struct border_weld::state {
+    explicit state(double tolerance) : within(tolerance), kept(tolerance) {}
+
+    void settle(const border_point& p, std::vector<tile_drop>& out) {
+        nearest found(p.at);
+        if (p.kind() == border_kind::leaning) found.consider(p.leader, p.leader_at);
+        if (p.kind() != border_kind::kept)
+            kept.visit(p.at, [&](const remembered& q) {
+                if (within.holds(p.at, q.at)) found.consider(q.id(), q.at);
+            });
+        if (found.any()) {
+            out.push_back({p.id(), found.id()});
+            move.consider(p.at, found.at());
+        } else {
+            kept.add(remembered::make(p.id(), p.at, false));
+        }
+    }
+
+    /// Links of one point come one after the other.
+    void join(const border_point& p) {
+        if (last_link && last_link->id() == p.id()) sets.join(last_link->leader, p.leader);
+        last_link = p;
+    }
+
+    detail::reach within;
+    detail::near_cells<remembered> kept;
+    longest_move move{};
+    std::optional<border_point> last_link{};
+    sparse_sets sets{};
+};
+
+border_weld::border_weld(weld_rule, double tolerance) {
+    check_tolerance("border_weld", tolerance);
+    state_ = std::make_unique<state>(tolerance);
+}
+border_weld::~border_weld() = default;
+border_weld::border_weld(border_weld&&) noexcept = default;
+border_weld& border_weld::operator=(border_weld&&) noexcept = default;
+
+void border_weld::add(std::span<const border_point> points, std::vector<tile_drop>& out) {
+    for (const border_point& p : points)
+        if (p.kind() == border_kind::link)
+            state_->join(p);
+        else
+            state_->settle(p, out);
+}
+
+void border_weld::finish(std::vector<tile_drop>& out) {
+    const std::vector<tile_drop> joined = state_->sets.flatten();
+    out.insert(out.end(), joined.begin(), joined.end());
+}
+
+std::uint64_t border_weld::leader_of(std::uint64_t leader) const {
+    return state_->sets.lowest(leader);
+}
+
+const longest_move& border_weld::move() const { return state_->move; }
+
+}  // namespace tf
