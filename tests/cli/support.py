@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 TOOL = os.environ.get("TF_SELFINTERSECT", "tf-selfintersect")
+WELD = os.environ.get("TF_WELD", "tf-weld")
 MODELS = os.environ.get("TREEFORM_MODELS_DIR", "")
 SANITIZED = os.environ.get("TREEFORM_SANITIZED", "") != ""
 
@@ -24,6 +25,8 @@ class Run:
 
 
 class ToolTest(unittest.TestCase):
+    tool = TOOL
+
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="treeform-cli-")
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
@@ -32,7 +35,7 @@ class ToolTest(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def run_tool(self, *arguments, status=None, stdin=b"", timeout=120):
-        done = subprocess.run([TOOL, *map(str, arguments)], input=stdin, capture_output=True,
+        done = subprocess.run([self.tool, *map(str, arguments)], input=stdin, capture_output=True,
                               cwd=self.folder, timeout=timeout)
         run = Run(done)
         if status is not None:

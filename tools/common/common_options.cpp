@@ -37,7 +37,10 @@ void add_output_options(command_line& line, common_options& o, const common_feat
     line.option({"--output-dir", "DIR", "one result per INPUT, named STEM+SUFFIX.EXT"},
                 [&o](std::string_view value) { o.output_dir = value; });
     line.option(o.suffix, {"--suffix", "TEXT", "SUFFIX for --output-dir", o.suffix});
-    if (!features.changes_meshes)
+    if (features.changes_meshes)
+        line.flag(o.in_place, {.names = "--in-place",
+                               .text = "replace each INPUT (written beside it, then renamed)"});
+    else
         line.refuse("--in-place", false,
                     "makes no sense here: this tool changes no mesh, -o writes a marked copy");
 }
@@ -102,16 +105,31 @@ void check_outputs(const command_line& line, const common_options& o) {
             if (input != "-" && same_file(outputs[i], input))
                 refuse(outputs[i].string() + " is an input; no output may replace it");
     }
-    if (o.inputs.size() < 2) return;
+    if (o.inputs.size() < 2 || o.joined) return;
     for (const fs::path& path : outputs)
         if (path != o.report)
             refuse(path.string() + ": one output file, but " + std::to_string(o.inputs.size()) +
                    " inputs; -r takes several, meshes go to --output-dir");
 }
 
+void check_in_place(const common_options& o) {
+    if (!o.in_place) return;
+    if (!o.output.empty() || !o.output_dir.empty())
+        refuse("--in-place excludes -o and --output-dir");
+    if (o.joined) refuse("--in-place: several inputs cannot become one file; use -o");
+    if (!o.output_format.empty()) refuse("--in-place keeps the format; --output-format needs -o");
+    for (std::size_t i = 0; i < o.inputs.size(); ++i) {
+        if (o.inputs[i] == "-") refuse("--in-place: standard input cannot be replaced; use -o");
+        for (std::size_t j = 0; j < i; ++j)
+            if (same_file(o.inputs[i], o.inputs[j]))
+                refuse(o.inputs[i] + " is named twice; --in-place replaces a file once");
+    }
+}
+
 void check_output_folder(const common_options& o) {
     if (o.output_dir.empty()) return;
     if (!o.output.empty()) refuse("-o and --output-dir exclude each other");
+    if (o.joined) refuse("--output-dir: all inputs together give one result; use -o");
     if (o.suffix.find('/') != std::string::npos) refuse("--suffix: no / allowed");
     std::set<fs::path> names;
     for (const auto& input : o.inputs) {
@@ -159,11 +177,17 @@ void check_common_options(const command_line& line, const common_options& option
     if (!options.output.empty()) static_cast<void>(mesh_format(options, options.output));
     check_outputs(line, options);
     check_output_folder(options);
+    check_in_place(options);
+}
+
+bool wants_mesh(const common_options& options) {
+    return !options.output.empty() || !options.output_dir.empty() || options.in_place;
 }
 
 std::optional<std::filesystem::path> mesh_output(const common_options& options,
                                                  const std::string& input) {
     if (!options.output.empty()) return options.output;
+    if (options.in_place) return input;
     if (options.output_dir.empty()) return std::nullopt;
     const std::string stem = input == "-" ? "stdin" : fs::path(input).stem().string();
     std::string format =
@@ -173,8 +197,8 @@ std::optional<std::filesystem::path> mesh_output(const common_options& options,
 }
 
 std::string mesh_format(const common_options& options, const fs::path& path) {
-    const std::string format =
-        options.output_format.empty() ? extension_of(path) : options.output_format;
+    std::string format = options.output_format.empty() ? extension_of(path) : options.output_format;
+    if (format == "txt" || format == "asc") format = "xyz";
     if (!offers(options, format))
         refuse(path.string() + ": the mesh can be written as " + joined(options.mesh_formats));
     return format;

@@ -16,7 +16,9 @@ struct common_options {
     std::vector<std::string> inputs;
     std::filesystem::path output;
     std::filesystem::path output_dir;
-    std::string suffix;  ///< for `output_dir`
+    std::string suffix;     ///< for `output_dir`
+    bool in_place = false;  ///< the mesh replaces its input
+    bool joined = false;    ///< all inputs are one set, and give one result
     bool force = false;
     bool dry_run = false;
     std::string format;         ///< of the inputs; empty: by content
@@ -55,11 +57,15 @@ void add_common_options(command_line& line, common_options& target,
 /// \throws failure (bad_usage)
 void check_common_options(const command_line& line, const common_options& options);
 
+/// Whether some option asks for a mesh.
+[[nodiscard]] bool wants_mesh(const common_options& options);
+
 /// Where the mesh made from `input` goes; none when no mesh is asked for.
 [[nodiscard]] std::optional<std::filesystem::path> mesh_output(const common_options& options,
                                                                const std::string& input);
 
-/// The format in which `path` is to be written. \throws failure (bad_usage) for one not offered
+/// The format in which `path` is to be written, by its extension unless --output-format says; txt
+/// and asc are xyz. \throws failure (bad_usage) for one not offered
 [[nodiscard]] std::string mesh_format(const common_options& options,
                                       const std::filesystem::path& path);
 

@@ -33,45 +33,56 @@ std::vector<std::byte> read_standard_input(const guard& keeper) {
     return bytes;
 }
 
+std::string name_of(const std::string& input) { return input == "-" ? "standard input" : input; }
+
 }  // namespace
 
 job::job(const std::string& input, const common_options& all_options, console& messages,
          guard& stop, std::map<std::string, double>& all_seconds)
     : path(input),
-      name(input == "-" ? "standard input" : input),
+      name(name_of(input)),
       options(all_options),
       out(messages),
       keeper(stop),
       seconds(all_seconds) {
     entry["input"] = input;
     entry["error"] = nullptr;
+    if (!options.joined || options.inputs.size() < 2) return;
+    name = std::to_string(options.inputs.size()) + " inputs";
+    entry["input"] = nullptr;
 }
 
 tf::mesh_file job::read() {
+    tf::mesh_file file = read(path, entry);
+    entry["warnings"] = json::array();
+    for (const tf::io_warning& w : file.warnings) warn(w.code, w.text);
+    return file;
+}
+
+tf::mesh_file job::read(const std::string& input, json& about) {
     const timer whole = time("read");
-    out.progress(name + ": read", 0.0);
+    const std::string label = name_of(input);
+    out.progress(label + ": read", 0.0);
     tf::mesh_file file;
     std::string digest;
-    if (path == "-") {
+    if (input == "-") {
         const std::vector<std::byte> bytes = read_standard_input(keeper);
         if (options.detailed()) {
             sha256 sum;
             sum.add(bytes);
             digest = sum.hex();
         }
-        file = tf::read_mesh(bytes, name, options.format);
+        file = tf::read_mesh(bytes, label, options.format);
     } else {
         std::error_code error;
-        if (std::filesystem::is_directory(path, error))
-            throw failure(bad_input, "read", path + ": is a folder");
-        if (options.detailed()) digest = sha256_of_file(path);
-        file = tf::read_mesh(path, options.format);
+        if (std::filesystem::is_directory(input, error))
+            throw failure(bad_input, "read", input + ": is a folder");
+        if (options.detailed()) digest = sha256_of_file(input);
+        file = tf::read_mesh(input, options.format);
     }
-    entry["format"] = file.format;
-    entry["sha256"] = digest.empty() ? json(nullptr) : json(digest);
-    entry["precision_in"] = file.stored_as == tf::precision::single_ ? "float" : "double";
-    entry["warnings"] = json::array();
-    for (const tf::io_warning& w : file.warnings) warn(w.code, w.text);
+    about["format"] = file.format;
+    about["sha256"] = digest.empty() ? json(nullptr) : json(digest);
+    about["precision_in"] = file.stored_as == tf::precision::single_ ? "float" : "double";
     out.end_progress();
     keeper.check();
     return file;

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <new>
+#include <system_error>
 
 namespace tools {
 namespace {
@@ -28,6 +29,10 @@ outcome attempt(const std::function<exit_status()>& body) {
         return {bad_input, "read", error.what()};
     } catch (const std::bad_alloc&) {
         return {stopped, "memory", "out of memory"};
+    } catch (const std::system_error& error) {
+        if (error.code() != std::errc::resource_unavailable_try_again)
+            return {bug, "bug", std::string("internal error: ") + error.what()};
+        return {stopped, "memory", "no memory for a thread"};
     } catch (const std::exception& error) {
         return {bug, "bug", std::string("internal error: ") + error.what()};
     }
@@ -86,7 +91,9 @@ class session {
         for (const auto& step : steps) seconds_[step] = 0.0;
         exit_status worst = done;
         bool halted = false;
-        for (const std::string& input : options_.inputs) {
+        const std::vector<std::string> inputs =
+            options_.joined ? std::vector<std::string>{options_.inputs.front()} : options_.inputs;
+        for (const std::string& input : inputs) {
             job one(input, options_, out_, keeper_, seconds_);
             const outcome result =
                 halted ? outcome{stopped, "not-started", input + ": not started"} : attempt([&] {

@@ -23,7 +23,8 @@ namespace tools {
 
 using json = nlohmann::ordered_json;
 
-/// The work on one input.
+/// The work on one input, or on all where they are one set (`common_options::joined`); then `path`
+/// is that of the first, and the report names none.
 class job {
   public:
     job(const std::string& path, const common_options& options, console& out, guard& keeper,
@@ -31,6 +32,8 @@ class job {
 
     /// Reads the input and enters what is known of it in `entry`. \throws failure
     [[nodiscard]] tf::mesh_file read();
+    /// Reads `input` and enters format, digest and precision in `about`; says none of its warnings.
+    [[nodiscard]] tf::mesh_file read(const std::string& input, json& about);
 
     /// Adds the time from now to the end of the returned object's life to the report's `step`.
     class timer {
@@ -53,7 +56,7 @@ class job {
     void warn(const std::string& code, const std::string& text);
 
     const std::string& path;
-    std::string name;  ///< of the input, for people
+    std::string name;  ///< of the input, for people: "part.stl", "standard input", "3 inputs"
     const common_options& options;
     console& out;
     guard& keeper;

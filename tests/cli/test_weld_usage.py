@@ -1,0 +1,93 @@
+"""The command line of tf-weld: help, version, everything it refuses."""
+
+from weld_support import *
+
+
+class Usage(WeldTest):
+    def setUp(self):
+        super().setUp()
+        self.cloud("in.xyz", [(0, 0, 0), (0, 0, 0)])
+
+    def refused(self, *arguments):
+        run = self.run_tool(*arguments, status=2)
+        self.assertEqual(run.text, "")
+        self.assertTrue(run.err.startswith("tf-weld: error: "), msg=run.err)
+        self.assertEqual([name for name in self.listing() if name.startswith("out")], [])
+        return run.err
+
+    def test_help_fits_80_columns_and_names_what_is_accepted(self):
+        run = self.run_tool("--help", status=0)
+        self.assertTrue(run.text.startswith("Usage: tf-weld [OPTIONS] INPUT..."))
+        self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
+        for word in ("What is merged:", "Which one stays:", "What to give back:", "Meshes:",
+                     "Common options:", "Examples:", "Exit status:", "--join", "--tolerance",
+                     "--rule", "--same", "--across", "--borders", "--keep", "--map", "--removed",
+                     "--label", "--check", "--keep-degenerate", "--keep-manifold", "--in-place"):
+            self.assertIn(word, run.text)
+        self.assertNotIn("--html", run.text)
+
+    def test_version_names_tool_and_build(self):
+        self.assertRegex(self.run_tool("--version", status=0).text,
+                         r"^tf-weld \(treeform\) \d+\.\d+\.\d+\nbuilt with ")
+
+    def test_a_run_that_gives_nothing_back_is_refused_with_advice(self):
+        self.assertIn("--check", self.refused("in.xyz"))
+        self.assertIn("-o FILE", self.refused("in.xyz", "-t", "0.5"))
+
+    def test_values_are_checked(self):
+        for options in (["-t", "-1"], ["-t", "x"], ["-t", "1%%"], ["-t", "nan"], ["-t", "inf"],
+                        ["--rule", "nearest"], ["--keep", "best"], ["--keep", "min:"],
+                        ["--keep", "min"], ["--same", ""], ["--same", "a,,b"], ["--same", "a=x"],
+                        ["--same", "a=-1"], ["--same", "=1"], ["--across", ",a"],
+                        ["--label", "x"], ["--label", "a b"], ["-j", "0"]):
+            self.refused("in.xyz", "-o", "out.ply", *options)
+
+    def test_contradictions_are_refused(self):
+        self.refused("in.xyz", "--check", "-o", "out.xyz")
+        self.refused("in.xyz", "--check", "--removed", "out.xyz")
+        self.refused("in.xyz", "--check", "--in-place")
+        self.refused("in.xyz", "--same", "normal", "--across", "normal", "--check")
+        self.refused("in.xyz", "--label", "g")
+        self.refused("in.xyz", "--label", "g", "-o", "out.ply", "--removed", "out.xyz")
+        self.refused("in.xyz", "--label", "g", "-o", "out.ply", "--keep", "last")
+        self.refused("in.xyz", "--label", "g", "-o", "out.obj")
+        self.refused("in.xyz", "-o", "out.xyz", "--map", "out.xyz")
+        self.refused("in.xyz", "-o", "-", "--output-format", "xyz", "--map", "-")
+        self.refused("in.xyz", "-o", "-")
+        self.refused("in.xyz", "--check", "--ascii")
+        self.refused("in.xyz", "--check", "--output-format", "ply")
+        self.refused("in.xyz", "--removed", "-")
+
+    def test_in_place_stands_alone(self):
+        self.cloud("b.xyz", [(0, 0, 0)])
+        self.refused("in.xyz", "--in-place", "-o", "out.xyz")
+        self.refused("in.xyz", "b.xyz", "--join", "--in-place")
+        self.refused("in.xyz", "in.xyz", "--in-place")
+        self.refused("-", "--in-place")
+        self.refused("in.xyz", "--in-place", "--output-format", "ply")
+
+    def test_one_output_for_several_inputs_needs_join(self):
+        self.cloud("b.xyz", [(0, 0, 0)])
+        for option in ("-o", "--map", "--removed"):
+            self.refused("in.xyz", "b.xyz", option, "out.xyz")
+        self.refused("in.xyz", "b.xyz", "--join", "--output-dir", ".")
+        self.run_tool("in.xyz", "b.xyz", "--join", "-o", "both.xyz", status=0)
+
+    def test_an_input_is_never_an_output(self):
+        before = self.read_bytes("in.xyz")
+        for option in ("-o", "--map", "--removed", "-r"):
+            self.assertIn("is an input", self.refused("in.xyz", option, "in.xyz", "-f"))
+        self.assertEqual(self.read_bytes("in.xyz"), before)
+
+    def test_formats_that_are_not_written_are_refused(self):
+        self.refused("in.xyz", "-o", "out.docx")
+        self.refused("in.xyz", "--removed", "out.stl")
+        self.assertIn("no points without faces", self.run_tool("in.xyz", "-o", "out.stl",
+                                                                status=4).err)
+
+    def test_pages_are_refused_with_a_reason(self):
+        self.assertIn("makes no sense here", self.refused("in.xyz", "--html", "out.html"))
+
+
+if __name__ == "__main__":
+    main()

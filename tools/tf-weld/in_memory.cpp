@@ -1,0 +1,140 @@
+#include "tools/tf-weld/in_memory.hpp"
+
+#include "tools/tf-weld/join_files.hpp"
+#include "tools/tf-weld/outputs.hpp"
+#include "tools/tf-weld/polygons.hpp"
+#include "tools/tf-weld/welding.hpp"
+#include "tools/tf-weld/words.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tools {
+namespace {
+
+/// Outputs are looked at before the work, so that it is not lost in the end.
+void check_outputs(const job& work, const weld_request& request) {
+    const common_options& o = work.options;
+    if (!request.outputs.map.empty()) check_output(request.outputs.map, o.force);
+    if (o.dry_run) return;
+    if (!request.outputs.removed.empty()) check_output(request.outputs.removed, o.force);
+    if (const auto path = mesh_output(o, work.path)) check_output(*path, o.force || o.in_place);
+}
+
+void require_writable_format(const job& work, const tf::mesh_file& file) {
+    const common_options& o = work.options;
+    const std::string format = file.format.substr(0, file.format.find('-'));
+    if (o.in_place &&
+        std::find(o.mesh_formats.begin(), o.mesh_formats.end(), format) == o.mesh_formats.end())
+        throw failure(bad_output, "output",
+                      work.path + ": --in-place cannot write " + file.format + "; use -o");
+}
+
+tf::mesh_file read_all(job& work) {
+    const std::vector<std::string> names =
+        work.options.joined ? work.options.inputs : std::vector<std::string>{work.path};
+    std::vector<tf::mesh_file> files;
+    std::uint64_t first_point = 0;
+    for (const std::string& name : names) {
+        json source{{"input", name}};
+        files.push_back(work.read(name, source));
+        source["points"] = files.back().mesh.points.size();
+        source["faces"] = files.back().stored_faces;
+        source["first_point"] = first_point;
+        first_point += files.back().mesh.points.size();
+        work.entry["sources"].push_back(std::move(source));
+    }
+    const json& first = work.entry["sources"].front();
+    for (const char* key : {"format", "sha256"})
+        work.entry[key] = files.size() == 1 ? first[key] : json(nullptr);
+    tf::mesh_file all =
+        files.size() == 1 ? std::move(files.front()) : join_files(std::move(files), names);
+    work.entry["precision_in"] = all.stored_as == tf::precision::single_ ? "float" : "double";
+    for (const tf::io_warning& w : all.warnings) work.warn(w.code, w.text);
+    return all;
+}
+
+/// `file` as it was, with the number of each point's group.
+void label(job& work, tf::mesh_file& file, const welding& w, const std::string& name) {
+    tf::element& vertices = tf::obtain_element(file.attributes, "vertex", file.mesh.points.size());
+    tf::column column = tf::make_column<std::uint32_t>(name, w.result.groups.group_of_point);
+    const auto at = std::find_if(vertices.columns.begin(), vertices.columns.end(),
+                                 [&](const tf::column& c) { return c.name == name; });
+    if (at == vertices.columns.end()) {
+        vertices.columns.push_back(std::move(column));
+        return;
+    }
+    work.warn("replaced", "property " + name + " was there before; its values are replaced");
+    *at = std::move(column);
+}
+
+/// `file`, now with the points and faces that were kept.
+void take_result(tf::mesh_file& file, welding& w) {
+    file.mesh = std::move(w.result.mesh);
+    file.attributes = std::move(w.result.attributes);
+    file.indexed = true;
+}
+
+void restore_polygons(tf::mesh_file& file, const welding& w, bool welded,
+                      const weld_settings& settings) {
+    file.stored_faces = file.mesh.faces.size();
+    if (w.polygon_of_triangle.empty()) return;
+    std::vector<std::uint32_t> polygon = w.polygon_of_triangle;
+    if (welded) {
+        polygon.clear();
+        for (const std::uint32_t f : w.result.face_of_new)
+            polygon.push_back(w.polygon_of_triangle[f]);
+    }
+    rejoin_polygons(file, polygon, welded && !settings.keep_degenerate);
+}
+
+void refuse_label_format(const job& work, const std::filesystem::path& path,
+                         const tf::mesh_file& file) {
+    const std::string format = work.options.in_place ? file.format.substr(0, file.format.find('-'))
+                                                     : mesh_format(work.options, path);
+    if (format == "stl" || format == "obj" || format == "off" || format == "glb")
+        throw failure(
+            bad_usage, "usage",
+            path.string() + ": --label needs a format with properties: ply, pcd, xyz, csv");
+}
+
+}  // namespace
+
+exit_status weld_in_memory(job& work, const weld_request& request) {
+    const common_options& o = work.options;
+    const weld_outputs& asked = request.outputs;
+    enter_blank_report(work, request);
+    check_outputs(work, request);
+    tf::mesh_file file = read_all(work);
+    require_writable_format(work, file);
+    const auto path = mesh_output(o, work.path);
+    if (path && !asked.label.empty()) refuse_label_format(work, *path, file);
+
+    welding w = weld(work, file, request.settings);
+    work.out.result(work.name + ": " + verdict(w, request));
+    say_details(work, w);
+    enter_report(work, w, request);
+    warn_of_harm(work, w);
+
+    const job::timer timing = work.time("write");
+    pending_outputs outputs(work);
+    std::optional<output_file> map;
+    if (!asked.map.empty()) {
+        map.emplace(asked.map, o.force, work.keeper);
+        write_map(*map, w, map_is_csv(asked.map));
+    }
+    if (!asked.removed.empty() && !o.dry_run) write_removed(work, outputs, file, w, asked.removed);
+    const bool labelled = !asked.label.empty();
+    if (labelled)
+        label(work, file, w, asked.label);
+    else
+        take_result(file, w);
+    restore_polygons(file, w, !labelled, request.settings);
+    work.entry["polygons"] = {{"in", w.polygons}, {"out", file.stored_faces}};
+    if (path && !o.dry_run) write_result(work, outputs, file, w, request, *path);
+    if (map) map->commit();
+    outputs.commit();
+    return asked.check && w.removed() > 0 ? found : done;
+}
+
+}  // namespace tools

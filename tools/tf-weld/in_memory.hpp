@@ -1,0 +1,14 @@
+#pragma once
+/// \file
+/// The work on inputs that fit into memory.
+
+#include "tools/common/run.hpp"
+#include "tools/tf-weld/settings.hpp"
+
+namespace tools {
+
+/// Reads, welds, writes what was asked for, enters it all in the report.
+/// \throws failure
+[[nodiscard]] exit_status weld_in_memory(job& work, const weld_request& request);
+
+}  // namespace tools

@@ -1,0 +1,158 @@
+/// \file
+/// tf-weld: merges points or vertices that lie within a distance of each other.
+
+#include "tools/common/command_line.hpp"
+#include "tools/common/common_options.hpp"
+#include "tools/common/output_file.hpp"
+#include "tools/common/run.hpp"
+#include "tools/tf-weld/in_memory.hpp"
+#include "tools/tf-weld/outputs.hpp"
+#include "tools/tf-weld/settings.hpp"
+
+namespace {
+
+using tools::command_line;
+using tools::common_options;
+using tools::weld_outputs;
+using tools::weld_settings;
+
+void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
+    line.group("What is merged");
+    line.option(
+        {.names = "-t, --tolerance",
+         .value = "DIST",
+         .text = "Euclidean distance, inclusive; 0 = equal\ncoordinates only, lossless",
+         .fallback = "0",
+         .aliases = "--eps,--threshold"},
+        [&s](std::string_view text) { s.tolerance = tools::parse_distance("--tolerance", text); });
+    line.option({"--rule", "RULE",
+                 "first: in file order, drop a point if an earlier\n"
+                 "kept one is within DIST\n"
+                 "chain: everything linked by steps of DIST is one",
+                 "first"},
+                [&s](std::string_view text) { s.rule = tools::parse_rule(text); });
+    line.option({"--same", "P[=TOL],...",
+                 "merge only if property P agrees too (within TOL),\n"
+                 "e.g. --same classification,nx=0.01"},
+                [&s](std::string_view text) { s.same = tools::parse_same(text); });
+    line.option({"--across", "P,...",
+                 "mesh seams (normal, uv, colour) are kept unless\n"
+                 "named here, e.g. --across normal,uv"},
+                [&s](std::string_view text) { s.across = tools::parse_across(text); });
+    line.flag(s.borders, {"--borders", "", "only vertices on open edges (stitch shells)"});
+    line.flag(exact, {.names = "--exact"});
+}
+
+void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_options& options) {
+    line.group("What to give back");
+    line.output(options.output, {"-o, --output", "FILE",
+                                 "the welded set; all other properties are kept\n"
+                                 "(meshes: obj ply stl off glb; points: ply pcd\n"
+                                 "xyz csv). \"-\" = stdout, with --output-format"});
+    line.output(outputs.map, {"--map", "FILE",
+                              "input index -> output index: CSV where FILE ends\n"
+                              "in .csv or is \"-\", else binary u64, little endian"});
+    line.output(outputs.removed,
+                {"--removed", "FILE", "the points that were dropped (ply pcd xyz csv)"});
+    line.option(outputs.label, {"--label", "P", "drop nothing; write group numbers to property P"});
+    line.flag(outputs.check, {"--check", "", "only count; exit 1 if anything would be merged"});
+}
+
+void add_meshes(command_line& line, weld_settings& s) {
+    line.group("Meshes");
+    line.flag(s.keep_degenerate,
+              {"--keep-degenerate", "", "keep faces that collapse", "drop and count"});
+    line.flag(s.keep_manifold, {"--keep-manifold", "",
+                                "leave a pair alone if merging it would make an edge\n"
+                                "of more than two faces or a bow-tie vertex"});
+}
+
+const char* const epilogue =
+    "DIST is in the unit of the file; \"0.01%\" is that share of the bounding-box\n"
+    "diagonal. The DIST actually used is printed and reported in file units. Every\n"
+    "comparison is exact on the coordinates as read (--exact is accepted: always so).\n"
+    "Points with a NaN or infinite coordinate are kept, and merge with nothing.\n"
+    "\n"
+    "P is a property of the points, x, y, z, or normal, uv, colour for all columns of\n"
+    "it. Further columns of an XYZ file are column_4, column_5, ... Kept points keep\n"
+    "their order; indices and group numbers count from 0, with --join through all\n"
+    "inputs. --join matches properties by name; where an input has none of that name,\n"
+    "its points get NaN or 0. Corners of an STL file are points.\n"
+    "\n"
+    "Examples:\n"
+    "  tf-weld in.stl -o out.obj                       index a soup, lossless\n"
+    "  tf-weld scan.ply -t 0.5 -o thin.ply --removed gone.ply --map map.csv\n"
+    "  tf-weld tile*.ply --join -t 0.001 --keep min:range -o all.ply\n"
+    "  tf-weld part.obj -t 0.01% --borders --keep-manifold -o stitched.obj\n"
+    "  gen | tf-weld --format stl - -o - --output-format ply | view -\n"
+    "\n"
+    "Exit status: 0 done; 1 --check found some; 2 usage; 3 input; 4 output;\n"
+    "  5 stopped (memory, timeout, signal); 70 bug. Of several inputs, the highest.\n";
+
+[[noreturn]] void refuse(const std::string& text) {
+    throw tools::failure(tools::bad_usage, "usage", text);
+}
+
+/// Options that would do nothing are refused rather than passed over.
+void check_label(const weld_outputs& outputs, const weld_settings& s, const common_options& o) {
+    if (outputs.label.empty()) return;
+    if (!tools::wants_mesh(o)) refuse("--label needs -o, --output-dir or --in-place");
+    if (!outputs.removed.empty()) refuse("--label drops nothing; it excludes --removed");
+    if (s.keep != tf::weld_keep::first || s.keep_degenerate)
+        refuse("--label drops nothing; it excludes --keep and --keep-degenerate");
+    for (const char* axis : {"x", "y", "z"})
+        if (outputs.label == axis) refuse("--label " + outputs.label + ": is a coordinate");
+    if (outputs.label.find_first_of(" \t\r\n,;\"") != std::string::npos)
+        refuse("--label " + outputs.label + ": expected a name without blanks and commas");
+}
+
+void check_request(const tools::weld_request& r, const common_options& o) {
+    const bool mesh = tools::wants_mesh(o);
+    const weld_outputs& outputs = r.outputs;
+    if (outputs.check && (mesh || !outputs.removed.empty()))
+        refuse("--check only counts; it excludes -o, --output-dir, --in-place and --removed");
+    if (!mesh && !outputs.check && outputs.map.empty() && outputs.removed.empty() &&
+        o.report.empty())
+        refuse("nothing to give back: -o FILE writes the result, --check only counts");
+    if (!mesh && (!o.output_format.empty() || o.precision != "keep"))
+        refuse("--output-format and --precision need -o, --output-dir or --in-place");
+    if (!mesh && outputs.removed.empty() && (o.ascii || o.binary || o.dry_run))
+        refuse("--ascii, --binary and -n need an output that they apply to");
+    if (!outputs.removed.empty()) tools::check_points_format(outputs.removed);
+    for (const auto& condition : r.settings.same)
+        for (const auto& name : r.settings.across)
+            if (condition.property == name) refuse(name + " is named by --same and by --across");
+    check_label(outputs, r.settings, o);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    command_line line("tf-weld", "[OPTIONS] INPUT...",
+                      "Merge points or mesh vertices that lie within a distance of each other.\n"
+                      "Point clouds stay point clouds; meshes are re-indexed.");
+    tools::weld_request r;
+    common_options options;
+    options.suffix = "-weld";
+    bool exact = true;
+    line.inputs(options.inputs,
+                "points: PLY PCD XYZ CSV; meshes: STL OBJ PLY OFF\n"
+                "GLB/glTF 3MF; \"-\" = stdin");
+    line.flag(options.joined, {"--join", "", "treat all INPUTs as one set", "each on its own"});
+    add_what_is_merged(line, r.settings, exact);
+    line.group("Which one stays");
+    line.option({"--keep", "WHICH", "first | last | mean | min:P | max:P", "first"},
+                [&](std::string_view text) { tools::parse_keep(text, r.settings); });
+    add_what_to_give_back(line, r.outputs, options);
+    add_meshes(line, r.settings);
+    line.group("Common options");
+    tools::add_common_options(
+        line, options,
+        {.output_formats = {"ply", "obj", "stl", "off", "glb", "pcd", "xyz", "csv"}});
+    line.refuse("--html", true, "makes no sense here: pages show faces; -o file.ply shows points");
+    line.epilogue(epilogue);
+    return tools::run(
+        line, options, {"read", "weld", "write"}, argc, argv, [&] { check_request(r, options); },
+        // Point files that would not fit into memory take another way from here.
+        [&](tools::job& work) { return tools::weld_in_memory(work, r); });
+}

@@ -1,0 +1,220 @@
+#include "tools/tf-weld/outputs.hpp"
+
+#include "tools/common/console.hpp"
+#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/write.hpp>
+
+#include <array>
+#include <charconv>
+#include <utility>
+
+namespace tools {
+namespace {
+
+json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
+
+json path_entry(const std::filesystem::path& path) {
+    return path.empty() ? json(nullptr) : json(path.string());
+}
+
+tf::write_options write_options_for(const common_options& o, std::string format, bool ascii) {
+    tf::write_options options{.format = std::move(format), .ascii = ascii};
+    if (o.precision == "float") options.precision = tf::precision::single_;
+    if (o.precision == "double") options.precision = tf::precision::double_;
+    return options;
+}
+
+tf::write_result write_file(const std::filesystem::path& path, const tf::mesh_file& file,
+                            const tf::write_options& options) {
+    try {
+        return tf::write_mesh(path, file, options);
+    } catch (const tf::io_error& error) {
+        throw failure(bad_output, "output", error.what());
+    }
+}
+
+void warn_of_rounding(job& work, const tf::write_result& written,
+                      const std::optional<std::uint64_t>& again, const weld_request& request) {
+    if (written.largest_move > 0.0)
+        work.warn("rounded", "written in single precision: coordinates move by up to " +
+                                 shortest(written.largest_move));
+    if (again.value_or(0) == 0) return;
+    const bool rounded = written.largest_move > 0.0;
+    work.warn(rounded ? "precision" : "within-tolerance",
+              counted(*again, "point", "points") + " that were kept " +
+                  (request.settings.keep == tf::weld_keep::first
+                       ? "came within the tolerance of another by rounding; --precision double "
+                         "keeps them apart where the format has it"
+                       : "are within the tolerance of another again; only --keep first rules "
+                         "that out"));
+}
+
+/// In-place, the file keeps its kind.
+std::pair<std::string, bool> format_of(const job& work, const tf::mesh_file& file,
+                                       const std::filesystem::path& path) {
+    const common_options& o = work.options;
+    if (!o.in_place) return {mesh_format(o, path), o.ascii};
+    const bool text = file.format.ends_with("ascii");
+    return {file.format.substr(0, file.format.find('-')), o.ascii || (text && !o.binary)};
+}
+
+/// Collects bytes, and writes them in pieces.
+class buffered {
+  public:
+    explicit buffered(output_file& file) : file_(file) {}
+    void put(std::string_view bytes) {
+        text_ += bytes;
+        if (text_.size() >= (std::size_t{1} << 16)) flush();
+    }
+    void put_number(std::uint64_t number) {
+        std::array<char, 20> digits;
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+        put({digits.data(), static_cast<std::size_t>(end - digits.data())});
+    }
+    void flush() {
+        file_.write(text_);
+        text_.clear();
+    }
+
+  private:
+    output_file& file_;
+    std::string text_{};
+};
+
+std::array<char, 8> little_endian(std::uint64_t number) {
+    std::array<char, 8> bytes;
+    for (std::size_t i = 0; i < 8; ++i) bytes[i] = static_cast<char>(number >> (8 * i) & 255U);
+    return bytes;
+}
+
+}  // namespace
+
+const std::filesystem::path& pending_outputs::add(const std::filesystem::path& path, bool force) {
+    places_.push_back(std::make_unique<output_place>(path, force, work_.keeper));
+    return places_.back()->writable();
+}
+
+void pending_outputs::commit() {
+    for (const auto& place : places_) place->commit();
+    places_.clear();
+}
+
+std::string check_points_format(const std::filesystem::path& path) {
+    std::string format = extension_of(path);
+    if (format == "txt" || format == "asc") format = "xyz";
+    if (format != "ply" && format != "pcd" && format != "xyz" && format != "csv")
+        throw failure(bad_usage, "usage",
+                      path.string() + ": points can be written as ply, pcd, xyz or csv");
+    return format;
+}
+
+void enter_blank_report(job& work, const weld_request& request) {
+    json& entry = work.entry;
+    for (const char* key : {"format", "sha256", "precision_in"}) entry[key] = nullptr;
+    entry["sources"] = json::array();
+    entry["points"] = nullptr;
+    entry["faces"] = nullptr;
+    entry["polygons"] = nullptr;
+    entry["box"] = nullptr;
+    entry["skipped"] = {{"non_finite", nullptr}};
+    entry["tolerance"] = {{"given", request.settings.tolerance.given}, {"used", nullptr}};
+    entry["rule"] = name_of(request.settings.rule);
+    entry["keep"] = keep_in_words(request.settings);
+    entry["same"] = json::array();
+    entry["displacement"] = {{"max", nullptr}};
+    entry["nonmanifold_edges"] = {{"before", nullptr}, {"after", nullptr}};
+    entry["left_alone"] = nullptr;
+    entry["output"] = nullptr;
+    for (const char* key : {"map", "removed", "label"}) entry[key] = nullptr;
+    entry["warnings"] = json::array();
+}
+
+void enter_report(job& work, const welding& w, const weld_request& request) {
+    json& entry = work.entry;
+    const tf::mesh_weld_result& r = w.result;
+    const bool all_kept = !request.outputs.label.empty();
+    entry["points"] = {{"in", w.points},
+                       {"out", all_kept ? w.points : w.distinct()},
+                       {"removed", all_kept ? 0 : w.removed()},
+                       {"distinct", w.distinct()},
+                       {"groups", w.groups()}};
+    entry["faces"] = {{"in", w.triangles},
+                      {"out", all_kept ? w.triangles : r.mesh.faces.size()},
+                      {"collapsed", r.collapsed},
+                      {"degenerate", r.degenerate},
+                      {"flipped", r.flipped}};
+    if (w.box) entry["box"] = {{"min", triple(w.box->min)}, {"max", triple(w.box->max)}};
+    entry["skipped"] = {{"non_finite", w.non_finite}};
+    entry["tolerance"]["used"] = w.tolerance;
+    for (const auto& c : w.conditions)
+        entry["same"].push_back({{"property", c.property}, {"tolerance", c.tolerance}});
+    entry["displacement"] = {{"max", r.largest_move}};
+    entry["nonmanifold_edges"] = {{"before", r.nonmanifold_before}, {"after", r.nonmanifold_after}};
+    entry["left_alone"] = request.settings.keep_manifold ? json(r.left_alone) : json(nullptr);
+    entry["map"] = path_entry(request.outputs.map);
+    entry["removed"] = work.options.dry_run ? json(nullptr) : path_entry(request.outputs.removed);
+    if (all_kept) entry["label"] = request.outputs.label;
+}
+
+bool map_is_csv(const std::filesystem::path& path) {
+    return path == "-" || extension_of(path) == "csv";
+}
+
+void write_map(output_file& file, const welding& w, bool as_csv) {
+    buffered out(file);
+    if (as_csv) out.put("input,output\n");
+    const auto& group = w.result.groups.group_of_point;
+    for (std::size_t p = 0; p < group.size(); ++p) {
+        if (!as_csv) {
+            const auto bytes = little_endian(group[p]);
+            out.put({bytes.data(), bytes.size()});
+            continue;
+        }
+        out.put_number(p);
+        out.put(",");
+        out.put_number(group[p]);
+        out.put("\n");
+    }
+    out.flush();
+}
+
+void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& file, const welding& w,
+                   const std::filesystem::path& path) {
+    std::vector<std::uint32_t> rows;
+    rows.reserve(w.removed());
+    for (std::uint32_t p = 0; p < w.points; ++p)
+        if (!w.keeps(p)) rows.push_back(p);
+    tf::mesh_file gone;
+    gone.format = file.format;
+    gone.stored_as = file.stored_as;
+    gone.mesh.points.reserve(rows.size());
+    for (const std::uint32_t p : rows) gone.mesh.points.push_back(file.mesh.points[p]);
+    if (const tf::element* vertices = tf::find_element(file.attributes, "vertex"))
+        gone.attributes.elements.push_back(tf::gather(*vertices, rows));
+    const auto written =
+        write_file(outputs.add(path, work.options.force), gone,
+                   write_options_for(work.options, check_points_format(path), work.options.ascii));
+    for (const tf::io_warning& warning : written.warnings) work.warn(warning.code, warning.text);
+}
+
+void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& welded,
+                  const welding& w, const weld_request& request,
+                  const std::filesystem::path& path) {
+    const common_options& o = work.options;
+    const auto [format, ascii] = format_of(work, welded, path);
+    const tf::write_result written = write_file(outputs.add(path, o.force || o.in_place), welded,
+                                                write_options_for(o, format, ascii));
+    std::optional<std::uint64_t> again;
+    if (request.outputs.label.empty())
+        again = still_within(work, welded, w, request.settings, written.written_as);
+    work.entry["output"] = {
+        {"file", path.string()},
+        {"format", written.format},
+        {"precision_out", written.written_as == tf::precision::single_ ? "float" : "double"},
+        {"max_move", written.largest_move},
+        {"within_tolerance", again ? json(*again) : json(nullptr)}};
+    for (const tf::io_warning& warning : written.warnings) work.warn(warning.code, warning.text);
+    warn_of_rounding(work, written, again, request);
+}
+
+}  // namespace tools

@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// What tf-weld writes: the welded set, the map, the points removed, the report.
+
+#include "tools/common/output_file.hpp"
+#include "tools/tf-weld/welding.hpp"
+#include <libmesh/io/mesh_file.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace tools {
+
+/// Files that appear together, when all are whole.
+class pending_outputs {
+  public:
+    explicit pending_outputs(job& work) : work_(work) {}
+    /// Where to write what will be at `path`. \throws failure (bad_output) as `output_place`
+    const std::filesystem::path& add(const std::filesystem::path& path, bool force);
+    void commit();
+
+  private:
+    job& work_;
+    std::vector<std::unique_ptr<output_place>> places_{};
+};
+
+/// The format of a file of points, by its extension.
+/// \throws failure (bad_usage) when it is none of ply, pcd, xyz (txt, asc) and csv
+std::string check_points_format(const std::filesystem::path& path);
+
+/// The keys of a report's file, each with nothing in it.
+void enter_blank_report(job& work, const weld_request& request);
+void enter_report(job& work, const welding& w, const weld_request& request);
+
+/// The new index of each point, as CSV or as 64-bit integers.
+void write_map(output_file& file, const welding& w, bool as_csv);
+[[nodiscard]] bool map_is_csv(const std::filesystem::path& path);
+
+/// The points of `file` that were dropped, with their properties.
+void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& file, const welding& w,
+                   const std::filesystem::path& path);
+
+/// The set at `path`, in the precision asked for; what is written is looked at in that precision.
+void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& welded,
+                  const welding& w, const weld_request& request, const std::filesystem::path& path);
+
+}  // namespace tools

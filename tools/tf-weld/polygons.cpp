@@ -1,0 +1,69 @@
+#include "tools/tf-weld/polygons.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace tools {
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+class rejoiner {
+  public:
+    rejoiner(tf::mesh_file& file, std::span<const std::uint32_t> polygon, bool unlike_corners)
+        : file_(file),
+          polygon_(polygon),
+          unlike_corners_(unlike_corners),
+          last_face_(file.mesh.points.size(), none) {}
+
+    void run() {
+        const auto& faces = file_.mesh.faces;
+        file_.stored_face.resize(faces.size());
+        for (std::uint32_t f = 0; f < faces.size(); ++f) {
+            if (!continues(f)) begin_face(f);
+            last_face_[faces[f][2]] = face();
+            file_.stored_face[f] = face();
+        }
+        for (tf::element& e : file_.attributes.elements)
+            if (e.name == "face") e = tf::gather(e, first_triangle_);
+        for (tf::part& part : file_.attributes.parts)
+            part.first_face = part.first_face < file_.stored_face.size()
+                                  ? file_.stored_face[part.first_face]
+                                  : static_cast<std::uint32_t>(first_triangle_.size());
+        file_.stored_faces = first_triangle_.size();
+    }
+
+  private:
+    [[nodiscard]] std::uint32_t face() const {
+        return static_cast<std::uint32_t>(first_triangle_.size() - 1);
+    }
+
+    [[nodiscard]] bool continues(std::uint32_t f) const {
+        if (f == 0 || polygon_[f] != polygon_[f - 1]) return false;
+        const tf::face& before = file_.mesh.faces[f - 1];
+        const tf::face& now = file_.mesh.faces[f];
+        return now[0] == before[0] && now[1] == before[2] &&
+               !(unlike_corners_ && last_face_[now[2]] == face());
+    }
+
+    void begin_face(std::uint32_t f) {
+        first_triangle_.push_back(f);
+        for (const std::uint32_t corner : file_.mesh.faces[f]) last_face_[corner] = face();
+    }
+
+    tf::mesh_file& file_;
+    std::span<const std::uint32_t> polygon_;
+    bool unlike_corners_;
+    std::vector<std::uint32_t> last_face_;  ///< [V] the last face that has the point as a corner
+    std::vector<std::uint32_t> first_triangle_{};  ///< of each face
+};
+
+}  // namespace
+
+void rejoin_polygons(tf::mesh_file& file, std::span<const std::uint32_t> polygon,
+                     bool unlike_corners) {
+    rejoiner(file, polygon, unlike_corners).run();
+}
+
+}  // namespace tools

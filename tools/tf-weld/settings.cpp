@@ -1,0 +1,82 @@
+#include "tools/tf-weld/settings.hpp"
+
+#include "tools/common/exit_status.hpp"
+
+namespace tools {
+namespace {
+
+[[noreturn]] void refuse(const std::string& text) { throw failure(bad_usage, "usage", text); }
+
+std::vector<std::string_view> split(std::string_view option, std::string_view text) {
+    std::vector<std::string_view> parts;
+    while (true) {
+        const std::size_t comma = text.find(',');
+        parts.push_back(text.substr(0, comma));
+        if (parts.back().empty())
+            refuse(std::string(option) + ": expected names of properties, separated by commas");
+        if (comma == std::string_view::npos) return parts;
+        text.remove_prefix(comma + 1);
+    }
+}
+
+tf::weld_condition parse_condition(std::string_view text) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string_view::npos) return {.property = std::string(text)};
+    const double tolerance = parse_number("--same", text.substr(equals + 1));
+    if (equals == 0 || tolerance < 0.0)
+        refuse("--same " + std::string(text) + ": expected NAME or NAME=TOL, TOL 0 or more");
+    return {.property = std::string(text.substr(0, equals)), .tolerance = tolerance};
+}
+
+}  // namespace
+
+tf::weld_rule parse_rule(std::string_view text) {
+    if (text == "first") return tf::weld_rule::first;
+    if (text == "chain") return tf::weld_rule::chain;
+    refuse("--rule " + std::string(text) + ": expected first or chain");
+}
+
+std::vector<tf::weld_condition> parse_same(std::string_view text) {
+    std::vector<tf::weld_condition> conditions;
+    for (const auto part : split("--same", text)) conditions.push_back(parse_condition(part));
+    return conditions;
+}
+
+std::vector<std::string> parse_across(std::string_view text) {
+    const auto parts = split("--across", text);
+    return {parts.begin(), parts.end()};
+}
+
+void parse_keep(std::string_view text, weld_settings& settings) {
+    using enum tf::weld_keep;
+    settings.keep_by.clear();
+    if (text == "first" || text == "last" || text == "mean") {
+        settings.keep = text == "first" ? first : text == "last" ? last : mean;
+        return;
+    }
+    const bool least = text.starts_with("min:");
+    if (text.size() < 5 || !(least || text.starts_with("max:")))
+        refuse("--keep " + std::string(text) + ": expected first, last, mean, min:P or max:P");
+    settings.keep = least ? lowest : highest;
+    settings.keep_by = text.substr(4);
+}
+
+std::string keep_in_words(const weld_settings& settings) {
+    switch (settings.keep) {
+        case tf::weld_keep::first:
+            return "first";
+        case tf::weld_keep::last:
+            return "last";
+        case tf::weld_keep::mean:
+            return "mean";
+        case tf::weld_keep::lowest:
+            return "min:" + settings.keep_by;
+        case tf::weld_keep::highest:
+            return "max:" + settings.keep_by;
+    }
+    return {};
+}
+
+const char* name_of(tf::weld_rule rule) { return rule == tf::weld_rule::first ? "first" : "chain"; }
+
+}  // namespace tools

@@ -1,0 +1,77 @@
+#include "tools/tf-weld/words.hpp"
+
+#include "tools/common/console.hpp"
+
+namespace tools {
+namespace {
+
+/// "within 0.132, 0.01% of the diagonal"
+std::string reach(const welding& w, const weld_settings& settings) {
+    if (!(w.tolerance > 0.0)) return "equal";
+    return "within " + shortest(w.tolerance) +
+           (settings.tolerance.relative ? ", " + settings.tolerance.given + " of the diagonal"
+                                        : "");
+}
+
+std::string faces_in_words(const welding& w) {
+    const tf::mesh_weld_result& r = w.result;
+    if (w.triangles == 0) return {};
+    std::string text = "; " + counted(r.mesh.faces.size(), "triangle", "triangles") + " kept";
+    if (r.collapsed > 0) text += ", " + grouped(r.collapsed) + " collapsed";
+    if (r.degenerate > 0) text += ", " + grouped(r.degenerate) + " that were no triangles before";
+    return text;
+}
+
+std::string names_of(const std::vector<tf::weld_condition>& conditions) {
+    std::string text;
+    for (const auto& c : conditions) text += (text.empty() ? "" : ", ") + c.property;
+    return text;
+}
+
+}  // namespace
+
+std::string verdict(const welding& w, const weld_request& request) {
+    const bool mesh = w.triangles > 0;
+    const std::string unit = mesh ? "vertices" : "points";
+    const std::string all = counted(w.points, mesh ? "vertex" : "point", unit);
+    std::string text;
+    if (w.removed() == 0)
+        text = "nothing to merge among " + all;
+    else if (request.outputs.check)
+        text = grouped(w.removed()) + " of " + all + " would be merged, " + grouped(w.distinct()) +
+               " would stay";
+    else if (!request.outputs.label.empty())
+        text = all + " labelled, in " + counted(w.distinct(), "group", "groups");
+    else
+        text = grouped(w.removed()) + " of " + all + " merged, " + grouped(w.distinct()) + " kept";
+    text += " (" + reach(w, request.settings);
+    if (!w.conditions.empty()) text += ", with the same " + names_of(w.conditions);
+    return text + ")" + faces_in_words(w);
+}
+
+void warn_of_harm(job& work, const welding& w) {
+    const tf::mesh_weld_result& r = w.result;
+    if (w.non_finite > 0)
+        work.warn("non-finite", counted(w.non_finite, "point", "points") +
+                                    " with a NaN or infinite coordinate left as they are");
+    if (r.nonmanifold_after > r.nonmanifold_before)
+        work.warn("nonmanifold", counted(r.nonmanifold_after, "edge", "edges") +
+                                     " of more than two faces, " + grouped(r.nonmanifold_before) +
+                                     " before; --keep-manifold leaves such points apart");
+    if (r.flipped > 0)
+        work.warn("flipped", counted(r.flipped, "face", "faces") +
+                                 " turned over; the tolerance is larger than details");
+}
+
+void say_details(job& work, const welding& w) {
+    if (!work.out.shows(level::info)) return;
+    const tf::mesh_weld_result& r = w.result;
+    work.out.info(work.name + ": " + counted(w.groups(), "group", "groups") +
+                  " of two points or more, largest move " + shortest(r.largest_move));
+    if (w.triangles == 0) return;
+    work.out.info(work.name + ": " + counted(r.nonmanifold_after, "edge", "edges") +
+                  " of more than two faces, " + grouped(r.nonmanifold_before) + " before; " +
+                  counted(r.left_alone, "group", "groups") + " left apart to stay manifold");
+}
+
+}  // namespace tools
