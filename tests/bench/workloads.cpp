@@ -8,19 +8,21 @@ namespace tf::bench {
 // One file each, named by the id. A new workload is a file, a line of each list here, and a line in
 // CMakeLists.txt.
 #define TREEFORM_WORKLOAD(name) void name(const setting& setting, const contest_visitor& visit)
-TREEFORM_WORKLOAD(tree_build);              // b1
-TREEFORM_WORKLOAD(poses_by_peers);          // b2
-TREEFORM_WORKLOAD(near_pairs_from_arrays);  // b3
-TREEFORM_WORKLOAD(nearness);                // b4
-TREEFORM_WORKLOAD(self_intersections);      // b5
-TREEFORM_WORKLOAD(files);                   // b8
-TREEFORM_WORKLOAD(predicates);              // b9
-TREEFORM_WORKLOAD(build_by_peers);          // f2
-TREEFORM_WORKLOAD(build_by_threads);        // f5
-TREEFORM_WORKLOAD(strategies);              // f6
-TREEFORM_WORKLOAD(near_pairs_given_trees);  // f7
-TREEFORM_WORKLOAD(arities);                 // f8
-TREEFORM_WORKLOAD(poses);                   // t1
+TREEFORM_WORKLOAD(tree_build);                 // b1
+TREEFORM_WORKLOAD(poses_by_peers);             // b2
+TREEFORM_WORKLOAD(near_pairs_from_arrays);     // b3
+TREEFORM_WORKLOAD(nearness);                   // b4
+TREEFORM_WORKLOAD(self_intersections);         // b5
+TREEFORM_WORKLOAD(files);                      // b8
+TREEFORM_WORKLOAD(predicates);                 // b9
+TREEFORM_WORKLOAD(build_by_peers);             // f2
+TREEFORM_WORKLOAD(build_by_threads);           // f5
+TREEFORM_WORKLOAD(strategies);                 // f6
+TREEFORM_WORKLOAD(near_pairs_given_trees);     // f7
+TREEFORM_WORKLOAD(arities);                    // f8
+TREEFORM_WORKLOAD(poses);                      // t1
+TREEFORM_WORKLOAD(weld);                       // w1
+TREEFORM_WORKLOAD(weld_quality_by_tolerance);  // w2
 #undef TREEFORM_WORKLOAD
 
 #define TREEFORM_DRAWING(name) \
@@ -34,6 +36,7 @@ TREEFORM_DRAWING(draw_strategies);
 TREEFORM_DRAWING(draw_near_pairs);
 TREEFORM_DRAWING(draw_arities);
 TREEFORM_DRAWING(draw_poses);
+TREEFORM_DRAWING(draw_weld_quality);
 #undef TREEFORM_DRAWING
 
 std::span<const workload> workloads() {
@@ -58,6 +61,9 @@ std::span<const workload> workloads() {
         workload{"F8", "sorted stack against heap, by arity and leaf size", arities, draw_arities},
         workload{"T1", "two models in random positions, beside the paper, trees given", poses,
                  draw_poses},
+        workload{"W1", "welding: points within a tolerance become one, from arrays", weld},
+        workload{"W2", "welding: time, pairs left and displacement, by tolerance and rule",
+                 weld_quality_by_tolerance, draw_weld_quality},
     };
     return all;
 }
