@@ -37,7 +37,7 @@ struct point_reader::state {
 };
 
 point_reader::point_reader(const std::filesystem::path& path, std::string_view format)
-    : state_(new state{detail::source::open(path)}) {
+    : state_(new state{detail::source::open(path, detail::scratch_place::file)}) {
     state_->rows = open_rows(state_->in, path, format);
 }
 point_reader::~point_reader() = default;

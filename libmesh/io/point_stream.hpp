@@ -27,7 +27,9 @@ struct point_block {
 /// behind block, is what `read_mesh` gives for the whole file.
 class TREEFORM_API point_reader {
   public:
-    /// Reads the header. `format` as for `read_mesh`.
+    /// Reads the header. `path` and `format` as for `read_mesh`. What is no file that can be mapped
+    /// (standard input, a pipe) goes to a file without a name in /var/tmp first, and so do the
+    /// unpacked points of a compressed PCD.
     ///
     /// \throws io_error for a format that is not of points, for a file with faces or other elements
     ///         that have rows, and as `read_mesh`
@@ -52,7 +54,8 @@ class TREEFORM_API point_reader {
     std::unique_ptr<state> state_;
 };
 
-/// Writes what `write_mesh` would write for all blocks together.
+/// Writes what `write_mesh` would write for all blocks together. A compressed PCD, which is what
+/// becomes of one that was, is put together in a file without a name in /var/tmp.
 class TREEFORM_API point_writer {
   public:
     /// `header` as `point_reader::header` gives it, with columns added or removed; `count` points

@@ -14,10 +14,16 @@
 namespace tf {
 
 /// Reads the file at `path`; "-" is standard input. `format` is an extension without its dot
-/// ("stl", "obj", "ply", "off", "glb", ...); when empty the content decides, then the extension.
+/// ("stl", "obj", "ply", "off", "pcd", "xyz", "csv", "glb", ...); when empty the content decides,
+/// then the extension.
 ///
 /// Coordinates come back as stored: float32 widened, decimal text rounded once to the nearest
 /// double. NaN and infinity are kept for the caller to report (`validate`).
+///
+/// In text without a header a heading names the columns of numbers; columns x, y and z may then
+/// stand anywhere. Of a PCD, a field of several values becomes columns "name[0]", "name[1]", ...,
+/// and WIDTH, HEIGHT and VIEWPOINT of an organised cloud lines of `attributes::obj_info`: "num_cols
+/// 640", "num_rows 480", "viewpoint 0 0 0 1 0 0 0".
 ///
 /// \throws io_error naming path, line or byte, and reason
 [[nodiscard]] TREEFORM_API mesh_file read_mesh(const std::filesystem::path& path,

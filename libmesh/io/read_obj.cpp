@@ -75,6 +75,9 @@ class obj_reader {
             file_.warnings.push_back(
                 {"skipped-elements",
                  std::to_string(skipped_elements_) + " point and line elements were not read"});
+        if (has_more_indices_)
+            file_.warnings.push_back({"texture-normal-indices",
+                                      "texture coordinates and normals of corners were not read"});
         file_.stored_as = fits_single(file_.mesh.points) ? precision::single_ : precision::double_;
         return std::move(file_);
     }
@@ -155,6 +158,7 @@ class obj_reader {
             text_.fail("vertex index " + quoted(text_.at, index.end) + " is out of range");
         largest_index_ = std::max(largest_index_, static_cast<std::uint64_t>(vertex));
         const char* p = index.end;
+        has_more_indices_ = has_more_indices_ || (p < text_.end && *p == '/');
         while (p < text_.end && (is_digit(*p) || *p == '/' || *p == '-')) ++p;
         if ((p != index.end && *index.end != '/') ||
             (p < text_.end && !is_space(*p) && *p != '#' && *p != '\\'))
@@ -201,6 +205,7 @@ class obj_reader {
     bool new_part_ = false;
     std::uint64_t largest_index_ = 0;
     std::size_t skipped_elements_ = 0;
+    bool has_more_indices_ = false;
     bool has_colours_ = false;
     std::vector<double> colours_{};  ///< [3 * vertices] as long as every vertex has one
 };

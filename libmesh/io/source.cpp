@@ -14,6 +14,7 @@
 #include <new>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace tf::detail {
 
@@ -66,9 +67,37 @@ heap_bytes read_to_end(int fd, const std::string& name) {
     }
 }
 
+/// Returns how many bytes there were.
+std::size_t copy_to_end(int from, int to, const std::string& name) {
+    std::vector<char> buffer(std::size_t{1} << 20);
+    for (std::size_t size = 0;;) {
+        const ssize_t got = ::read(from, buffer.data(), buffer.size());
+        if (got == 0) return size;
+        if (got < 0 && errno != EINTR) fail_system(name, errno);
+        for (ssize_t put = 0; put < got;) {
+            const ssize_t some =
+                ::write(to, buffer.data() + put, static_cast<std::size_t>(got - put));
+            if (some < 0 && errno != EINTR) fail_system(name + ": scratch file", errno);
+            put += std::max<ssize_t>(some, 0);
+        }
+        size += static_cast<std::size_t>(std::max<ssize_t>(got, 0));
+    }
+}
+
 }  // namespace
 
-source source::open(const std::filesystem::path& path) {
+bool source::map(int fd, std::size_t size) {
+    void* const map = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd, 0);
+    if (map == MAP_FAILED) return false;
+    ::madvise(map, size, MADV_SEQUENTIAL);
+    begin_ = static_cast<const char*>(map);
+    size_ = size;
+    owner_ = owner::map;
+    rewind();
+    return true;
+}
+
+source source::open(const std::filesystem::path& path, scratch_place unmapped) {
     source s;
     s.name_ = path == "-" ? std::string("stdin") : path.string();
     const descriptor file(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
@@ -76,16 +105,14 @@ source source::open(const std::filesystem::path& path) {
     if (file.get() < 0 || ::fstat(file.get(), &status) != 0) fail_system(s.name_, errno);
     if (S_ISDIR(status.st_mode)) fail_system(s.name_, EISDIR);
     // Files of the proc kind say that they are empty; only reading tells.
-    if (S_ISREG(status.st_mode) && status.st_size > 0 && path != "-") {
-        s.size_ = static_cast<std::size_t>(status.st_size);
-        void* map = ::mmap(nullptr, s.size_, PROT_READ, MAP_PRIVATE, file.get(), 0);
-        if (map != MAP_FAILED) {
-            ::madvise(map, s.size_, MADV_SEQUENTIAL);
-            s.begin_ = static_cast<const char*>(map);
-            s.owner_ = owner::map;
-            s.rewind();
-            return s;
-        }
+    if (S_ISREG(status.st_mode) && status.st_size > 0 && path != "-" &&
+        s.map(file.get(), static_cast<std::size_t>(status.st_size)))
+        return s;
+    if (unmapped == scratch_place::file) {
+        const descriptor spool(open_nameless_file(s.name_));
+        const std::size_t size = copy_to_end(file.get(), spool.get(), s.name_);
+        if (size > 0 && s.map(spool.get(), size)) return s;
+        if (size > 0) fail_system(s.name_, errno);
     }
     heap_bytes bytes = read_to_end(file.get(), s.name_);
     s.size_ = bytes.size;

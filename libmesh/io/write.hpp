@@ -14,10 +14,11 @@
 namespace tf {
 
 struct write_options {
-    /// Extension without its dot: stl, obj, ply, off, xyz, glb. Empty: that of the path.
+    /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, glb. Empty: that of the path.
     std::string format{};
     /// Text where the format has both. For PLY, binary is little endian unless the file was read
-    /// from a big endian one.
+    /// from a big endian one; for PCD, it is compressed only when the file was read from one that
+    /// is.
     bool ascii = false;
     /// Type of the coordinates; none: as they were stored. Binary STL and GLB hold float32 only.
     std::optional<tf::precision> precision{};
@@ -36,7 +37,8 @@ struct write_result {
 /// text are the shortest that read back as the same double, also when that is a float32 value.
 /// What the format can hold of `file.attributes` is written too: PLY takes all of it in its order,
 /// OFF normals, colours and texture coordinates, OBJ parts and vertex colours, STL its header, the
-/// names of solids and the column "stl_attribute", XYZ further columns, GLB one primitive for each
+/// names of solids and the column "stl_attribute", XYZ and CSV further columns, PCD these and the
+/// lines "num_cols", "num_rows" and "viewpoint" of `obj_info`, GLB one primitive for each
 /// colour of faces (columns red, green, blue and alpha, if any, of the element "face"). Polygons
 /// are written as such where the format has them.
 ///

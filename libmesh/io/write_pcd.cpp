@@ -215,7 +215,7 @@ class pcd_writer {
         if (c.role != column_role::data)
             return put_coordinate(out, c, job_.rounded(points[row][axis_number(c.role)]));
         const column& values = values_of(c, source);
-        if (!is_text()) return put_bits(out, values, row, std::endian::little);
+        if (!is_text()) return put_bits<std::endian::little>(out, values, row);
         if (!is_packed_colour(c)) return put_number(out, values, row);
         std::uint32_t bits = 0;
         std::memcpy(&bits, values.values.data() + row * sizeof bits, sizeof bits);

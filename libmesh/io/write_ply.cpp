@@ -169,10 +169,10 @@ class ply_writer {
     }
 
     void put_value(const column& c, std::size_t i) {
-        if (!is_text())
-            return put_bits(
-                job_.out, c, i,
-                encoding_ == ply_encoding::big_endian ? std::endian::big : std::endian::little);
+        if (encoding_ == ply_encoding::little_endian)
+            return put_bits<std::endian::little>(job_.out, c, i);
+        if (encoding_ == ply_encoding::big_endian)
+            return put_bits<std::endian::big>(job_.out, c, i);
         put_blank();
         put_number(job_.out, c, i);
     }

@@ -271,8 +271,9 @@ TEST_CASE("pcd: faces and lists are left out with a warning, and doubles stay do
 
 TEST_CASE("lzf: what is packed comes back, runs and noise and everything between") {
     std::mt19937 random(5);
-    for (const std::size_t size : {0,   1,   2,   3,    4,    31,   32,   33,   263,    264,
-                                   265, 266, 267, 8191, 8192, 8193, 8194, 8195, 20'000, 100'000}) {
+    for (const std::size_t size :
+         std::vector<std::size_t>{0,   1,   2,   3,    4,    31,   32,   33,   263,    264,
+                                  265, 266, 267, 8191, 8192, 8193, 8194, 8195, 20'000, 100'000}) {
         for (const unsigned letters : {1U, 2U, 5U, 256U}) {
             CAPTURE(size);
             CAPTURE(letters);
@@ -282,7 +283,7 @@ TEST_CASE("lzf: what is packed comes back, runs and noise and everything between
             CHECK(unpacked(small, size) == bytes);
             if (letters == 1 && size > 1000) CHECK(small.size() < size / 50);
             // A repetition from exactly as far back as it can be, and from one further.
-            for (const std::size_t back : {8192, 8193}) {
+            for (const std::size_t back : {std::size_t{8192}, std::size_t{8193}}) {
                 if (size < 3 || size > back) continue;
                 const std::string twice = bytes + std::string(back - size, 'x') + bytes;
                 CHECK(unpacked(packed(twice), twice.size()) == twice);

@@ -3,6 +3,7 @@
 #include <libmesh/io/write.hpp>
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <bit>
@@ -12,6 +13,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -130,7 +132,7 @@ TEST_CASE("point streams: blocks of any size are what the whole file is") {
                          tf::write_mesh_to_memory(file, {.format = k.format, .ascii = k.ascii}));
             const tf::mesh_file whole = tf::read_mesh(path);
             CHECK(same_bits(whole.mesh.points, file.mesh.points));
-            for (const std::size_t most : {1, 7, 1000, 1 << 20}) {
+            for (const std::size_t most : std::vector<std::size_t>{1, 7, 1000, 1 << 20}) {
                 const tf::mesh_file parts = read_by(most, path);
                 CHECK(same_bits(parts.mesh.points, whole.mesh.points));
                 CHECK(parts.attributes == whole.attributes);
@@ -143,7 +145,7 @@ TEST_CASE("point streams: blocks written one by one are the bytes of the whole f
     const scratch here;
     for (const kind& k : kinds)
         for (const bool single : {false, true})
-            for (const std::size_t count : {0, 1, 2500}) {
+            for (const std::size_t count : std::vector<std::size_t>{0, 1, 2500}) {
                 CAPTURE(k.format);
                 CAPTURE(k.ascii);
                 CAPTURE(count);
@@ -151,7 +153,7 @@ TEST_CASE("point streams: blocks written one by one are the bytes of the whole f
                 file.format = k.read_as;
                 const tf::write_options options{.format = k.format, .ascii = k.ascii};
                 const std::string expected = tf::write_mesh_to_memory(file, options);
-                for (const std::size_t most : {1, 7, 1000}) {
+                for (const std::size_t most : std::vector<std::size_t>{1, 7, 1000}) {
                     const fs::path path = here.folder / "out";
                     tf::point_writer writer(path, file, count, options);
                     for (std::size_t first = 0; first < count; first += most) {
@@ -183,7 +185,7 @@ TEST_CASE("point streams: lists and rows without coordinates alone pass through"
         const std::string bytes =
             tf::write_mesh_to_memory(whole, {.format = "ply", .ascii = ascii});
         const fs::path again = here.put("b.ply", bytes);
-        for (const std::size_t most : {1, 2, 3})
+        for (const std::size_t most : std::vector<std::size_t>{1, 2, 3})
             CHECK(read_by(most, again).attributes == whole.attributes);
         tf::point_reader reader(again);
         tf::point_writer writer(here.folder / "c.ply", reader.header(), *reader.count(),
@@ -202,6 +204,24 @@ TEST_CASE("point streams: uneven lines of text lose their further values from th
     CHECK(parts.mesh.points.size() == 3);
     CHECK(parts.attributes == tf::read_mesh(path).attributes);
     CHECK(parts.warnings.at(0).code == "columns");
+}
+
+TEST_CASE("point streams: a pipe is read as its file is, more than once where it must be") {
+    const scratch here;
+    for (const kind& k : kinds) {
+        CAPTURE(k.format);
+        tf::mesh_file file = cloud(3000, true);
+        file.format = k.read_as;
+        const std::string bytes =
+            tf::write_mesh_to_memory(file, {.format = k.format, .ascii = k.ascii});
+        const fs::path pipe = here.folder / (std::string("pipe.") + k.format);
+        REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+        std::thread feeder([&] { std::ofstream(pipe, std::ios::binary) << bytes; });
+        const tf::mesh_file parts = read_by(1000, pipe);
+        feeder.join();
+        fs::remove(pipe);
+        CHECK(same_bits(parts.mesh.points, file.mesh.points));
+    }
 }
 
 TEST_CASE("point streams: what is no file of points is refused") {

@@ -1,4 +1,5 @@
 #include <libmesh/io/read.hpp>
+#include <libmesh/io/write.hpp>
 
 #include <doctest/doctest.h>
 
@@ -90,6 +91,12 @@ TEST_CASE("obj: numbers end at blanks, and a comma is no decimal mark") {
     CHECK(std::isnan(file.mesh.points[0].x));
     CHECK(file.mesh.points[0].y == -INFINITY);
     CHECK(file.mesh.points[0].z == INFINITY);
+}
+
+TEST_CASE("obj: what corners say of texture and normals is left out with a warning") {
+    CHECK(read(with_triangle("vt 0 0\nf 1/1 2/1 3/1\n"), "a.obj").warnings.at(0).code ==
+          "texture-normal-indices");
+    CHECK(read(with_triangle("vt 0 0\nf 1 2 3\n"), "a.obj").warnings.empty());
 }
 
 TEST_CASE("obj: names make parts, vertex colours a column each") {
@@ -192,6 +199,54 @@ TEST_CASE("xyz: separators, headings, further columns") {
     CHECK(holds(complaint("1 2 3\nabc\n", "a.xyz"), "a.xyz:2: 'abc'"));
 }
 
+TEST_CASE("csv: a heading names the columns, x y z are found by name, and text comes back") {
+    const tf::mesh_file file =
+        read("id,\"Z\",y,\"a \"\"b\"\", c\",x\n7,3,2,0.5,1\n8,6,5,-1,4\n", "a.csv");
+    CHECK(file.format == "csv");
+    CHECK(file.warnings.empty());
+    CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
+    CHECK(tf::number_at(column_of(file, "vertex", "id"), 1) == 8.0);
+    CHECK(tf::number_at(column_of(file, "vertex", "a_\"b\",_c"), 0) == 0.5);
+    const std::string csv = tf::write_mesh_to_memory(file, {.format = "csv"});
+    CHECK(csv == "id,z,y,\"a_\"\"b\"\",_c\",x\n7,3,2,0.5,1\n8,6,5,-1,4\n");
+    CHECK(read(csv, "a.csv").attributes == file.attributes);
+    CHECK(read(csv, "stdin").format == "csv");
+    // The properties of another format come with their names.
+    const tf::mesh_file plain = read("1 2 3 4\n5 6 7 8\n", "a.xyz");
+    CHECK(tf::write_mesh_to_memory(plain, {.format = "csv"}) ==
+          "x,y,z,column_4\n1,2,3,4\n5,6,7,8\n");
+    CHECK(tf::write_mesh_to_memory(file, {.format = "txt"}) == "1 2 3 7 0.5\n4 5 6 8 -1\n");
+}
+
+TEST_CASE("csv: headings of other programs, and those that are of no use") {
+    for (const char* const text :
+         {"//X Y Z Intensity\n1 2 3 4\n", "//X Y Z Intensity\n1\n1 2 3 4\n",
+          "# x y z Intensity\n1 2 3 4", "X\tY\tZ\tIntensity\n1\t2\t3\t4\n",
+          "x;y;z;Intensity\n1;2;3;4\n", "Intensity z y x\n4 3 2 1\n",
+          "x, y, z, Intensity\n1, 2, 3, 4\n"}) {
+        CAPTURE(text);
+        const tf::mesh_file file = read(text, "a.txt");
+        CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}});
+        CHECK(tf::number_at(column_of(file, "vertex", "Intensity"), 0) == 4.0);
+    }
+    CHECK(read("easting,northing,height\n1,2,3\n", "a.csv").warnings.at(0).code == "heading");
+    CHECK(read("# some words here more\n1 2 3 4\n", "a.xyz").attributes ==
+          read("1 2 3 4\n", "a.xyz").attributes);
+    // Fewer names than values: they are numbered.
+    CHECK(tf::number_at(column_of(read("x,y,z\n1,2,3,4\n", "a.csv"), "vertex", "column_4"), 0) ==
+          4);
+    CHECK(read("x y z\n1 2 3\n", "stdin").format == "xyz");
+    CHECK(holds(complaint("x,y,z\n", "a.csv"), "no point found"));
+    CHECK(holds(complaint("a,x,y,z\n1,2,3,4\n1,2,3\n", "a.csv"), "a.csv:3:"));
+    CHECK(holds(complaint("a,x,y,z\nred,2,3,4\n", "a.csv"), "a.csv:2: 'red,"));
+}
+
+TEST_CASE("detection: LAS and LAZ are refused with a way out") {
+    const std::string way_out = "pdal translate in.laz out.ply";
+    CHECK(holds(complaint(std::string_view("LASF\0\0\1\2", 8), "stdin"), way_out));
+    CHECK(holds(complaint("anything", "a.laz"), way_out));
+}
+
 TEST_CASE("detection: the content comes first, then the name") {
     const std::string ply =
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
@@ -200,6 +255,8 @@ TEST_CASE("detection: the content comes first, then the name") {
     CHECK(read("OFF\n0 0 0\n", "a.obj").format == "off");
     CHECK(read("# c\nv 1 2 3\n", "stdin").format == "obj");
     CHECK(read("1 2 3\n", "stdin").format == "xyz");
+    CHECK(read("VERSION 1\nFIELDS x y z\nPOINTS 1\nDATA ascii\n1 2 3\n", "a.xyz").format ==
+          "pcd-ascii");
     CHECK(read("solid\nendsolid\n", "stdin").format == "stl-ascii");
     CHECK(read("\xef\xbb\xbfv 1 2 3\n", "a.obj").mesh.points.size() == 1);
     CHECK(holds(complaint("", "a.obj"), "a.obj: empty file"));

@@ -2,6 +2,8 @@
 /// \file
 /// The bytes of an input: a mapped file, what came through a pipe, or the caller's memory.
 
+#include <libmesh/io/detail/scratch.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -13,11 +15,12 @@ namespace tf::detail {
 
 class source {
   public:
-    /// The file at `path`, mapped when it is a regular file, else read to its end; "-" is standard
-    /// input.
+    /// The file at `path`, mapped when it is a regular file, else read to its end, into memory or
+    /// into a file without a name that is mapped; "-" is standard input.
     ///
     /// \throws io_error
-    [[nodiscard]] static source open(const std::filesystem::path& path);
+    [[nodiscard]] static source open(const std::filesystem::path& path,
+                                     scratch_place unmapped = scratch_place::memory);
     /// The caller's bytes, which must outlive the source.
     source(std::span<const std::byte> bytes, std::string_view name);
     source(source&& other) noexcept;
@@ -54,6 +57,7 @@ class source {
     enum class owner : std::uint8_t { caller, map, heap };
 
     source() = default;
+    [[nodiscard]] bool map(int fd, std::size_t size);
     void release(const char* at) const;
     void plan_release() const;
 

@@ -110,13 +110,22 @@ void for_each_stored_face(const mesh_file& file, F&& f) {
 /// Value `i` of a column as text.
 void put_number(sink& out, const column& c, std::size_t i);
 
-/// Value `i` of a column as it stands, bit for bit.
-inline void put_bits(sink& out, const column& c, std::size_t i, std::endian order) {
+template <std::endian order, class T>
+void put_bits_as(sink& out, const column& c, std::size_t i) {
+    T bits;
+    std::memcpy(&bits, c.values.data() + i * sizeof bits, sizeof bits);
+    out.raw<order>(bits);
+}
+
+/// Value `i` of a column as it stands, bit for bit: numbers on their way through another type would
+/// lose some of NaN.
+template <std::endian order>
+void put_bits(sink& out, const column& c, std::size_t i) {
     const std::size_t size = size_of(c.type);
-    std::array<char, 8> bytes;
-    std::memcpy(bytes.data(), c.values.data() + i * size, size);
-    if (order != std::endian::native) std::reverse(bytes.data(), bytes.data() + size);
-    out.put({bytes.data(), size});
+    if (size == 1) return put_bits_as<order, std::uint8_t>(out, c, i);
+    if (size == 2) return put_bits_as<order, std::uint16_t>(out, c, i);
+    if (size == 4) return put_bits_as<order, std::uint32_t>(out, c, i);
+    put_bits_as<order, std::uint64_t>(out, c, i);
 }
 
 /// The columns of these names, all of them with one value a row; empty when one is missing.
