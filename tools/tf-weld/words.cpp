@@ -13,13 +13,13 @@ std::string reach(const welding& w, const weld_settings& settings) {
                                         : "");
 }
 
-std::string faces_in_words(const welding& w) {
+std::string faces_in_words(const welding& w, const weld_settings& settings) {
     const tf::mesh_weld_result& r = w.result;
     if (w.triangles == 0) return {};
     std::string text = "; " + counted(r.mesh.faces.size(), "triangle", "triangles") + " kept";
     if (r.collapsed > 0) text += ", " + grouped(r.collapsed) + " collapsed";
-    if (r.degenerate > 0) text += ", " + grouped(r.degenerate) + " that were no triangles before";
-    return text;
+    if (r.degenerate > 0) text += ", " + grouped(r.degenerate) + " repeated a corner before";
+    return settings.keep_degenerate || r.collapsed + r.degenerate == 0 ? text : text + " (dropped)";
 }
 
 std::string names_of(const std::vector<tf::weld_condition>& conditions) {
@@ -46,7 +46,7 @@ std::string verdict(const welding& w, const weld_request& request) {
         text = grouped(w.removed()) + " of " + all + " merged, " + grouped(w.distinct()) + " kept";
     text += " (" + reach(w, request.settings);
     if (!w.conditions.empty()) text += ", with the same " + names_of(w.conditions);
-    return text + ")" + faces_in_words(w);
+    return text + ")" + faces_in_words(w, request.settings);
 }
 
 void warn_of_harm(job& work, const welding& w) {
