@@ -5,6 +5,7 @@
 #include <libtree/sweep.hpp>
 
 #include <doctest/doctest.h>
+#include <support/solids.hpp>
 #include <support/soups.hpp>
 
 #include <cmath>
@@ -17,25 +18,12 @@
 
 namespace {
 
+using test::box;
+using test::moved;
+
 tf::triangle3 triangle_of(const tf::mesh& mesh, std::size_t i) {
     const tf::face& f = mesh.faces[i];
     return {mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]};
-}
-
-tf::mesh moved(tf::mesh mesh, const tf::point3& by) {
-    for (tf::point3& p : mesh.points)
-        for (std::size_t k = 0; k < 3; ++k) p[k] += by[k];
-    return mesh;
-}
-
-/// The box [0, x] x [0, y] x [0, z], closed, outward.
-tf::mesh box(double x, double y, double z) {
-    tf::mesh mesh;
-    for (int i = 0; i < 8; ++i)
-        mesh.points.push_back({i & 1 ? x : 0.0, i & 2 ? y : 0.0, i & 4 ? z : 0.0});
-    mesh.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                  {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    return mesh;
 }
 
 struct expected {

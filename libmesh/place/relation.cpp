@@ -1,0 +1,133 @@
+#include <libmesh/bounding_box.hpp>
+#include <libmesh/exact/predicates.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/intersect/point_location.hpp>
+#include <libmesh/place/relation.hpp>
+#include <libmesh/topology.hpp>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace tf {
+namespace {
+
+std::array<bool, pair_kind_count> only(pair_kind kind) {
+    std::array<bool, pair_kind_count> kinds{};
+    kinds[static_cast<std::size_t>(kind)] = true;
+    return kinds;
+}
+
+plane_points plane_of(mesh_view mesh, std::uint32_t f) {
+    const face& corners = mesh.faces[f];
+    return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
+}
+
+/// The first face that passes through one of the other mesh, or that lies on one facing the same
+/// way.
+std::optional<face_pair> crossing_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                        const tree<3>& tree_b) {
+    mesh_intersection_options options;
+    options.first_only = true;
+    options.kinds = only(pair_kind::crossing);
+    const auto crossing = mesh_intersections(a, tree_a, b, tree_b, options);
+    if (!crossing.pairs.empty()) return crossing.pairs[0];
+    return std::nullopt;
+}
+
+std::optional<face_pair> same_facing_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                           const tree<3>& tree_b) {
+    mesh_intersection_options options;
+    options.kinds = only(pair_kind::overlap);
+    for (const face_pair& pair : mesh_intersections(a, tree_a, b, tree_b, options).pairs)
+        if (normal_dot(plane_of(a, pair.a), plane_of(b, pair.b)) > 0) return pair;
+    return std::nullopt;
+}
+
+/// Faces of `a` of which a corner is to be located in `b`: the first of each component, or, when
+/// the meshes touch, all. A component that does not touch `b` is on one side of it as a whole.
+std::vector<std::uint32_t> faces_to_locate(mesh_view a, bool touching) {
+    std::vector<std::uint32_t> faces;
+    if (touching) {
+        for (std::uint32_t f = 0; f < a.faces.size(); ++f) faces.push_back(f);
+        return faces;
+    }
+    const std::vector<std::uint32_t> component = face_components(a.points.size(), a.faces);
+    std::uint32_t next = 0;
+    for (std::uint32_t f = 0; f < a.faces.size(); ++f)
+        if (component[f] == next) {
+            faces.push_back(f);
+            ++next;
+        }
+    return faces;
+}
+
+/// The lowest of these faces with a corner strictly inside the closed mesh `b`.
+std::optional<std::uint32_t> face_inside(mesh_view a, mesh_view b, const tree<3>& tree_b,
+                                         bool touching) {
+    const auto box = bounding_box(b.points);
+    if (!box || find_open_edge(b)) return std::nullopt;
+    const auto may_be_inside = [&](const point3& p) {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (!(box->min[k] < p[k] && p[k] < box->max[k])) return false;
+        return true;
+    };
+    std::vector<std::uint32_t> faces;
+    std::vector<point3> points;
+    std::vector<bool> asked(a.points.size());
+    for (const std::uint32_t f : faces_to_locate(a, touching))
+        for (std::size_t i = 0; i < (touching ? 3U : 1U); ++i) {
+            const std::uint32_t corner = a.faces[f][i];
+            if (asked[corner] || !may_be_inside(a.points[corner])) continue;
+            asked[corner] = true;
+            faces.push_back(f);
+            points.push_back(a.points[corner]);
+        }
+    if (points.empty()) return std::nullopt;
+    const auto found = point_locator(b, tree_b).locate(points);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        if (found[i].where == location::inside) return faces[i];
+    return std::nullopt;
+}
+
+}  // namespace
+
+mesh_relation_result relation(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                              const tree<3>& tree_b) {
+    mesh_relation_result result;
+    const auto penetrating = [&](std::uint32_t face_a, std::uint32_t face_b) {
+        result.relation = mesh_relation::penetrating;
+        result.face_a = face_a;
+        result.face_b = face_b;
+        return result;
+    };
+    if (const auto pair = crossing_faces(a, tree_a, b, tree_b))
+        return penetrating(pair->a, pair->b);
+
+    mesh_intersection_options first;
+    first.first_only = true;
+    const auto touch = mesh_intersections(a, tree_a, b, tree_b, first);
+    const bool touching = !touch.pairs.empty();
+    if (touching) {
+        result.relation = mesh_relation::touching;
+        result.face_a = touch.pairs[0].a;
+        result.face_b = touch.pairs[0].b;
+        if (!find_open_edge(a) && !find_open_edge(b))
+            if (const auto pair = same_facing_faces(a, tree_a, b, tree_b))
+                return penetrating(pair->a, pair->b);
+    }
+    const auto of_a = face_inside(a, b, tree_b, touching);
+    const auto of_b = face_inside(b, a, tree_a, touching);
+    if (!of_a && !of_b) return result;
+    result.a_inside_b = of_a.has_value() && !touching;
+    result.b_inside_a = of_b.has_value() && !touching;
+    return penetrating(of_a ? *of_a : result.face_a, of_b ? *of_b : result.face_b);
+}
+
+mesh_relation_result relation(mesh_view a, mesh_view b) {
+    return relation(a, face_tree(a), b, face_tree(b));
+}
+
+}  // namespace tf

@@ -1,0 +1,82 @@
+#include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libmesh/place/settle.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+
+namespace tf {
+namespace {
+
+std::vector<point3> moved_points(mesh_view a, const point3& motion, double time, bool to_single) {
+    std::vector<point3> points(a.points.begin(), a.points.end());
+    for (point3& p : points)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double product = time * motion[k];
+            p[k] += product;
+            if (to_single) p[k] = detail::nearest_float(p[k]);
+        }
+    return points;
+}
+
+/// The least time that moves a coordinate of `points` by a unit in the last place of the largest.
+double unit_of_time(const std::vector<point3>& points, const point3& motion, bool to_single) {
+    double largest = 0.0;
+    double speed = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        speed = std::max(speed, std::abs(motion[k]));
+        if (motion[k] == 0.0) continue;
+        for (const point3& p : points) largest = std::max(largest, std::abs(p[k]));
+    }
+    const double unit = to_single ? std::ldexp(largest, -23) : std::ldexp(largest, -52);
+    return std::max(unit, std::numeric_limits<double>::denorm_min()) / speed;
+}
+
+}  // namespace
+
+settled_mesh settle(mesh_view a, mesh_view b, const tree<3>& tree_b, const point3& motion,
+                    double time, const settle_options& options) {
+    double speed = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) speed = std::max(speed, std::abs(motion[k]));
+    if (!(std::isfinite(speed) && speed > 0.0) || !(time >= 0.0) || !std::isfinite(time))
+        throw std::invalid_argument("tf::settle: the motion or the time is not finite, or zero");
+
+    const auto at = [&](double when) {
+        settled_mesh one;
+        one.time = when;
+        one.points = moved_points(a, motion, when, options.to_single);
+        const mesh_view there{one.points, a.faces};
+        one.relation = relation(there, face_tree(there), b, tree_b).relation;
+        return one;
+    };
+    settled_mesh best = at(time);
+    if (best.relation != mesh_relation::penetrating) return best;
+
+    double step = unit_of_time(best.points, motion, options.to_single);
+    double bad = time;
+    while (best.relation == mesh_relation::penetrating && best.backed_off < options.attempts) {
+        const unsigned count = best.backed_off + 1;
+        bad = best.time;
+        best = at(time - step);
+        best.backed_off = count;
+        step *= 2.0;
+    }
+    // The first place that does not penetrate may be far behind the last one that does.
+    const double unit = unit_of_time(best.points, motion, options.to_single);
+    while (best.relation != mesh_relation::penetrating && bad - best.time > 2.0 * unit &&
+           best.backed_off < options.attempts) {
+        const unsigned count = best.backed_off + 1;
+        settled_mesh middle = at(best.time + (bad - best.time) / 2);
+        if (middle.relation == mesh_relation::penetrating)
+            bad = middle.time;
+        else
+            best = std::move(middle);
+        best.backed_off = count;
+    }
+    return best;
+}
+
+}  // namespace tf

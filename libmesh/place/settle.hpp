@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// A mesh moved towards another in coordinates that can be written, without penetrating it.
+
+#include <libmesh/mesh.hpp>
+#include <libmesh/place/relation.hpp>
+#include <libtree/export.hpp>
+#include <libtree/tree.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace tf {
+
+struct settle_options {
+    bool to_single = false;  ///< coordinates become float32 values, as a binary STL holds them
+    /// Steps tried before giving up; each backs off further than the one before.
+    unsigned attempts = 40;
+};
+
+struct settled_mesh {
+    std::vector<point3> points{};  ///< [V] of `a`, moved and rounded
+    double time = 0.0;             ///< point + time * motion, rounded once, is what `points` holds
+    unsigned backed_off = 0;       ///< steps taken back from the time asked for
+    mesh_relation relation = mesh_relation::separate;  ///< of what `points` holds to `b`
+};
+
+/// `a` moved by `time` times `motion`, with every coordinate rounded: first the product, then the
+/// sum, then to float32 if asked for. Where the moved mesh penetrates `b`, as `relation` decides
+/// exactly on the rounded coordinates, the time is stepped back: by as little as moves some
+/// coordinate by a unit in the last place of the largest, then by twice that, and so on, and from
+/// the last step that penetrated forward again by halves. So the mesh stops at most two such units
+/// short, along the motion, of a place where it penetrates.
+///
+/// \pre    0 <= time; `tree_b` is `face_tree(b)`
+/// \throws std::invalid_argument as `relation`, and for a motion or time that is not finite
+/// \cost   a `face_tree` of `a` and a `relation` for each attempt
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API settled_mesh settle(mesh_view a, mesh_view b, const tree<3>& tree_b,
+                                               const point3& motion, double time,
+                                               const settle_options& options = {});
+
+}  // namespace tf
