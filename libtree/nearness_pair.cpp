@@ -22,29 +22,41 @@ struct pair_walk<D>::context {
     const frame_map<D>& map_a;
     const frame_map<D>& map_b;
     const near_bound& bound_of;
+    const raise_bounds* raise;  ///< may be null
 };
 
 namespace {
 
-/// Both are leaf blocks: nothing to open but their primitives.
+/// Pairs of nodes, the nearest on top. The heap moves only keys.
 template <std::size_t D>
-bool is_last(const tree<D>& a, const tree<D>& b, const pair_entry<D>& at) {
-    return a.is_leaf_level(at.a.level) && b.is_leaf_level(at.b.level);
-}
+class nearest_first_queue {
+  public:
+    void push(const pair_entry<D>& entry) {
+        keys_.push_back({entry.lower, static_cast<std::uint32_t>(entries_.size())});
+        entries_.push_back(entry);
+        std::push_heap(keys_.begin(), keys_.end(), is_further());
+    }
+    [[nodiscard]] bool empty() const { return keys_.empty(); }
+    pair_entry<D> pop() {
+        std::pop_heap(keys_.begin(), keys_.end(), is_further());
+        const std::uint32_t index = keys_.back().index;
+        keys_.pop_back();
+        return entries_[index];
+    }
 
-template <std::size_t D>
-float extent(const typename pair_entry<D>::side& of) {
-    float most = 0.0F;
-    for (std::size_t k = 0; k < D; ++k) most = std::max(most, of.high[k] - of.low[k]);
-    return most;
-}
-
-/// The larger box is opened: eight tests in one, where all against all would be 64.
-template <std::size_t D>
-bool opens_a(const tree<D>& a, const tree<D>& b, const pair_entry<D>& at) {
-    if (a.is_leaf_level(at.a.level)) return false;
-    return b.is_leaf_level(at.b.level) || extent<D>(at.a) >= extent<D>(at.b);
-}
+  private:
+    struct key {
+        float lower;
+        std::uint32_t index;
+    };
+    struct is_further {
+        bool operator()(const key& x, const key& y) const {
+            return x.lower != y.lower ? x.lower > y.lower : x.index > y.index;
+        }
+    };
+    std::vector<key> keys_;
+    std::vector<pair_entry<D>> entries_;
+};
 
 }  // namespace
 }  // namespace tf::detail
@@ -53,6 +65,26 @@ bool opens_a(const tree<D>& a, const tree<D>& b, const pair_entry<D>& at) {
 HWY_BEFORE_NAMESPACE();
 namespace tf::detail::HWY_NAMESPACE {
 namespace {
+
+/// Both are leaf blocks: nothing to open but their primitives.
+template <std::size_t D>
+HWY_INLINE bool is_last(const tree<D>& a, const tree<D>& b, const pair_entry<D>& at) {
+    return a.is_leaf_level(at.a.level) && b.is_leaf_level(at.b.level);
+}
+
+template <std::size_t D>
+HWY_INLINE float extent(const typename pair_entry<D>::side& of) {
+    float most = 0.0F;
+    for (std::size_t k = 0; k < D; ++k) most = std::max(most, of.high[k] - of.low[k]);
+    return most;
+}
+
+/// The larger box is opened: eight tests in one, where all against all would be 64.
+template <std::size_t D>
+HWY_INLINE bool opens_a(const tree<D>& a, const tree<D>& b, const pair_entry<D>& at) {
+    if (a.is_leaf_level(at.a.level)) return false;
+    return b.is_leaf_level(at.b.level) || extent<D>(at.a) >= extent<D>(at.b);
+}
 
 /// A node in the common frame: itself, or its image in `space`.
 template <std::size_t D>
@@ -76,8 +108,8 @@ typename pair_entry<D>::side box_of(const wide_node<D>& node, std::size_t slot, 
 
 /// Opens one side of `at`, and adds the children that may be within `bound` to `below`.
 template <std::size_t D>
-void open(const tree<D>& t, const frame_map<D>& map, const pair_entry<D>& at,
-          typename pair_entry<D>::side pair_entry<D>::*opened,
+void open(const tree<D>& t, const frame_map<D>& map, const raise_bounds* raise,
+          const pair_entry<D>& at, typename pair_entry<D>::side pair_entry<D>::*opened,
           const typename pair_entry<D>::side& other, float bound,
           std::vector<pair_entry<D>>& below) {
     wide_node<D> space;
@@ -87,6 +119,10 @@ void open(const tree<D>& t, const frame_map<D>& map, const pair_entry<D>& at,
     const wide_node<D>& node = in_frame(map, t.level(level)[index], space);
     unsigned mask = near_mask(node, other.low, other.high, bound, squared);
     mask &= (1U << t.children(level, index)) - 1;
+    if (raise != nullptr && !t.is_leaf_level(level)) {
+        const bool of_a = opened == &pair_entry<D>::a;
+        mask = (*raise)({of_a, level, index, other.level, other.index}, mask, bound, squared);
+    }
     std::array<std::uint8_t, 8> slots;
     for (std::size_t i = nearest_first(mask, squared, slots); i-- > 0;) {
         pair_entry<D> child = at;
@@ -100,9 +136,9 @@ template <std::size_t D, class Context>
 void open_larger(const Context& in, const pair_entry<D>& at, float bound,
                  std::vector<pair_entry<D>>& below) {
     if (opens_a(in.a, in.b, at))
-        open(in.a, in.map_a, at, &pair_entry<D>::a, at.b, bound, below);
+        open(in.a, in.map_a, in.raise, at, &pair_entry<D>::a, at.b, bound, below);
     else
-        open(in.b, in.map_b, at, &pair_entry<D>::b, at.a, bound, below);
+        open(in.b, in.map_b, in.raise, at, &pair_entry<D>::b, at.a, bound, below);
 }
 
 template <std::size_t D, class Context>
@@ -165,35 +201,6 @@ void walk(const Context& in, std::vector<pair_entry<D>>& stack, const std::atomi
     }
 }
 
-/// Pairs of nodes, the nearest on top. The heap moves only keys.
-template <std::size_t D>
-class nearest_first_queue {
-  public:
-    void push(const pair_entry<D>& entry) {
-        keys_.push_back({entry.lower, static_cast<std::uint32_t>(entries_.size())});
-        entries_.push_back(entry);
-        std::push_heap(keys_.begin(), keys_.end(), further);
-    }
-    [[nodiscard]] bool empty() const { return keys_.empty(); }
-    pair_entry<D> pop() {
-        std::pop_heap(keys_.begin(), keys_.end(), further);
-        const std::uint32_t index = keys_.back().index;
-        keys_.pop_back();
-        return entries_[index];
-    }
-
-  private:
-    struct key {
-        float lower;
-        std::uint32_t index;
-    };
-    static bool further(const key& x, const key& y) {
-        return x.lower != y.lower ? x.lower > y.lower : x.index > y.index;
-    }
-    std::vector<key> keys_;
-    std::vector<pair_entry<D>> entries_;
-};
-
 /// Straight down to a first pair of leaf blocks, for a first bound; then best first, which opens
 /// the fewest nodes and is soon near the final bound. Leaves what is left in `items`.
 template <std::size_t D, class Context>
@@ -229,9 +236,10 @@ void walk_best_first(const Context& in, double squared, std::size_t budget,
 template <std::size_t D, class Context>
 void begin_walk(const Context& in, double squared, function_ref<bool()> stop, visit_blocks visit,
                 std::vector<pair_entry<D>>& items) {
-    // Enough for a bound near the final one; then depth first, which stays near in memory, in a few
-    // large pieces.
-    constexpr std::size_t budget = 64;
+    // Most searches end within this, having opened hardly a node too many. Where much is about as
+    // near, it gives a bound near the final one; then depth first, which stays near in memory, in a
+    // few large pieces.
+    constexpr std::size_t budget = 1024;
     constexpr std::size_t enough = 64;
     double limit = squared;
     items.clear();
@@ -312,7 +320,7 @@ pair_walk<D>::pair_walk(const transformed<D>& a, const transformed<D>& b, double
 
 template <std::size_t D>
 typename pair_walk<D>::context pair_walk<D>::trees() const {
-    return {*a_, *b_, map_a_, map_b_, bound_of_};
+    return {*a_, *b_, map_a_, map_b_, bound_of_, raise_};
 }
 
 template <std::size_t D>

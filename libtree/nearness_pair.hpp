@@ -107,9 +107,9 @@ template <std::size_t D, class DistanceOf>
             }
     };
     if (k == 0 || a.original().empty() || b.original().empty()) return kept(0, 0.0).sorted();
+    detail::pair_walk<D> walk(a, b, 1.0);
     return detail::walk_pairs(
-               a, b, 1.0, kept(k, squared), visit,
-               [&](const kept& all) { return kept(k, all.bound()); },
+               walk, kept(k, squared), visit, [&](const kept& all) { return kept(k, all.bound()); },
                [](kept& all, kept& part) {
                    for (auto& one : part.sorted()) all.offer(std::move(one));
                })

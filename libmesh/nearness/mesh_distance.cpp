@@ -1,5 +1,6 @@
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/nearness/distance_model.hpp>
 #include <libmesh/nearness/mesh_distance.hpp>
 #include <libtree/build.hpp>
 #include <libtree/detail/near_pair_walk.hpp>
@@ -28,33 +29,54 @@ double unit_for(const transformed<3>& a, const transformed<3>& b) {
                                              : std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
 }
 
-/// A mesh with its tree, where it counts as being.
-class placed_mesh {
+/// The faces of a mesh by their place in its tree, where they count as being: gathered from the
+/// mesh, or of blocks of triangles that were gathered before.
+class placed_faces {
   public:
-    placed_mesh(mesh_view mesh, const transformed<3>& tree, double unit)
-        : mesh_(mesh),
-          ids_(tree.original().ids().data()),
-          by_(tree.by()),
-          moves_(tree.moves()),
-          unit_(unit) {}
+    placed_faces(mesh_view mesh, const transformed<3>& tree, double unit)
+        : placed_faces(tree, unit) {
+        mesh_ = mesh;
+    }
+    placed_faces(const detail::buffer<detail::eight_triangles>& blocks, const transformed<3>& tree,
+                 double unit)
+        : placed_faces(tree, unit) {
+        blocks_ = blocks.data();
+    }
 
     [[nodiscard]] std::uint32_t face_at(std::size_t place) const { return ids_[place]; }
-    [[nodiscard]] triangle3 triangle(std::uint32_t face) const {
-        triangle3 t;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const point3& p = mesh_.points[mesh_.faces[face][i]];
-            t[i] = moves_ ? by_(p) : p;
-            if (unit_ != 1.0) t[i] = {t[i].x * unit_, t[i].y * unit_, t[i].z * unit_};
+
+    /// The triangles of a block, of those gathered now only the wanted ones; `space` is for them.
+    [[nodiscard]] const detail::eight_triangles& load(std::size_t block, unsigned wanted,
+                                                      detail::eight_triangles& space) const {
+        if (blocks_ != nullptr) {
+            if (stays_) return blocks_[block];
+            detail::move_triangles(blocks_[block], by_, unit_, space);
+            return space;
         }
-        return t;
+        space = {};
+        for (; wanted != 0; wanted &= wanted - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(wanted));
+            const face& corners = mesh_.faces[ids_[block * 8 + i]];
+            space.set(
+                i, {mesh_.points[corners[0]], mesh_.points[corners[1]], mesh_.points[corners[2]]});
+        }
+        if (!stays_) detail::move_triangles(space, by_, unit_, space);
+        return space;
     }
 
   private:
+    placed_faces(const transformed<3>& tree, double unit)
+        : ids_(tree.original().ids().data()),
+          by_(tree.by()),
+          unit_(unit),
+          stays_(!tree.moves() && unit == 1.0) {}
+
     mesh_view mesh_;
+    const detail::eight_triangles* blocks_ = nullptr;
     const std::uint32_t* ids_;
     transform<3> by_;
-    bool moves_;
     double unit_;
+    bool stays_;
 };
 
 /// The nearest pair so far, and the direction between the points of the last pair looked at: of two
@@ -64,8 +86,8 @@ struct nearest_so_far {
     bool found = false;
     std::uint32_t a = 0, b = 0;
     closest_between_triangles at{};
-    bool has_direction = false;
-    point3 origin{}, direction{};
+    bool has_line = false;
+    detail::sight_line line{};
 
     [[nodiscard]] double bound() const { return squared; }
     [[nodiscard]] bool done() const { return found && squared == 0.0; }
@@ -85,67 +107,47 @@ struct nearest_so_far {
 
   private:
     void direct(const closest_between_triangles& one) {
-        has_direction = true;
-        origin = one.on_a;
+        has_line = true;
+        line.origin = one.on_a;
         const double length = std::sqrt(one.squared_distance);
-        for (std::size_t k = 0; k < 3; ++k) direction[k] = (one.on_b[k] - one.on_a[k]) / length;
+        for (std::size_t k = 0; k < 3; ++k)
+            line.direction[k] = (one.on_b[k] - one.on_a[k]) / length;
     }
 };
 
-/// Eight triangles, those of a leaf block that matter.
-struct eight_triangles {
-    std::array<triangle3, 8> of;
-    double at[3][3][8] = {};  ///< corner, axis, triangle
-
-    eight_triangles(const placed_mesh& mesh, std::size_t block, unsigned wanted) {
-        for (; wanted != 0; wanted &= wanted - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(wanted));
-            of[i] = mesh.triangle(mesh.face_at(block * 8 + i));
-            for (std::size_t corner = 0; corner < 3; ++corner)
-                for (std::size_t axis = 0; axis < 3; ++axis)
-                    at[corner][axis][i] = of[i][corner][axis];
-        }
-    }
-};
-
-/// How far eight triangles reach along a direction n from an origin, and, at most, from there.
-struct spans_along {
-    double least[8], most[8], reach[8];
-
-    void look(const eight_triangles& t, const point3& n, const point3& origin) {
-        for (std::size_t i = 0; i < 8; ++i) {
-            least[i] = std::numeric_limits<double>::infinity();
-            most[i] = -least[i];
-            reach[i] = 0.0;
-        }
-        for (const auto& corner : t.at)
-            for (std::size_t i = 0; i < 8; ++i) {
-                const double x = corner[0][i] - origin.x;
-                const double y = corner[1][i] - origin.y;
-                const double z = corner[2][i] - origin.z;
-                const double along = n.x * x + n.y * y + n.z * z;
-                least[i] = along < least[i] ? along : least[i];
-                most[i] = most[i] < along ? along : most[i];
-                reach[i] += std::abs(x) + std::abs(y) + std::abs(z);
-            }
-    }
-};
-
-/// The pairs of slots within `bound`: bit j of element i.
-std::array<unsigned, 8> pairs_within(const detail::block_pair& blocks, float bound) {
-    std::array<unsigned, 8> pairs{};
+/// The pairs of slots whose boxes are within `bound`.
+detail::slot_pairs pairs_within(const detail::block_pair& blocks, float bound) {
+    detail::slot_pairs pairs{};
     for (std::size_t i = 0; i < 8; ++i)
         for (std::size_t j = 0; j < 8; ++j)
             pairs[i] |= static_cast<unsigned>(blocks.within(i, j, bound)) << j;
     return pairs;
 }
 
-void visit(const placed_mesh& a, const placed_mesh& b, const detail::block_pair& blocks,
+/// Takes the pair whose boxes are nearest from `pairs`; false when none is within `bound`.
+bool take_nearest(const detail::block_pair& blocks, float bound, detail::slot_pairs& pairs,
+                  std::size_t& a, std::size_t& b) {
+    float least = std::numeric_limits<float>::infinity();
+    bool found = false;
+    for (std::size_t i = 0; i < 8; ++i)
+        for (unsigned rest = pairs[i]; rest != 0; rest &= rest - 1) {
+            const auto j = static_cast<std::size_t>(std::countr_zero(rest));
+            const float squared = blocks.squared[i][j];
+            if (!(squared <= bound) || (found && !(squared < least))) continue;
+            found = true;
+            least = squared;
+            a = i;
+            b = j;
+        }
+    if (found) pairs[a] &= ~(1U << b);
+    return found;
+}
+
+void visit(const placed_faces& a, const placed_faces& b, const detail::block_pair& blocks,
            nearest_so_far& best, double limit) {
     limit = std::min(limit, best.squared);
     float bound = blocks.bound_of(limit);
-    double distance = std::sqrt(limit);
-    const std::array<unsigned, 8> pairs = pairs_within(blocks, bound);
+    detail::slot_pairs pairs = pairs_within(blocks, bound);
     unsigned rows = 0, columns = 0;
     for (std::size_t i = 0; i < 8; ++i) {
         rows |= static_cast<unsigned>(pairs[i] != 0) << i;
@@ -153,35 +155,19 @@ void visit(const placed_mesh& a, const placed_mesh& b, const detail::block_pair&
     }
     if (rows == 0) return;
 
-    const eight_triangles in_a(a, blocks.a, rows);
-    const eight_triangles in_b(b, blocks.b, columns);
-    spans_along along_a, along_b;
-    const auto look_along = [&] {
-        along_a.look(in_a, best.direction, best.origin);
-        along_b.look(in_b, best.direction, best.origin);
-    };
-    // Whether two are further apart than `distance` along the direction, whose length is 1 to
-    // 2^-50; products are off by less than that in proportion to `reach`.
-    const auto beyond = [&](std::size_t i, std::size_t j) {
-        return along_b.least[j] - along_a.most[i] >
-               distance * (1.0 + 0x1p-40) + 0x1p-45 * (along_a.reach[i] + along_b.reach[j]);
-    };
-    if (best.has_direction) look_along();
-    for (; rows != 0; rows &= rows - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(rows));
-        for (unsigned rest = pairs[i]; rest != 0; rest &= rest - 1) {
-            const auto j = static_cast<std::size_t>(std::countr_zero(rest));
-            if (!(blocks.squared[i][j] <= bound)) continue;
-            if (best.has_direction && beyond(i, j)) continue;
-            best.offer(a.face_at(std::size_t{blocks.a} * 8 + i),
-                       b.face_at(std::size_t{blocks.b} * 8 + j),
-                       closest_points(in_a.of[i], in_b.of[j]));
-            if (best.done()) return;
-            if (best.has_direction) look_along();
-            limit = std::min(limit, best.squared);
-            bound = blocks.bound_of(limit);
-            distance = std::sqrt(limit);
-        }
+    detail::eight_triangles space_a, space_b;
+    const detail::eight_triangles& in_a = a.load(blocks.a, rows, space_a);
+    const detail::eight_triangles& in_b = b.load(blocks.b, columns, space_b);
+    for (;;) {
+        if (best.has_line) detail::drop_separated(in_a, in_b, best.line, std::sqrt(limit), pairs);
+        std::size_t i = 0, j = 0;
+        if (!take_nearest(blocks, bound, pairs, i, j)) return;
+        best.offer(a.face_at(std::size_t{blocks.a} * 8 + i),
+                   b.face_at(std::size_t{blocks.b} * 8 + j),
+                   closest_points(in_a.triangle(i), in_b.triangle(j)));
+        if (best.done()) return;
+        limit = std::min(limit, best.squared);
+        bound = blocks.bound_of(limit);
     }
 }
 
@@ -204,21 +190,12 @@ tree<3> tree_of(mesh_view mesh) {
     });
 }
 
-}  // namespace
-
-std::optional<mesh_pair> mesh_distance(mesh_view a, const transformed<3>& tree_a, mesh_view b,
-                                       const transformed<3>& tree_b, double radius) {
-    check_tree(a, tree_a);
-    check_tree(b, tree_b);
-    detail::check_radius("tf::mesh_distance", radius);
-    if (a.faces.empty() || b.faces.empty()) return std::nullopt;
-    const double unit = unit_for(tree_a, tree_b);
-    const placed_mesh placed_a(a, tree_a, unit);
-    const placed_mesh placed_b(b, tree_b, unit);
+std::optional<mesh_pair> search(const placed_faces& a, const placed_faces& b,
+                                detail::pair_walk<3>& walk, double unit, double radius) {
     const nearest_so_far best = detail::walk_pairs(
-        tree_a, tree_b, unit, nearest_so_far{detail::squared_limit(radius * unit)},
+        walk, nearest_so_far{detail::squared_limit(radius * unit)},
         [&](const detail::block_pair& blocks, nearest_so_far& mine, double limit) {
-            visit(placed_a, placed_b, blocks, mine, limit);
+            visit(a, b, blocks, mine, limit);
         },
         [](const nearest_so_far& all) {
             nearest_so_far part = all;
@@ -237,10 +214,45 @@ std::optional<mesh_pair> mesh_distance(mesh_view a, const transformed<3>& tree_a
                      back(best.at.on_b)};
 }
 
+}  // namespace
+
+std::optional<mesh_pair> mesh_distance(mesh_view a, const transformed<3>& tree_a, mesh_view b,
+                                       const transformed<3>& tree_b, double radius) {
+    check_tree(a, tree_a);
+    check_tree(b, tree_b);
+    detail::check_radius("tf::mesh_distance", radius);
+    if (a.faces.empty() || b.faces.empty()) return std::nullopt;
+    const double unit = unit_for(tree_a, tree_b);
+    detail::pair_walk<3> walk(tree_a, tree_b, unit);
+    return search({a, tree_a, unit}, {b, tree_b, unit}, walk, unit, radius);
+}
+
 std::optional<mesh_pair> mesh_distance(mesh_view a, mesh_view b, double radius) {
     const tree<3> tree_a = tree_of(a);
     const tree<3> tree_b = tree_of(b);
     return mesh_distance(a, tree_a, b, tree_b, radius);
+}
+
+distance_model::distance_model(mesh_view mesh)
+    : tree_(tree_of(mesh)),
+      triangles_(detail::triangle_blocks(mesh, tree_)),
+      discs_(tree_, triangles_) {}
+
+std::optional<mesh_pair> mesh_distance(const distance_model& a, const distance_model& b,
+                                       const mesh_distance_options& options) {
+    detail::check_radius("tf::mesh_distance", options.radius);
+    const transformed<3> tree_a(a.tree_, options.move_a);
+    const transformed<3> tree_b(b.tree_, options.move_b);
+    if (a.size() == 0 || b.size() == 0) return std::nullopt;
+    const double unit = unit_for(tree_a, tree_b);
+    detail::pair_walk<3> walk(tree_a, tree_b, unit);
+    const detail::disc_pair discs{a.discs_, b.discs_, walk.map_a(), walk.map_b()};
+    const auto by_discs = [&](const detail::opened_node& at, unsigned mask, float bound,
+                              float* squared) { return discs.raise(at, mask, bound, squared); };
+    const detail::raise_bounds raise = by_discs;
+    walk.raise_by(raise);
+    return search({a.triangles_, tree_a, unit}, {b.triangles_, tree_b, unit}, walk, unit,
+                  options.radius);
 }
 
 }  // namespace tf

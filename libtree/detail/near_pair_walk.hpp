@@ -46,6 +46,21 @@ struct pair_entry {
     side b;
 };
 
+/// A node that is opened, and the node of the other tree that its children are held against.
+struct opened_node {
+    bool of_a;  ///< the one opened
+    std::uint32_t level;
+    std::uint32_t index;
+    std::uint32_t other_level;
+    std::uint32_t other_index;
+};
+
+/// What a caller knows of nodes beyond their boxes: raises the squared distances in `squared` of
+/// the children in `mask` from the other node, as far as it can, and returns those of the mask
+/// that are within `bound` still. What `near_bound` asks of a distance of boxes holds for these.
+using raise_bounds =
+    function_ref<unsigned(const opened_node&, unsigned mask, float bound, float* squared)>;
+
 /// What a visitor returns: the squared distance beyond which it wants no pair; it may only fall.
 using visit_blocks = function_ref<double(const block_pair&)>;
 
@@ -66,6 +81,12 @@ class TREEFORM_API pair_walk {
     void visit(std::size_t chunk, const std::atomic<double>& shared, function_ref<bool()> stop,
                visit_blocks visit) const;
 
+    /// How coordinates of the trees come into the common frame.
+    [[nodiscard]] const frame_map<D>& map_a() const { return map_a_; }
+    [[nodiscard]] const frame_map<D>& map_b() const { return map_b_; }
+    /// From now on children that are nodes are held against `raise` as well; it outlives the walk.
+    void raise_by(const raise_bounds& raise) { raise_ = &raise; }
+
     struct context;
 
   private:
@@ -77,13 +98,14 @@ class TREEFORM_API pair_walk {
     frame_map<D> map_a_;
     frame_map<D> map_b_;
     near_bound bound_of_;
+    const raise_bounds* raise_ = nullptr;
     std::vector<pair_entry<D>> items_;
 };
 
 extern template class pair_walk<2>;
 extern template class pair_walk<3>;
 
-/// Runs a walk on the threads at hand. `all` is what is kept, and has a `bound()`, a squared
+/// Runs `walk` on the threads at hand. `all` is what is kept, and has a `bound()`, a squared
 /// distance, and a `done()`, when zero is reached; `visit(blocks, kept, limit)` fills it;
 /// `fork(all)` makes an empty one with its bound for each chunk, and `join(all, part)` joins these
 /// in order.
@@ -93,9 +115,8 @@ extern template class pair_walk<3>;
 /// order within a chunk is fixed. A chunk that is `done()`, at zero, ends itself and later ones
 /// only, and these are not joined.
 template <std::size_t D, class Kept, class Visit, class Fork, class Join>
-[[nodiscard]] Kept walk_pairs(const transformed<D>& a, const transformed<D>& b, double unit,
-                              Kept all, const Visit& visit, const Fork& fork, const Join& join) {
-    pair_walk<D> walk(a, b, unit);
+[[nodiscard]] Kept walk_pairs(pair_walk<D>& walk, Kept all, const Visit& visit, const Fork& fork,
+                              const Join& join) {
     const double first_bound = all.bound();
     const auto visit_first = [&](const block_pair& blocks) {
         visit(blocks, all, first_bound);
