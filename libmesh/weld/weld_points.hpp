@@ -25,7 +25,9 @@ enum class weld_rule : std::uint8_t {
     chain
 };
 
-/// How neighbours are found; the groups are the same with each.
+/// How neighbours are found; the groups are the same with each. Where points have many within the
+/// tolerance none of these is followed to its end: kept points are looked up by cube, and chains
+/// join whole cubes.
 enum class neighbor_search : std::uint8_t {
     automatic,  ///< by what a look at the points says of their number within the tolerance
     window,     ///< points sorted along a line in general position, and a window sliding over them
@@ -60,7 +62,9 @@ struct point_groups {
 /// another
 ///         length than `points`, or more than 2^32 - 2 points
 /// \cost   O(V log V) for any tolerance and any number of equal points, as long as `agree` is empty
-///         or nearly always true
+///         or nearly always true; parallel, but for rule `first` where most points have several
+///         others within the tolerance. Working memory and result are within 36 bytes a point,
+///         by `tree` 90
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API point_groups weld_points(points_view points,
                                                     const weld_options& options);
