@@ -147,15 +147,24 @@ class chain_finder {
         const point3& p = points_[first];
         std::array<cube_axis::range, 3> ranges;
         for (std::size_t k = 0; k < 3; ++k) ranges[k] = axis_.neighbors(p[k], 2);
+        std::array<std::uint64_t, 125> hashes;
+        std::size_t count = 0;
         for (std::int64_t x = std::get<0>(own); x <= ranges[0].last; ++x)
             for (std::int64_t y = ranges[1].first; y <= ranges[1].last; ++y)
                 for (std::int64_t z = ranges[2].first; z <= ranges[2].last; ++z) {
-                    const cube other(x, y, z);
-                    if (other < own) continue;
-                    by_hash_.visit(cube_hash(x, y, z, kind_of(first)), [&](std::uint32_t c) {
-                        if (c != b && (other != own || c > b)) join_if_linked(b, c);
-                    });
+                    if (cube(x, y, z) <= own) continue;
+                    hashes[count] = cube_hash(x, y, z, kind_of(first));
+                    by_hash_.prefetch(hashes[count++]);
                 }
+        by_hash_.visit(
+            cube_hash(std::get<0>(own), std::get<1>(own), std::get<2>(own), kind_of(first)),
+            [&](std::uint32_t c) {
+                if (c > b) join_if_linked(b, c);
+            });
+        for (std::size_t k = 0; k < count; ++k)
+            by_hash_.visit(hashes[k], [&](std::uint32_t c) {
+                if (c != b) join_if_linked(b, c);
+            });
     }
 
     void join_if_linked(std::uint32_t b, std::uint32_t c) {
