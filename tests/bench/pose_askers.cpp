@@ -6,7 +6,7 @@
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/geometry/triangle_triangle.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
+#include <libmesh/nearness/distance_model.hpp>
 #include <libtree/nary_search.hpp>
 #include <libtree/strategy/nearness_order.hpp>
 
@@ -173,9 +173,10 @@ ask_pose own_intersect(const scene& scene) {
 }
 
 ask_pose own_distance(const scene& scene) {
-    return [trees = own_trees_of(scene)](const transform<3>& pose) {
-        const auto& [a, b, tree_a, tree_b] = *trees;
-        return mesh_distance(*a, tree_a, *b, transformed<3>(tree_b, pose)).value().distance;
+    const auto a = std::make_shared<const distance_model>(*scene.a);
+    const auto b = std::make_shared<const distance_model>(*scene.b);
+    return [a, b](const transform<3>& pose) {
+        return mesh_distance(*a, *b, {.move_b = pose}).value().distance;
     };
 }
 
