@@ -1,0 +1,113 @@
+#include <libmesh/face_tree.hpp>
+#include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/nearness/mesh_distance.hpp>
+#include <libmesh/place/measure.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace tf {
+namespace {
+
+using weights = std::array<double, 3>;
+
+triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
+    const face& corners = mesh.faces[f];
+    return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
+}
+
+point3 minus(const point3& a, const point3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double dot(const point3& a, const point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+point3 cross(const point3& a, const point3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// How far the point that the weights give is from `p`, squared.
+double squared_miss(const triangle3& t, const weights& w, const point3& p) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double miss =
+            w[0] * (t[0][k] - p[k]) + w[1] * (t[1][k] - p[k]) + w[2] * (t[2][k] - p[k]);
+        sum += miss * miss;
+    }
+    return sum;
+}
+
+/// Along the edge from corner i to corner j.
+weights on_edge(const triangle3& t, std::size_t i, std::size_t j, const point3& p) {
+    const point3 edge = minus(t[j], t[i]);
+    const double length = dot(edge, edge);
+    const double share =
+        length > 0.0 ? std::clamp(dot(minus(p, t[i]), edge) / length, 0.0, 1.0) : 0.0;
+    weights w{};
+    w[j] = share;
+    w[i] = 1.0 - share;
+    return w;
+}
+
+/// By areas; all 0 where there is none.
+weights by_area(const triangle3& t, const point3& p) {
+    const point3 normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+    weights w{};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const point3 part = cross(minus(t[(i + 1) % 3], p), minus(t[(i + 2) % 3], p));
+        w[i] = std::max(0.0, dot(normal, part));
+        sum += w[i];
+    }
+    for (double& one : w) one = sum > 0.0 ? one / sum : 0.0;
+    return w;
+}
+
+surface_point surface_point_of(mesh_view mesh, std::uint32_t face, const point3& p) {
+    return {face, p, barycentric_weights(triangle_of(mesh, face), p)};
+}
+
+}  // namespace
+
+std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t, const point3& p) {
+    // Areas of a sliver say little, an edge of it then says more: what gives the point best is
+    // taken.
+    weights best = on_edge(t, 0, 1, p);
+    double least = squared_miss(t, best, p);
+    const auto offer = [&](const weights& w) {
+        const double miss = squared_miss(t, w, p);
+        if (!(miss < least)) return;
+        least = miss;
+        best = w;
+    };
+    offer(on_edge(t, 1, 2, p));
+    offer(on_edge(t, 2, 0, p));
+    const weights inside = by_area(t, p);
+    if (inside[0] + inside[1] + inside[2] > 0.5) offer(inside);
+    return best;
+}
+
+std::optional<mesh_measure> measure(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                    const tree<3>& tree_b) {
+    if (a.faces.empty() || b.faces.empty()) return std::nullopt;
+    mesh_measure result;
+    result.relation = relation(a, tree_a, b, tree_b);
+    if (result.relation.relation != mesh_relation::separate) {
+        const std::uint32_t f = result.relation.face_a, g = result.relation.face_b;
+        const auto common = closest_points(triangle_of(a, f), triangle_of(b, g));
+        if (common.squared_distance == 0.0) {
+            result.on_a = surface_point_of(a, f, common.on_a);
+            result.on_b = surface_point_of(b, g, common.on_b);
+            return result;
+        }
+    }
+    const auto nearest = mesh_distance(a, tree_a, b, tree_b);
+    result.surface_distance = nearest->distance;
+    if (result.relation.relation == mesh_relation::separate) result.distance = nearest->distance;
+    result.on_a = surface_point_of(a, nearest->face_a, nearest->on_a);
+    result.on_b = surface_point_of(b, nearest->face_b, nearest->on_b);
+    return result;
+}
+
+std::optional<mesh_measure> measure(mesh_view a, mesh_view b) {
+    return measure(a, face_tree(a), b, face_tree(b));
+}
+
+}  // namespace tf

@@ -1,0 +1,153 @@
+#include <libmesh/bounding_box.hpp>
+#include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libmesh/nearness/mesh_distance.hpp>
+#include <libmesh/place/settle_among.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace tf {
+namespace {
+
+bool within(const box3& a, const box3& b, double distance) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!(a.min[k] - b.max[k] <= distance && b.min[k] - a.max[k] <= distance)) return false;
+    return true;
+}
+
+class settling {
+  public:
+    settling(mesh_view a, std::span<const still_part> parts, const point3& motion,
+             const settle_among_options& options)
+        : a_(a), parts_(parts), motion_(motion), options_(options) {
+        for (const still_part& part : parts) boxes_.push_back(bounding_box(part.mesh.points));
+    }
+
+    [[nodiscard]] settled_among at(double time, bool rests) const {
+        settled_among one;
+        one.time = time;
+        one.points.assign(a_.points.begin(), a_.points.end());
+        for (point3& p : one.points)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double product = time * motion_[k];
+                p[k] += product;
+                if (options_.to_single) p[k] = detail::nearest_float(p[k]);
+            }
+        if (options_.floor) put_on_floor(one.points, rests);
+        look_around(one);
+        return one;
+    }
+
+    /// The least time that moves a coordinate by a unit in the last place of the largest.
+    [[nodiscard]] double unit_of_time(const std::vector<point3>& points) const {
+        double largest = 0.0;
+        double speed = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            speed = std::max(speed, std::abs(motion_[k]));
+            if (motion_[k] == 0.0) continue;
+            for (const point3& p : points)
+                if (std::isfinite(p[k])) largest = std::max(largest, std::abs(p[k]));
+        }
+        const double unit = std::ldexp(largest, options_.to_single ? -23 : -52);
+        return std::max(unit, std::numeric_limits<double>::denorm_min()) / speed;
+    }
+
+  private:
+    void put_on_floor(std::vector<point3>& points, bool rests) const {
+        double level = *options_.floor;
+        if (rests) {
+            const auto box = bounding_box(points);
+            if (box) level = std::max(level, box->min.z);
+        }
+        for (point3& p : points)
+            if (p.z <= level) p.z = *options_.floor;
+    }
+
+    void look_around(settled_among& one) const {
+        const mesh_view there{one.points, a_.faces};
+        const auto box = bounding_box(one.points);
+        one.good = true;
+        if (!box || a_.faces.empty()) return;
+        std::optional<tree<3>> faces;
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            const still_part& part = parts_[i];
+            if (!boxes_[i] || part.mesh.faces.empty()) continue;
+            if (!within(*box, *boxes_[i], options_.clearance)) continue;
+            if (!faces) faces = face_tree(there);
+            const mesh_relation how = relation(there, *faces, part.mesh, *part.faces).relation;
+            const bool near = how == mesh_relation::separate && options_.clearance > 0.0 &&
+                              nearer(there, *faces, part);
+            const bool too_near = how == mesh_relation::penetrating || near ||
+                                  (options_.clearance > 0.0 && how == mesh_relation::touching);
+            if (how > one.relation || (too_near && one.good && how == one.relation)) one.part = i;
+            one.relation = std::max(one.relation, how);
+            one.good = one.good && !too_near;
+            if (how == mesh_relation::penetrating) return;
+        }
+    }
+
+    [[nodiscard]] bool nearer(mesh_view there, const tree<3>& faces, const still_part& part) const {
+        const auto pair = mesh_distance(there, faces, part.mesh, *part.faces, options_.clearance);
+        return pair && pair->distance < options_.clearance;
+    }
+
+    mesh_view a_;
+    std::span<const still_part> parts_;
+    point3 motion_;
+    settle_among_options options_;
+    std::vector<std::optional<box3>> boxes_;
+};
+
+void check(const point3& motion, double time, const settle_among_options& options) {
+    double speed = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+        speed = std::isnan(motion[k]) ? motion[k] : std::max(speed, std::abs(motion[k]));
+    if (!(std::isfinite(speed) && speed > 0.0) || !(time >= 0.0) || !std::isfinite(time))
+        throw std::invalid_argument(
+            "tf::settle_among: the motion or the time is not finite, or zero");
+    if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
+        throw std::invalid_argument("tf::settle_among: the clearance is negative or not finite");
+}
+
+}  // namespace
+
+settled_among settle_among(mesh_view a, std::span<const still_part> parts, const point3& motion,
+                           double time, const settle_among_options& options) {
+    check(motion, time, options);
+    const settling place(a, parts, motion, options);
+    settled_among best = place.at(time, true);
+    if (best.good) return best;
+
+    const double unit = place.unit_of_time(best.points);
+    const auto back = [&](double step) {
+        return options.forward ? time + step : std::max(0.0, time - step);
+    };
+    double bad = time;
+    double step = unit;
+    while (!best.good && best.backed_off < options.attempts) {
+        const unsigned count = best.backed_off + 1;
+        bad = best.time;
+        best = place.at(back(step), false);
+        best.backed_off = count;
+        if (best.time == 0.0) break;  // where it came from
+        step *= 2.0;
+    }
+    // The first good place may be far behind the last bad one.
+    while (best.good && std::abs(bad - best.time) > 2.0 * unit &&
+           best.backed_off < options.attempts) {
+        const unsigned count = best.backed_off + 1;
+        settled_among middle = place.at(best.time + (bad - best.time) / 2, false);
+        if (middle.good)
+            best = std::move(middle);
+        else
+            bad = middle.time;
+        best.backed_off = count;
+    }
+    return best;
+}
+
+}  // namespace tf

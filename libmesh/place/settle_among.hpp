@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// A mesh moved among others in coordinates that can be written, so that it keeps off all of them.
+
+#include <libmesh/mesh.hpp>
+#include <libmesh/place/relation.hpp>
+#include <libmesh/place/still_part.hpp>
+#include <libtree/export.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tf {
+
+struct settle_among_options {
+    bool to_single = false;  ///< coordinates become float32 values, as a binary STL holds them
+    double clearance = 0.0;  ///< the least distance to the parts, as `mesh_distance` computes it
+    /// A level on which the mesh comes to rest, where given: what would come to lie below it, and
+    /// at the time asked for the lowest points too, is put on it exactly.
+    std::optional<double> floor{};
+    bool forward = false;  ///< back off to later times, not to earlier ones
+    unsigned attempts = 40;
+};
+
+struct settled_among {
+    std::vector<point3> points{};  ///< [V] of `a`, moved and rounded
+    double time = 0.0;             ///< the one that `points` belong to
+    unsigned backed_off = 0;       ///< steps taken
+    bool good = false;             ///< nothing is penetrated, all clearances are kept
+    /// Of what `points` holds to the parts, the closest: penetrating, else touching, else separate.
+    mesh_relation relation = mesh_relation::separate;
+    std::size_t part = 0;  ///< the lowest part of that relation, or one nearer than the clearance
+};
+
+/// `a` moved by `time` times `motion`, as `settle` rounds it, against any number of parts.
+///
+/// Where the moved mesh penetrates one of them, or is nearer than the clearance, the time is
+/// stepped back as `settle` does, to earlier or to later times. Points of `a` that no face uses,
+/// and those not finite, move along and count for nothing.
+///
+/// \pre    time >= 0
+/// \throws std::invalid_argument as `relation`, and for a motion or time that is not finite, or a
+///         clearance that is negative or NaN
+/// \cost   a `face_tree` of `a` for each attempt, with `relation` and `mesh_distance` for the parts
+///         whose boxes are within the clearance of its box
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API settled_among settle_among(mesh_view a,
+                                                      std::span<const still_part> parts,
+                                                      const point3& motion, double time,
+                                                      const settle_among_options& options = {});
+
+}  // namespace tf

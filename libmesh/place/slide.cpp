@@ -1,0 +1,76 @@
+#include <libmesh/place/first_approach.hpp>
+#include <libmesh/place/slide.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tf {
+namespace {
+
+/// What one part allows.
+struct part_end {
+    motion_end end = motion_end::free;
+    double time = 0.0;
+    sweep_contact exact{};
+    std::vector<face_contact> contacts{};
+    std::uint64_t contact_count = 0;
+    std::uint64_t pairs_tested = 0;
+};
+
+part_end end_at(mesh_view a, const tree<3>& tree_a, const still_part& part, const point3& motion,
+                double latest, const slide_options& options) {
+    if (options.clearance > 0.0) {
+        auto one = first_approach(a, tree_a, part.mesh, *part.faces, motion, options.clearance,
+                                  {.latest = latest, .limit = options.limit});
+        return {one.end,           one.time,        {}, std::move(one.contacts),
+                one.contact_count, one.pairs_tested};
+    }
+    auto one = first_contact(a, tree_a, part.mesh, *part.faces, motion,
+                             {.latest = latest, .limit = options.limit});
+    return {one.end,           one.time,        one.exact, std::move(one.contacts),
+            one.contact_count, one.pairs_tested};
+}
+
+}  // namespace
+
+slide_result slide(mesh_view a, const tree<3>& tree_a, std::span<const still_part> parts,
+                   const point3& motion, const slide_options& options) {
+    slide_result result;
+    sweep_contact earliest;
+    double latest = options.latest;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        part_end one = end_at(a, tree_a, parts[i], motion, latest, options);
+        result.pairs_tested += one.pairs_tested;
+        if (one.end == motion_end::free) continue;
+        if (one.end == motion_end::at_start) {
+            const std::uint64_t tested = result.pairs_tested;
+            result = {.end = one.end, .part = i};
+            result.pairs_tested = tested;
+            return result;
+        }
+        int order = -1;
+        if (result.end == motion_end::contact) {
+            order = options.clearance > 0.0 ? (one.time > result.time) - (one.time < result.time)
+                                            : compare(motion, one.exact, earliest);
+        }
+        if (order > 0) continue;
+        if (order < 0) {
+            result.contacts.clear();
+            result.contact_count = 0;
+            result.part = i;
+            result.end = one.end;
+            result.time = one.time;
+            earliest = one.exact;
+        }
+        result.contact_count += one.contact_count;
+        for (const face_contact& c : one.contacts)
+            if (result.contacts.size() < options.limit) result.contacts.push_back({i, c});
+        // The exact time may lie between two doubles.
+        latest =
+            std::min(latest, std::nextafter(result.time, std::numeric_limits<double>::infinity()));
+    }
+    return result;
+}
+
+}  // namespace tf

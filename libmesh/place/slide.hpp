@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// How far a mesh can be moved among several others.
+
+#include <libmesh/mesh.hpp>
+#include <libmesh/place/first_contact.hpp>
+#include <libmesh/place/still_part.hpp>
+#include <libtree/export.hpp>
+#include <libtree/tree.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace tf {
+
+struct slide_options {
+    double clearance = 0.0;  ///< the gap to leave; 0: until contact
+    double latest = std::numeric_limits<double>::infinity();
+    std::size_t limit = 1000;  ///< contacts listed
+};
+
+struct slide_contact {
+    std::size_t part = 0;
+    face_contact where{};  ///< face `a` of the mesh that moves, face `b` of the part
+};
+
+struct slide_result {
+    motion_end end = motion_end::free;
+    double time = 0.0;     ///< not beyond the exact one, as `first_contact` says
+    std::size_t part = 0;  ///< the lowest one met, also at the start
+    /// By ascending parts, then faces; without a clearance of all parts met at the same exact time.
+    std::vector<slide_contact> contacts{};
+    std::uint64_t contact_count = 0;
+    std::uint64_t pairs_tested = 0;
+};
+
+/// The time at which `a`, moved by t times `motion`, first meets one of `parts`, or first comes
+/// nearer than the clearance to one.
+///
+/// Without a clearance exact, as `first_contact`; with one as `first_approach`. A part that is met,
+/// or nearer than the clearance, at the start ends it there.
+///
+/// \pre    `tree_a` is `face_tree(a)`
+/// \throws std::invalid_argument as these two
+/// \cost   that of these two for each part; parts are asked for no more than the time so far
+/// \same   on every machine
+[[nodiscard]] TREEFORM_API slide_result slide(mesh_view a, const tree<3>& tree_a,
+                                              std::span<const still_part> parts,
+                                              const point3& motion,
+                                              const slide_options& options = {});
+
+}  // namespace tf
