@@ -155,13 +155,18 @@ class ply_writer {
     /// `value` as one of that type.
     template <class V>
     void put_as(scalar_type type, V value) {
-        if (is_text()) put_blank();
+        if (!is_text()) {
+            with_type(type, [&]<class T>(T) {
+                if (encoding_ == ply_encoding::big_endian)
+                    job_.out.raw<std::endian::big>(static_cast<T>(value));
+                else
+                    job_.out.raw<std::endian::little>(static_cast<T>(value));
+            });
+            return;
+        }
+        put_blank();
         with_type(type, [&]<class T>(T) {
-            if (encoding_ == ply_encoding::big_endian)
-                job_.out.raw<std::endian::big>(static_cast<T>(value));
-            else if (encoding_ == ply_encoding::little_endian)
-                job_.out.raw<std::endian::little>(static_cast<T>(value));
-            else if constexpr (sizeof(T) == 1)
+            if constexpr (sizeof(T) == 1)
                 job_.out.number(static_cast<int>(value));
             else
                 job_.out.number(static_cast<T>(value));
