@@ -125,6 +125,8 @@ class TREEFORM_API longest_move {
     /// Takes the one given when it is longer, decided exactly.
     void consider(const point3& from, const point3& to);
     void consider(const longest_move& other) { consider(other.from_, other.to_); }
+    [[nodiscard]] const point3& from() const { return from_; }
+    [[nodiscard]] const point3& to() const { return to_; }
     /// The least double that is no less than the length.
     [[nodiscard]] double length() const;
 

@@ -12,24 +12,6 @@
 namespace tools {
 namespace {
 
-/// Outputs are looked at before the work, so that it is not lost in the end.
-void check_outputs(const job& work, const weld_request& request) {
-    const common_options& o = work.options;
-    if (!request.outputs.map.empty()) check_output(request.outputs.map, o.force);
-    if (o.dry_run) return;
-    if (!request.outputs.removed.empty()) check_output(request.outputs.removed, o.force);
-    if (const auto path = mesh_output(o, work.path)) check_output(*path, o.force || o.in_place);
-}
-
-void require_writable_format(const job& work, const tf::mesh_file& file) {
-    const common_options& o = work.options;
-    const std::string format = file.format.substr(0, file.format.find('-'));
-    if (o.in_place &&
-        std::find(o.mesh_formats.begin(), o.mesh_formats.end(), format) == o.mesh_formats.end())
-        throw failure(bad_output, "output",
-                      work.path + ": --in-place cannot write " + file.format + "; use -o");
-}
-
 tf::mesh_file read_all(job& work) {
     const std::vector<std::string> names =
         work.options.joined ? work.options.inputs : std::vector<std::string>{work.path};
@@ -88,16 +70,6 @@ void restore_polygons(tf::mesh_file& file, const welding& w, bool welded,
     rejoin_polygons(file, polygon, welded && !settings.keep_degenerate);
 }
 
-void refuse_label_format(const job& work, const std::filesystem::path& path,
-                         const tf::mesh_file& file) {
-    const std::string format = work.options.in_place ? file.format.substr(0, file.format.find('-'))
-                                                     : mesh_format(work.options, path);
-    if (format == "stl" || format == "obj" || format == "off" || format == "glb")
-        throw failure(
-            bad_usage, "usage",
-            path.string() + ": --label needs a format with properties: ply, pcd, xyz, csv");
-}
-
 }  // namespace
 
 exit_status weld_in_memory(job& work, const weld_request& request) {
@@ -106,9 +78,8 @@ exit_status weld_in_memory(job& work, const weld_request& request) {
     enter_blank_report(work, request);
     check_outputs(work, request);
     tf::mesh_file file = read_all(work);
-    require_writable_format(work, file);
+    check_formats(work, request, file);
     const auto path = mesh_output(o, work.path);
-    if (path && !asked.label.empty()) refuse_label_format(work, *path, file);
 
     welding w = weld(work, file, request.settings);
     work.out.result(work.name + ": " + verdict(w, request));

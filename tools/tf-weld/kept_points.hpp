@@ -31,6 +31,13 @@ class kept_points {
         return sum;
     }
 
+    /// Whether some point is dropped here and there. \pre the same count
+    [[nodiscard]] bool shares_a_drop(const kept_points& other) const {
+        for (std::size_t w = 0; w < dropped_.size(); ++w)
+            if ((dropped_[w] & other.dropped_[w]) != 0) return true;
+        return false;
+    }
+
     /// Makes `number_of` answer for what is kept now.
     void number() {
         dropped_before_.clear();

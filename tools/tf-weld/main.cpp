@@ -5,7 +5,7 @@
 #include "tools/common/common_options.hpp"
 #include "tools/common/output_file.hpp"
 #include "tools/common/run.hpp"
-#include "tools/tf-weld/in_memory.hpp"
+#include "tools/tf-weld/out_of_core.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/settings.hpp"
 
@@ -65,6 +65,21 @@ void add_meshes(command_line& line, weld_settings& s) {
     line.flag(s.keep_manifold, {"--keep-manifold", "",
                                 "leave a pair alone if merging it would make an edge\n"
                                 "of more than two faces or a bow-tie vertex"});
+}
+
+void add_large_clouds(command_line& line, tools::tile_settings& tiles) {
+    line.group("Clouds larger than --memory are welded in tiles on the disk");
+    line.option({"--work", "DIR",
+                 "folder for them; kept when stopped, so that the same\n"
+                 "command goes on there",
+                 "beside FILE"},
+                [&tiles](std::string_view text) { tiles.folder = text; });
+    line.option({.names = "--tile-points", .value = "N"}, [&tiles](std::string_view text) {
+        tiles.points_per_tile = tools::parse_count("--tile-points", text);
+    });
+    line.option({.names = "--stop-at", .value = "STEP"}, [&tiles](std::string_view text) {
+        tiles.stop_at = tools::parse_count("--stop-at", text);
+    });
 }
 
 const char* const epilogue =
@@ -133,6 +148,7 @@ int main(int argc, char** argv) {
                       "Merge points or mesh vertices that lie within a distance of each other.\n"
                       "Point clouds stay point clouds; meshes are re-indexed.");
     tools::weld_request r;
+    tools::tile_settings tiles;
     common_options options;
     options.suffix = "-weld";
     bool exact = true;
@@ -146,6 +162,7 @@ int main(int argc, char** argv) {
                 [&](std::string_view text) { tools::parse_keep(text, r.settings); });
     add_what_to_give_back(line, r.outputs, options);
     add_meshes(line, r.settings);
+    add_large_clouds(line, tiles);
     line.group("Common options");
     tools::add_common_options(
         line, options,
@@ -154,6 +171,5 @@ int main(int argc, char** argv) {
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "weld", "write"}, argc, argv, [&] { check_request(r, options); },
-        // Point files that would not fit into memory take another way from here.
-        [&](tools::job& work) { return tools::weld_in_memory(work, r); });
+        [&](tools::job& work) { return tools::weld_somewhere(work, r, tiles); });
 }

@@ -17,13 +17,6 @@ json path_entry(const std::filesystem::path& path) {
     return path.empty() ? json(nullptr) : json(path.string());
 }
 
-tf::write_options write_options_for(const common_options& o, std::string format, bool ascii) {
-    tf::write_options options{.format = std::move(format), .ascii = ascii};
-    if (o.precision == "float") options.precision = tf::precision::single_;
-    if (o.precision == "double") options.precision = tf::precision::double_;
-    return options;
-}
-
 tf::write_result write_file(const std::filesystem::path& path, const tf::mesh_file& file,
                             const tf::write_options& options) {
     try {
@@ -49,37 +42,11 @@ void warn_of_rounding(job& work, const tf::write_result& written,
                          "that out"));
 }
 
-/// In-place, the file keeps its kind.
-std::pair<std::string, bool> format_of(const job& work, const tf::mesh_file& file,
-                                       const std::filesystem::path& path) {
-    const common_options& o = work.options;
-    if (!o.in_place) return {mesh_format(o, path), o.ascii};
-    const bool text = file.format.ends_with("ascii");
-    return {file.format.substr(0, file.format.find('-')), o.ascii || (text && !o.binary)};
+void put_number(std::string& text, std::uint64_t number) {
+    std::array<char, 20> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    text.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
 }
-
-/// Collects bytes, and writes them in pieces.
-class buffered {
-  public:
-    explicit buffered(output_file& file) : file_(file) {}
-    void put(std::string_view bytes) {
-        text_ += bytes;
-        if (text_.size() >= (std::size_t{1} << 16)) flush();
-    }
-    void put_number(std::uint64_t number) {
-        std::array<char, 20> digits;
-        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-        put({digits.data(), static_cast<std::size_t>(end - digits.data())});
-    }
-    void flush() {
-        file_.write(text_);
-        text_.clear();
-    }
-
-  private:
-    output_file& file_;
-    std::string text_{};
-};
 
 std::array<char, 8> little_endian(std::uint64_t number) {
     std::array<char, 8> bytes;
@@ -87,7 +54,55 @@ std::array<char, 8> little_endian(std::uint64_t number) {
     return bytes;
 }
 
+void require_writable_format(const job& work, const tf::mesh_file& file) {
+    const common_options& o = work.options;
+    const std::string format = file.format.substr(0, file.format.find('-'));
+    if (o.in_place &&
+        std::find(o.mesh_formats.begin(), o.mesh_formats.end(), format) == o.mesh_formats.end())
+        throw failure(bad_output, "output",
+                      work.path + ": --in-place cannot write " + file.format + "; use -o");
+}
+
+void refuse_label_format(const job& work, const std::filesystem::path& path,
+                         const tf::mesh_file& file) {
+    const std::string format = work.options.in_place ? file.format.substr(0, file.format.find('-'))
+                                                     : mesh_format(work.options, path);
+    if (format == "stl" || format == "obj" || format == "off" || format == "glb")
+        throw failure(
+            bad_usage, "usage",
+            path.string() + ": --label needs a format with properties: ply, pcd, xyz, csv");
+}
+
 }  // namespace
+
+void check_outputs(const job& work, const weld_request& request) {
+    const common_options& o = work.options;
+    if (!request.outputs.map.empty()) check_output(request.outputs.map, o.force);
+    if (o.dry_run) return;
+    if (!request.outputs.removed.empty()) check_output(request.outputs.removed, o.force);
+    if (const auto path = mesh_output(o, work.path)) check_output(*path, o.force || o.in_place);
+}
+
+void check_formats(const job& work, const weld_request& request, const tf::mesh_file& file) {
+    require_writable_format(work, file);
+    const auto path = mesh_output(work.options, work.path);
+    if (path && !request.outputs.label.empty()) refuse_label_format(work, *path, file);
+}
+
+tf::write_options write_options_for(const common_options& o, std::string format, bool ascii) {
+    tf::write_options options{.format = std::move(format), .ascii = ascii};
+    if (o.precision == "float") options.precision = tf::precision::single_;
+    if (o.precision == "double") options.precision = tf::precision::double_;
+    return options;
+}
+
+std::pair<std::string, bool> format_of(const job& work, const tf::mesh_file& file,
+                                       const std::filesystem::path& path) {
+    const common_options& o = work.options;
+    if (!o.in_place) return {mesh_format(o, path), o.ascii};
+    const bool text = file.format.ends_with("ascii");
+    return {file.format.substr(0, file.format.find('-')), o.ascii || (text && !o.binary)};
+}
 
 const std::filesystem::path& pending_outputs::add(const std::filesystem::path& path, bool force) {
     places_.push_back(std::make_unique<output_place>(path, force, work_.keeper));
@@ -160,22 +175,28 @@ bool map_is_csv(const std::filesystem::path& path) {
     return path == "-" || extension_of(path) == "csv";
 }
 
+void put_map_row(std::string& text, std::uint64_t input, std::uint64_t output, bool as_csv) {
+    if (!as_csv) {
+        const auto bytes = little_endian(output);
+        text.append(bytes.data(), bytes.size());
+        return;
+    }
+    put_number(text, input);
+    text += ',';
+    put_number(text, output);
+    text += '\n';
+}
+
 void write_map(output_file& file, const welding& w, bool as_csv) {
-    buffered out(file);
-    if (as_csv) out.put("input,output\n");
+    std::string text = as_csv ? map_heading : "";
     const auto& group = w.result.groups.group_of_point;
     for (std::size_t p = 0; p < group.size(); ++p) {
-        if (!as_csv) {
-            const auto bytes = little_endian(group[p]);
-            out.put({bytes.data(), bytes.size()});
-            continue;
-        }
-        out.put_number(p);
-        out.put(",");
-        out.put_number(group[p]);
-        out.put("\n");
+        put_map_row(text, p, group[p], as_csv);
+        if (text.size() < (std::size_t{1} << 16)) continue;
+        file.write(text);
+        text.clear();
     }
-    out.flush();
+    file.write(text);
 }
 
 void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& file, const welding& w,
@@ -197,6 +218,16 @@ void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& fil
     for (const tf::io_warning& warning : written.warnings) work.warn(warning.code, warning.text);
 }
 
+void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written,
+                  const std::optional<std::uint64_t>& again) {
+    work.entry["output"] = {
+        {"file", path.string()},
+        {"format", written.format},
+        {"precision_out", written.written_as == tf::precision::single_ ? "float" : "double"},
+        {"max_move", written.largest_move},
+        {"within_tolerance", again ? json(*again) : json(nullptr)}};
+}
+
 void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& welded,
                   const welding& w, const weld_request& request,
                   const std::filesystem::path& path) {
@@ -207,12 +238,7 @@ void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& weld
     std::optional<std::uint64_t> again;
     if (request.outputs.label.empty())
         again = still_within(work, welded, w, request.settings, written.written_as);
-    work.entry["output"] = {
-        {"file", path.string()},
-        {"format", written.format},
-        {"precision_out", written.written_as == tf::precision::single_ ? "float" : "double"},
-        {"max_move", written.largest_move},
-        {"within_tolerance", again ? json(*again) : json(nullptr)}};
+    enter_output(work, path, written, again);
     for (const tf::io_warning& warning : written.warnings) work.warn(warning.code, warning.text);
     warn_of_rounding(work, written, again, request);
 }

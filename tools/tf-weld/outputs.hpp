@@ -5,9 +5,13 @@
 #include "tools/common/output_file.hpp"
 #include "tools/tf-weld/welding.hpp"
 #include <libmesh/io/mesh_file.hpp>
+#include <libmesh/io/write.hpp>
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace tools {
@@ -29,17 +33,35 @@ class pending_outputs {
 /// \throws failure (bad_usage) when it is none of ply, pcd, xyz (txt, asc) and csv
 std::string check_points_format(const std::filesystem::path& path);
 
+/// Looks at the outputs before the work, so that it is not lost in the end. \throws failure
+void check_outputs(const job& work, const weld_request& request);
+/// Looks whether what comes of `file` can be written as asked. \throws failure
+void check_formats(const job& work, const weld_request& request, const tf::mesh_file& file);
+
+[[nodiscard]] tf::write_options write_options_for(const common_options& o, std::string format,
+                                                  bool ascii);
+/// The format of what is written at `path` for `file`, and whether it is text; in-place, the file
+/// keeps its kind.
+[[nodiscard]] std::pair<std::string, bool> format_of(const job& work, const tf::mesh_file& file,
+                                                     const std::filesystem::path& path);
+
 /// The keys of a report's file, each with nothing in it.
 void enter_blank_report(job& work, const weld_request& request);
 void enter_report(job& work, const welding& w, const weld_request& request);
 
 /// The new index of each point, as CSV or as 64-bit integers.
+inline constexpr const char* map_heading = "input,output\n";  ///< where it is CSV
+void put_map_row(std::string& text, std::uint64_t input, std::uint64_t output, bool as_csv);
 void write_map(output_file& file, const welding& w, bool as_csv);
 [[nodiscard]] bool map_is_csv(const std::filesystem::path& path);
 
 /// The points of `file` that were dropped, with their properties.
 void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& file, const welding& w,
                    const std::filesystem::path& path);
+
+/// `again` points would merge with others if the file were welded once more.
+void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written,
+                  const std::optional<std::uint64_t>& again);
 
 /// The set at `path`, in the precision asked for; what is written is looked at in that precision.
 void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& welded,

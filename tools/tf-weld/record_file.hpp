@@ -3,6 +3,7 @@
 /// Files of records as they are in memory, written and read front to back, a piece at a time. None
 /// is open between two pieces, so there may be any number of them.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

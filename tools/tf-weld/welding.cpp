@@ -88,6 +88,7 @@ void check_counts(const welding& w, const weld_settings& settings) {
 }  // namespace
 
 std::uint64_t welding::groups() const {
+    if (counted) return counted->groups;
     std::vector<std::uint8_t> members(distinct(), 0);
     std::uint64_t count = 0;
     for (const std::uint32_t group : result.groups.group_of_point)

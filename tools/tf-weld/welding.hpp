@@ -24,7 +24,16 @@ struct welding {
     std::vector<std::uint32_t> polygon_of_triangle{};  ///< empty: each face is one triangle
     tf::mesh_weld_result result{};                     ///< of the input's points
 
-    [[nodiscard]] std::uint64_t distinct() const { return result.point_of_group.size(); }
+    /// Of a cloud that was welded out of memory, and has no groups in `result`.
+    struct counts {
+        std::uint64_t distinct = 0;
+        std::uint64_t groups = 0;
+    };
+    std::optional<counts> counted{};
+
+    [[nodiscard]] std::uint64_t distinct() const {
+        return counted ? counted->distinct : result.point_of_group.size();
+    }
     [[nodiscard]] std::uint64_t removed() const { return points - distinct(); }
     /// Groups of two points or more.
     [[nodiscard]] std::uint64_t groups() const;

@@ -1,0 +1,222 @@
+"""Clouds welded in tiles on the disk: the bytes that memory gives, also after being killed."""
+
+from weld_support import *
+
+import random
+import signal
+
+FORMATS = ("ply", "xyz", "pcd", "csv")
+
+
+def cloud(count, seed=1, dense=False):
+    """Points with a property each; a third of them near others."""
+    rng = random.Random(seed)
+    points = []
+    for _ in range(count):
+        if points and rng.random() < 0.35:
+            near = rng.choice(points)
+            points.append(tuple(x + rng.uniform(-0.01, 0.01) for x in near))
+        elif points and rng.random() < 0.1:
+            points.append(rng.choice(points))
+        else:
+            size = 0.3 if dense else 1.0
+            points.append((3 * size * rng.random(), size * rng.random(), size * rng.random()))
+    return points
+
+
+def ply(points, ascii=True):
+    head = ("ply\nformat %s 1.0\ncomment a cloud\nelement vertex %d\nproperty double x\n"
+            "property double y\nproperty double z\nproperty int number\nend_header\n")
+    if ascii:
+        rows = "".join(f"{x!r} {y!r} {z!r} {i}\n" for i, (x, y, z) in enumerate(points))
+        return (head % ("ascii", len(points)) + rows).encode()
+    rows = b"".join(struct.pack("<dddi", *p, i) for i, p in enumerate(points))
+    return (head % ("binary_little_endian", len(points))).encode() + rows
+
+
+class Large(WeldTest):
+    def weld_both(self, name, *arguments, suffix=".ply", size=300):
+        """The output in memory and that in tiles of about `size` points."""
+        self.run_tool(name, *arguments, "-o", "memory" + suffix, "-f", status=0)
+        self.run_tool(name, *arguments, "-o", "tiles" + suffix, "-f", "--tile-points", size,
+                      status=0)
+        return self.read_bytes("memory" + suffix), self.read_bytes("tiles" + suffix)
+
+    def assert_no_folder(self):
+        self.assertFalse(any(n.endswith(".tf-weld-tiles") for n in self.listing()))
+
+    def test_every_format_and_rule_gives_the_bytes_that_memory_gives(self):
+        points = cloud(3000)
+        self.write("in.ply", ply(points, ascii=False))
+        for suffix in FORMATS:
+            if suffix != "ply":
+                self.run_tool("in.ply", "-o", f"in.{suffix}", status=0)
+            for rule in ("first", "chain"):
+                for tolerance in ("0", "0.01", "0.2"):
+                    with self.subTest(format=suffix, rule=rule, tolerance=tolerance):
+                        memory, tiles = self.weld_both(f"in.{suffix}", "-t", tolerance, "--rule",
+                                                       rule, suffix="." + suffix)
+                        self.assertEqual(memory, tiles)
+        self.assert_no_folder()
+
+    def test_text_and_single_precision_are_written_as_from_memory(self):
+        single = [tuple(round(64 * x) / 64 for x in p) for p in cloud(800)]
+        self.write("in.ply", ply(single))
+        for suffix in (".ply", ".xyz", ".csv", ".pcd"):
+            for more in ([], ["--ascii"], ["--precision", "double"]):
+                memory, tiles = self.weld_both("in.ply", "-t", "0.05", *more, suffix=suffix)
+                self.assertEqual(memory, tiles)
+        self.write("in.xyz", "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in single).encode())
+        memory, tiles = self.weld_both("in.xyz", "-t", "0.05", suffix=".ply")
+        self.assertEqual(memory, tiles)
+
+    def test_dense_clouds_and_wide_tolerances_give_the_same(self):
+        self.write("in.ply", ply(cloud(2000, dense=True), ascii=False))
+        for rule in ("first", "chain"):
+            for tolerance in ("0.05", "0.3", "5", "2%"):
+                memory, tiles = self.weld_both("in.ply", "-t", tolerance, "--rule", rule, size=100)
+                self.assertEqual(memory, tiles)
+
+    def test_all_that_can_be_given_back_is_the_same(self):
+        self.write("in.ply", ply(cloud(2500), ascii=False))
+        for rule in ("first", "chain"):
+            for name, tiled in (("memory", []), ("tiles", ["--tile-points", 200])):
+                common = ["in.ply", "-t", "0.02", "--rule", rule, "-f", *tiled]
+                self.run_tool(*common, "-o", f"{name}.ply", "--map", f"{name}.csv", "--removed",
+                              f"{name}-gone.ply", status=0)
+                self.run_tool(*common, "--map", f"{name}.bin", status=0)
+                self.run_tool(*common, "--label", "group", "-o", f"{name}-label.ply", status=0)
+                self.run_tool(*common, "--label", "number", "-o", f"{name}-number.ply", status=0)
+                self.run_tool(*common, "--check", status=1)
+            for end in (".ply", ".csv", "-gone.ply", ".bin", "-label.ply", "-number.ply"):
+                self.assertEqual(self.read_bytes("memory" + end), self.read_bytes("tiles" + end))
+        self.assert_no_folder()
+
+    def test_the_report_says_the_same(self):
+        points = cloud(1500) + [(float("nan"), 0.0, 0.0), (0.0, float("inf"), 0.0)]
+        self.write("in.ply", ply(points, ascii=False))
+        reports = []
+        for tiled in ([], ["--tile-points", 200]):
+            report = self.report("in.ply", "-t", "0.03", "-o", "out.ply", "-f", *tiled, status=0)
+            reports.append(report["files"])
+        self.assertEqual(*reports)
+
+    def test_points_that_are_not_finite_are_kept(self):
+        points = cloud(500) + 3 * [(float("nan"), 1.0, 2.0), (float("inf"), 0.0, 0.0)]
+        self.write("in.ply", ply(points, ascii=False))
+        memory, tiles = self.weld_both("in.ply", "-t", "0.02", size=60)
+        self.assertEqual(memory, tiles)
+
+    def test_standard_input_is_welded_as_a_file(self):
+        data = ply(cloud(900), ascii=False)
+        self.write("in.ply", data)
+        self.run_tool("in.ply", "-t", "0.02", "-o", "memory.ply", status=0)
+        for more in (["--tile-points", 100], ["--memory", "400M"]):
+            self.run_tool("-", "-t", "0.02", "-o", "out.ply", "-f", *more, stdin=data, status=0)
+            self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+            self.assertEqual(self.listing(), ["in.ply", "memory.ply", "out.ply"])
+
+    def test_what_only_memory_can_do_is_refused_in_words(self):
+        self.write("in.ply", ply(cloud(200), ascii=False))
+        for more in (["--keep", "mean"], ["--same", "number"], ["--keep-manifold"],
+                     ["--precision", "float"]):
+            run = self.run_tool("in.ply", "-t", "0.02", "-o", "out.ply", "--tile-points", 50,
+                                *more, status=2)
+            self.assertIn("memory", run.err)
+        self.assertEqual(self.listing(), ["in.ply"])
+
+    def test_after_being_killed_at_any_step_it_goes_on_to_the_same_bytes(self):
+        self.write("in.ply", ply(cloud(1500), ascii=False))
+        for rule in ("first", "chain"):
+            self.run_tool("in.ply", "-t", "0.02", "--rule", rule, "-o", "memory.ply", "-f",
+                          status=0)
+            command = ["in.ply", "-t", "0.02", "--rule", rule, "-o", "out.ply",
+                       "--tile-points", 250, "-j1"]
+            killed = 0
+            for step in range(1, 200):
+                run = self.run_tool(*command, "--stop-at", step)
+                if run.status == 0:
+                    break
+                killed += 1
+                self.assertEqual(run.status, -signal.SIGKILL)
+                self.assertNotIn("out.ply", self.listing())
+                before = {n: os.stat(self.path("out.ply.tf-weld-tiles/" + n)).st_mtime_ns
+                          for n in os.listdir(self.path("out.ply.tf-weld-tiles"))
+                          if n.endswith(".done")}
+                # Steps count from what is done: the next run gets as far again.
+                again = self.run_tool(*command, "-v", "--stop-at", 1)
+                self.assertIn(f"{len(before)} of", again.err)
+                for n, time in before.items():
+                    self.assertEqual(
+                        os.stat(self.path("out.ply.tf-weld-tiles/" + n)).st_mtime_ns, time)
+                run = self.run_tool(*command, "-f", status=0)
+                self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+                os.remove(self.path("out.ply"))
+                self.assert_no_folder()
+            self.assertGreater(killed, 5)
+            os.remove(self.path("out.ply"))
+
+    def test_a_damaged_tile_is_noticed(self):
+        self.write("in.ply", ply(cloud(1500), ascii=False))
+        self.run_tool("in.ply", "-t", "0.02", "-o", "memory.ply", status=0)
+        folder = "out.ply.tf-weld-tiles/"
+        for name, harm in (("0.drops", "cut"), ("0.border", "flip"), ("0.done", "cut"),
+                           ("3.points", "cut"), ("plan.json", "cut")):
+            command = ["in.ply", "-t", "0.02", "-o", "out.ply", "--tile-points", 250, "-j1", "-f"]
+            self.assertEqual(self.run_tool(*command, "--stop-at", 3).status, -signal.SIGKILL)
+            data = bytearray(self.read_bytes(folder + name))
+            self.assertGreater(len(data), 20, msg=name)
+            if harm == "cut":
+                data = data[:-5]
+            else:
+                data[len(data) // 2] ^= 1
+            self.write(folder + name, bytes(data))
+            self.run_tool(*command, status=0)
+            self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"), msg=name)
+            self.assert_no_folder()
+
+    def test_work_on_another_input_or_with_other_options_is_not_used(self):
+        for change in ("file", "tolerance", "rule"):
+            self.write("in.ply", ply(cloud(1000), ascii=False))
+            command = ["in.ply", "-o", "out.ply", "--tile-points", 250, "-f"]
+            self.assertEqual(self.run_tool(*command, "-t", "0.02", "--stop-at", 3).status,
+                             -signal.SIGKILL)
+            options = ["-t", "0.02"]
+            if change == "file":
+                self.write("in.ply", ply(cloud(1000, seed=2), ascii=False))
+            elif change == "tolerance":
+                options = ["-t", "0.03"]
+            else:
+                options += ["--rule", "chain"]
+            run = self.run_tool(*command, *options, status=0)
+            self.assertIn("started again", run.err)
+            self.run_tool("in.ply", *options, "-o", "memory.ply", "-f", status=0)
+            self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+
+    def test_a_folder_with_other_files_is_left_alone(self):
+        self.write("in.ply", ply(cloud(300), ascii=False))
+        os.mkdir(self.path("mine"))
+        self.write("mine/letter.txt", b"dear\n")
+        run = self.run_tool("in.ply", "-t", "0.02", "-o", "out.ply", "--tile-points", 50, "--work",
+                            "mine", status=4)
+        self.assertIn("mine", run.err)
+        self.assertEqual(os.listdir(self.path("mine")), ["letter.txt"])
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_a_cloud_beyond_the_memory_limit_is_welded_all_the_same(self):
+        rng = random.Random(5)
+        count = 400000
+        points = [(rng.random(), rng.random(), rng.random()) for _ in range(count // 2)]
+        points += [(x + 1e-7, y, z) for x, y, z in points]
+        head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {count}\n"
+                "property double x\nproperty double y\nproperty double z\nend_header\n")
+        self.write("in.ply", head.encode() + b"".join(struct.pack("<ddd", *p) for p in points))
+        self.run_tool("in.ply", "-t", "2e-7", "-o", "memory.ply", status=0)
+        run = self.run_tool("in.ply", "-t", "2e-7", "-o", "out.ply", "--memory", "48M", "-v",
+                            "-j2", status=0)
+        self.assertIn("tiles", run.err)
+        self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+
+
+if __name__ == "__main__":
+    main()
