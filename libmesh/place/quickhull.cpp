@@ -37,7 +37,7 @@ quickhull::quickhull(points_view points, const scaled_points& scaled,
     for (std::uint32_t p = 0; p < points.size(); ++p)
         for (std::uint32_t f = 0; f < 4; ++f)
             if (keep_above(f, p)) break;
-    waiting_ = {0, 1, 2, 3};
+    for (std::uint32_t f = 0; f < 4; ++f) waiting_.push(f);
 }
 
 std::uint32_t quickhull::make_facet(const face& corners) {
@@ -143,9 +143,11 @@ void quickhull::hand_over_points(std::uint32_t p) {
 }
 
 void quickhull::run() {
+    // The oldest first, so that the hull gets finer everywhere at once. Where it is fine beside
+    // coarse, as around a cylinder's one rim and not the other, points see long rows of facets.
     while (!waiting_.empty()) {
-        const std::uint32_t at = waiting_.back();
-        waiting_.pop_back();
+        const std::uint32_t at = waiting_.front();
+        waiting_.pop();
         if (!facets_[at].used || facets_[at].first_above == none) continue;
         const std::uint32_t p = facets_[at].highest;
         find_seen(at, p);
@@ -156,7 +158,7 @@ void quickhull::run() {
             free_.push_back(gone);
         }
         for (const std::uint32_t made : cone_)
-            if (facets_[made].first_above != none) waiting_.push_back(made);
+            if (facets_[made].first_above != none) waiting_.push(made);
     }
 }
 

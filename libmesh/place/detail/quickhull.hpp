@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <queue>
 #include <vector>
 
 namespace tf::detail {
@@ -82,7 +83,7 @@ class quickhull {
     const scaled_points& scaled_;
     std::vector<facet> facets_;
     std::vector<std::uint32_t> free_;     ///< facets that may be used again
-    std::vector<std::uint32_t> waiting_;  ///< facets that may have points above
+    std::queue<std::uint32_t> waiting_;   ///< facets that may have points above
     std::vector<std::uint32_t> next_;     ///< [V]
     std::vector<std::uint32_t> cone_at_;  ///< [V] new facet of the rim's edge that starts there
     std::vector<std::uint32_t> seen_;
