@@ -36,14 +36,16 @@ std::uint64_t memory_allowed(const common_options& o) {
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) / 4 * 3;
 }
 
-/// What welding takes in memory for a point of `header`: its place and properties twice, in the
-/// input and in the result, and what `weld_points` needs.
+constexpr std::uint64_t base_memory = std::uint64_t{32} << 20;  ///< of an empty cloud
+
+/// What welding takes in memory for a point of `header`, measured: its place once, its properties
+/// twice, in the input and in the result, and what finds its neighbors.
 std::uint64_t bytes_in_memory(const tf::mesh_file& header) {
     std::uint64_t properties = 0;
     if (const tf::element* vertices = tf::find_element(header.attributes, "vertex"))
         for (const tf::column& c : vertices->columns)
             if (c.role == tf::column_role::data) properties += tf::size_of(c.type);
-    return 2 * (sizeof(tf::point3) + properties) + 80;
+    return sizeof(tf::point3) + 2 * properties + 48;
 }
 
 /// Why only memory will do; empty where tiles will, too.
@@ -122,6 +124,18 @@ json identity_of(const job& work, const fs::path& input, const weld_request& req
             {"points_per_tile", tiles.points_per_tile}};
 }
 
+const char* const leftovers = "unfinished.json";
+
+/// What a process that was killed in the last pass has not brought to an end.
+void remove_leftovers(const work_folder& folder) {
+    const auto stored = folder.load(leftovers);
+    if (!stored) return;
+    for (const json& left : stored->value("folders", json::array())) {
+        const fs::path path = left.is_string() ? left.get<std::string>() : std::string();
+        if (path.filename().string().starts_with(".unfinished-")) fs::remove_all(path);
+    }
+}
+
 /// Rows of a block on their way to a file of points.
 class points_out {
   public:
@@ -157,16 +171,19 @@ void put_column(std::vector<tf::column>& columns, tf::column column) {
 class giving_back {
   public:
     giving_back(job& work, const weld_request& request, const fs::path& input,
-                const point_survey& survey, const tile_steps& steps, tiles_welded& welded)
+                const point_survey& survey, tile_steps& steps, tiles_welded& welded,
+                const work_folder& folder)
         : work_(work),
           asked_(request.outputs),
           survey_(survey),
+          steps_(steps),
           welded_(welded),
           reader_(input, work.options.format),
           head_(reader_.header()),
           outputs_(work) {
         head_.stored_as = survey.single ? tf::precision::single_ : tf::precision::double_;
         open_files();
+        folder.store(leftovers, {{"folders", outputs_.unfinished()}});
         if (map_ || !asked_.label.empty()) {
             welded_.kept.number();
             drops_.emplace(steps.all_drops(welded));
@@ -183,6 +200,7 @@ class giving_back {
             show(static_cast<double>(first_) / static_cast<double>(survey_.points));
             work_.keeper.check();
         }
+        steps_.step_done();
         work_.out.end_progress();
         if (first_ != survey_.points)
             throw failure(bad_input, "changed",
@@ -287,6 +305,7 @@ class giving_back {
     job& work_;
     const weld_outputs& asked_;
     const point_survey& survey_;
+    tile_steps& steps_;
     tiles_welded& welded_;
     tf::point_reader reader_;
     tf::mesh_file head_;
@@ -321,6 +340,7 @@ void enter_source(job& work, const point_survey& survey, const fs::path& input) 
 exit_status weld_in_tiles(job& work, const weld_request& request, const tile_settings& tiles,
                           const fs::path& input, const tf::mesh_file& header) {
     work_folder folder(folder_for(work, request, tiles));
+    remove_leftovers(folder);
     const tile_task task{.input = input,
                          .rule = request.settings.rule,
                          .memory = memory_allowed(work.options),
@@ -365,7 +385,7 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_set
 
     const job::timer timing = work.time("write");
     try {
-        giving_back(work, request, input, survey, steps, welded).run();
+        giving_back(work, request, input, survey, steps, welded, folder).run();
     } catch (const tf::io_error& error) {
         throw failure(bad_output, "output", error.what());
     }
@@ -397,7 +417,7 @@ exit_status weld_file(job& work, const weld_request& request, const tile_setting
         header = cloud->header();
         needed = cloud->count().value_or(size / 16) * bytes_in_memory(header);
     }
-    if (!asked && needed <= allowed) return weld_in_memory(work, request);
+    if (!asked && needed + base_memory <= allowed) return weld_in_memory(work, request);
     const std::string only = what_needs_memory(work, request, header);
     if (only.empty()) return weld_in_tiles(work, request, tiles, path, header);
     const std::string text =

@@ -109,6 +109,14 @@ const std::filesystem::path& pending_outputs::add(const std::filesystem::path& p
     return places_.back()->writable();
 }
 
+std::vector<std::string> pending_outputs::unfinished() const {
+    std::vector<std::string> folders;
+    for (const auto& place : places_)
+        if (place->writable() != place->path())
+            folders.push_back(std::filesystem::absolute(place->writable().parent_path()).string());
+    return folders;
+}
+
 void pending_outputs::commit() {
     for (const auto& place : places_) place->commit();
     places_.clear();

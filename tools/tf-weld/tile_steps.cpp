@@ -194,10 +194,17 @@ void tile_steps::scatter(double tolerance) {
     const tf::tile_slabs slabs = plan();
     survey_.sample = {};
     tiles_.resize(slabs.size());
+    // Tiles' points are removed as their drops are written, which take half as much at most.
+    const std::uint64_t needed = survey_.points * (sizeof(tile_point) + 2);
     work_.out.info(work_.name + ": " + grouped(survey_.points) + " points in " +
                    counted(slabs.size(), "tile", "tiles") + ", about " +
-                   grouped((survey_.points >> 20) * 56 + 1) + " MB needed in " +
-                   folder_.path().string());
+                   grouped(needed / 1000000 + 1) + " MB on the disk in " + folder_.path().string());
+    std::error_code unknown;
+    const auto space = std::filesystem::space(folder_.path(), unknown);
+    if (!unknown && space.available < needed)
+        work_.warn("space", folder_.path().string() + ": only " +
+                                grouped(space.available / 1000000) + " MB left on the disk of " +
+                                grouped(needed / 1000000 + 1) + " needed; --work names another");
 
     tf::point_reader reader(task_.input, work_.options.format);
     const auto show = work_.progress("scatter");

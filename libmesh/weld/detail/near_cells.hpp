@@ -93,6 +93,9 @@ class near_cells {
     void reserve(std::size_t count) {
         entries_.reserve(count);
         next_.reserve(count);
+        if (2 * count <= heads_.size()) return;
+        heads_.assign(std::bit_ceil(2 * count), nobody);
+        hang_all();
     }
     [[nodiscard]] std::size_t size() const { return entries_.size(); }
 
