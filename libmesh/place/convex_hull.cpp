@@ -271,7 +271,7 @@ std::vector<std::uint32_t> corners_of(const convex_hull_result& hull, const hull
     do {
         around.push_back(at);
         at = std::lower_bound(rim.begin(), rim.end(), edge(at, 0))->second;
-    } while (at != rim[0].first);
+    } while (at != rim[0].first && around.size() < rim.size());
     std::vector<std::uint32_t> corners;
     for (std::size_t i = 0; i < around.size(); ++i) {
         const std::uint32_t before = around[(i + around.size() - 1) % around.size()];
