@@ -27,13 +27,21 @@ struct pair_walk<D>::context {
 
 namespace {
 
-/// Pairs of nodes, the nearest on top. The heap moves only keys.
+/// Pairs of nodes, the nearest on top. The heap moves only keys; places are used again, so that a
+/// search stays in few cache lines.
 template <std::size_t D>
 class nearest_first_queue {
   public:
     void push(const pair_entry<D>& entry) {
-        keys_.push_back({entry.lower, static_cast<std::uint32_t>(entries_.size())});
-        entries_.push_back(entry);
+        auto index = static_cast<std::uint32_t>(entries_.size());
+        if (free_.empty()) {
+            entries_.push_back(entry);
+        } else {
+            index = free_.back();
+            free_.pop_back();
+            entries_[index] = entry;
+        }
+        keys_.push_back({entry.lower, index});
         std::push_heap(keys_.begin(), keys_.end(), is_further());
     }
     [[nodiscard]] bool empty() const { return keys_.empty(); }
@@ -41,6 +49,7 @@ class nearest_first_queue {
         std::pop_heap(keys_.begin(), keys_.end(), is_further());
         const std::uint32_t index = keys_.back().index;
         keys_.pop_back();
+        free_.push_back(index);
         return entries_[index];
     }
 
@@ -56,6 +65,7 @@ class nearest_first_queue {
     };
     std::vector<key> keys_;
     std::vector<pair_entry<D>> entries_;
+    std::vector<std::uint32_t> free_;
 };
 
 }  // namespace
@@ -236,10 +246,11 @@ void walk_best_first(const Context& in, double squared, std::size_t budget,
 template <std::size_t D, class Context>
 void begin_walk(const Context& in, double squared, function_ref<bool()> stop, visit_blocks visit,
                 std::vector<pair_entry<D>>& items) {
-    // Most searches end within this, having opened hardly a node too many. Where much is about as
-    // near, it gives a bound near the final one; then depth first, which stays near in memory, in a
-    // few large pieces.
-    constexpr std::size_t budget = 1024;
+    // Where more is known than boxes, most searches end within this, having opened hardly a node
+    // too many. Boxes alone leave so many pairs about as near that keeping them in order costs more
+    // than it spares, beyond a bound near the final one; the rest goes depth first, which stays
+    // near in memory, in a few large pieces.
+    const std::size_t budget = in.raise != nullptr ? 1024 : 256;
     constexpr std::size_t enough = 64;
     double limit = squared;
     items.clear();

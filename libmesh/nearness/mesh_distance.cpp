@@ -49,34 +49,34 @@ class placed_faces {
     [[nodiscard]] const detail::eight_triangles& load(std::size_t block, unsigned wanted,
                                                       detail::eight_triangles& space) const {
         if (blocks_ != nullptr) {
-            if (stays_) return blocks_[block];
+            if (!moves_ && unit_ == 1.0) return blocks_[block];
             detail::move_triangles(blocks_[block], by_, unit_, space);
             return space;
         }
         space = {};
         for (; wanted != 0; wanted &= wanted - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(wanted));
-            const face& corners = mesh_.faces[ids_[block * 8 + i]];
-            space.set(
-                i, {mesh_.points[corners[0]], mesh_.points[corners[1]], mesh_.points[corners[2]]});
+            triangle3 t;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const point3& p = mesh_.points[mesh_.faces[ids_[block * 8 + i]][k]];
+                t[k] = moves_ ? by_(p) : p;
+                if (unit_ != 1.0) t[k] = {t[k].x * unit_, t[k].y * unit_, t[k].z * unit_};
+            }
+            space.set(i, t);
         }
-        if (!stays_) detail::move_triangles(space, by_, unit_, space);
         return space;
     }
 
   private:
     placed_faces(const transformed<3>& tree, double unit)
-        : ids_(tree.original().ids().data()),
-          by_(tree.by()),
-          unit_(unit),
-          stays_(!tree.moves() && unit == 1.0) {}
+        : ids_(tree.original().ids().data()), by_(tree.by()), moves_(tree.moves()), unit_(unit) {}
 
     mesh_view mesh_;
     const detail::eight_triangles* blocks_ = nullptr;
     const std::uint32_t* ids_;
     transform<3> by_;
+    bool moves_;
     double unit_;
-    bool stays_;
 };
 
 /// The nearest pair so far, and the direction between the points of the last pair looked at: of two
