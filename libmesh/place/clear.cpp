@@ -125,28 +125,29 @@ class clearing {
         return true;
     }
 
-    /// So far along `direction` that the boxes are apart by more than the clearance.
-    [[nodiscard]] double beyond_boxes(const point3& direction) const {
-        double time = 0.0;
-        for (const box3& other : boxes_) {
-            double least = infinity;
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (direction[k] == 0.0) continue;
-                const double gap =
-                    direction[k] > 0.0 ? other.max[k] - box_->min[k] : box_->max[k] - other.min[k];
-                least = std::min(least, (gap + options_.clearance) / std::abs(direction[k]));
-            }
-            time = std::max(time, least);
+    /// So far along `direction` that the box of a part is just left by the clearance.
+    [[nodiscard]] double beyond_box(const box3& other, const point3& direction) const {
+        double least = infinity;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (direction[k] == 0.0) continue;
+            const double gap =
+                direction[k] > 0.0 ? other.max[k] - box_->min[k] : box_->max[k] - other.min[k];
+            least = std::min(least, (gap + options_.clearance) / std::abs(direction[k]));
         }
-        return time * (1.0 + 0x1p-20);
+        return std::max(least, 0.0);
     }
 
     /// The length of a free way back from the first free place along `direction`.
     [[nodiscard]] std::optional<double> way_out(const point3& direction, double lacking,
                                                 double best) const {
-        const double out = beyond_boxes(direction);
-        if (!std::isfinite(out)) return std::nullopt;
         std::vector<double> times;
+        double out = 0.0;
+        for (std::size_t i = 0; i < boxes_.size(); ++i) {
+            const double beyond = beyond_box(boxes_[i], direction);
+            if (boxes_within(i, {})) times.push_back(beyond);
+            out = std::max(out, beyond * (1.0 + 0x1p-20));
+        }
+        if (!std::isfinite(out)) return std::nullopt;
         for (int k = 12; k >= 0; --k) times.push_back(std::ldexp(out, -k));
         if (lacking > 0.0) times.push_back(lacking * (1.0 + 0x1p-40));
         std::sort(times.begin(), times.end());

@@ -1,3 +1,4 @@
+#include <libmesh/bounding_box.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/mesh_distance.hpp>
@@ -64,6 +65,14 @@ surface_point surface_point_of(mesh_view mesh, std::uint32_t face, const point3&
     return {face, p, barycentric_weights(triangle_of(mesh, face), p)};
 }
 
+bool boxes_meet(mesh_view a, mesh_view b) {
+    const auto box_a = bounding_box(a.points), box_b = bounding_box(b.points);
+    if (!box_a || !box_b) return true;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!(box_a->min[k] <= box_b->max[k] && box_b->min[k] <= box_a->max[k])) return false;
+    return true;
+}
+
 }  // namespace
 
 std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t, const point3& p) {
@@ -85,10 +94,10 @@ std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t, const 
 }
 
 std::optional<mesh_measure> measure(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                    const tree<3>& tree_b) {
+                                    const tree<3>& tree_b, double radius) {
     if (a.faces.empty() || b.faces.empty()) return std::nullopt;
     mesh_measure result;
-    result.relation = relation(a, tree_a, b, tree_b);
+    if (boxes_meet(a, b)) result.relation = relation(a, tree_a, b, tree_b);
     if (result.relation.relation != mesh_relation::separate) {
         const std::uint32_t f = result.relation.face_a, g = result.relation.face_b;
         const auto common = closest_points(triangle_of(a, f), triangle_of(b, g));
@@ -98,9 +107,12 @@ std::optional<mesh_measure> measure(mesh_view a, const tree<3>& tree_a, mesh_vie
             return result;
         }
     }
-    const auto nearest = mesh_distance(a, tree_a, b, tree_b);
+    const bool separate = result.relation.relation == mesh_relation::separate;
+    const auto nearest = mesh_distance(a, tree_a, b, tree_b,
+                                       separate ? radius : std::numeric_limits<double>::infinity());
+    if (!nearest) return std::nullopt;
     result.surface_distance = nearest->distance;
-    if (result.relation.relation == mesh_relation::separate) result.distance = nearest->distance;
+    if (separate) result.distance = nearest->distance;
     result.on_a = surface_point_of(a, nearest->face_a, nearest->on_a);
     result.on_b = surface_point_of(b, nearest->face_b, nearest->on_b);
     return result;

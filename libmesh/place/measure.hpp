@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace tf {
@@ -34,18 +35,19 @@ struct mesh_measure {
 };
 
 /// The relation of `a` and `b`, their distance and their nearest points in one; none when one has
-/// no faces.
+/// no faces, or when they are further apart than `radius` (inclusive) and separate.
 ///
 /// The relation is exact, as `relation` says, and so is whether distances are 0. Else they are
 /// rounded as `mesh_distance` says. When the surfaces meet, the points are on the faces that
 /// `relation` names if these meet.
 ///
 /// \pre    as `relation`
-/// \throws std::invalid_argument as `mesh_intersections`
-/// \cost   that of `relation` and, of meshes whose surfaces are apart, of `mesh_distance`
+/// \throws std::invalid_argument as `mesh_intersections` and `mesh_distance`
+/// \cost   that of `mesh_distance`, and of `relation` where the boxes of the meshes meet
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(mesh_view a, const tree<3>& tree_a,
-                                                               mesh_view b, const tree<3>& tree_b);
+[[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(
+    mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
+    double radius = std::numeric_limits<double>::infinity());
 [[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(mesh_view a, mesh_view b);
 
 /// The weights of the corners of `t` that give the point `p` of it, as in `surface_point`.

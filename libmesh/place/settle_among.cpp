@@ -59,9 +59,14 @@ class settling {
   private:
     void put_on_floor(std::vector<point3>& points, bool rests) const {
         double level = *options_.floor;
-        if (rests) {
-            const auto box = bounding_box(points);
-            if (box) level = std::max(level, box->min.z);
+        const auto box = bounding_box(points);
+        const auto before = bounding_box(a_.points);
+        if (rests && box && before) {
+            double largest = std::abs(level);
+            for (const double z : {box->min.z, box->max.z, before->min.z, before->max.z})
+                largest = std::max(largest, std::abs(z));
+            if (box->min.z - level <= std::ldexp(largest, options_.to_single ? -21 : -50))
+                level = std::max(level, box->min.z);
         }
         for (point3& p : points)
             if (p.z <= level) p.z = *options_.floor;

@@ -18,8 +18,10 @@ namespace tf {
 struct settle_among_options {
     bool to_single = false;  ///< coordinates become float32 values, as a binary STL holds them
     double clearance = 0.0;  ///< the least distance to the parts, as `mesh_distance` computes it
-    /// A level on which the mesh comes to rest, where given: what would come to lie below it, and
-    /// at the time asked for the lowest points too, is put on it exactly.
+    /// Where given, a level that the mesh stays above. What would come to lie below it is put on
+    /// it, and so are, at the time asked for, its lowest points, when these come to lie within 4
+    /// units in the last place of the largest z, before or after: then the mesh rests on it
+    /// exactly.
     std::optional<double> floor{};
     bool forward = false;  ///< back off to later times, not to earlier ones
     unsigned attempts = 40;

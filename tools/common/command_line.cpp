@@ -75,8 +75,18 @@ void command_line::refuse(std::string names, bool has_value, std::string why) {
         parser_->app.add_flag_function(names, [complain](std::int64_t) { complain(); });
 }
 
-void command_line::inputs(std::vector<std::string>& target, std::string text) {
-    parser_->app.add_option("INPUT", target)->required();
+void command_line::repeatable_option(std::vector<std::string>& target, option_text text) {
+    parser_->app.add_option(names_of(text), target)->allow_extra_args(false);
+    mention(std::move(text));
+}
+
+void command_line::word(std::string& target, std::string name) {
+    parser_->app.add_option(std::move(name), target)->required();
+}
+
+void command_line::inputs(std::vector<std::string>& target, std::string text, std::string name) {
+    parser_->app.add_option(name, target)->required();
+    inputs_name_ = std::move(name);
     inputs_text_ = std::move(text);
 }
 
@@ -103,7 +113,8 @@ command_line::outcome command_line::parse(int argc, const char* const* argv) {
 
 std::string command_line::help() const {
     std::string text = "Usage: " + name_ + " " + usage_ + "\n\n" + purpose_ + "\n\n";
-    text += lay_out(option_group{.options = {{.names = "INPUT...", .text = inputs_text_}}});
+    text +=
+        lay_out(option_group{.options = {{.names = inputs_name_ + "...", .text = inputs_text_}}});
     for (const option_group& group : groups_) text += lay_out(group);
     return text + "\n" + epilogue_;
 }

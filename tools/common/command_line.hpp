@@ -33,7 +33,12 @@ class command_line {
     void output(std::filesystem::path& target, option_text text);
     /// An option of other tools of the family that makes no sense here, and why.
     void refuse(std::string names, bool has_value, std::string why);
-    void inputs(std::vector<std::string>& target, std::string text);
+    /// An option that may be given several times, with one value each time.
+    void repeatable_option(std::vector<std::string>& target, option_text text);
+    /// A word that stands ahead of the inputs, such as a mode.
+    void word(std::string& target, std::string name);
+    /// `name` stands for them in the help.
+    void inputs(std::vector<std::string>& target, std::string text, std::string name = "INPUT");
     /// An entry of the help without an option behind it.
     void mention(option_text text);
     /// Text at the end of the help.
@@ -56,6 +61,7 @@ class command_line {
     std::string name_;
     std::string usage_;
     std::string purpose_;
+    std::string inputs_name_ = "INPUT";
     std::string inputs_text_;
     std::string epilogue_;
     std::vector<option_group> groups_;

@@ -101,9 +101,10 @@ void check_outputs(const command_line& line, const common_options& o) {
         for (std::size_t j = 0; j < i; ++j)
             if (outputs[j] != "-" && same_file(outputs[i], outputs[j]))
                 refuse(outputs[i].string() + " is named for two outputs");
-        for (const auto& input : o.inputs)
-            if (input != "-" && same_file(outputs[i], input))
-                refuse(outputs[i].string() + " is an input; no output may replace it");
+        for (const auto* read : {&o.inputs, &o.also_read})
+            for (const auto& input : *read)
+                if (input != "-" && same_file(outputs[i], input))
+                    refuse(outputs[i].string() + " is an input; no output may replace it");
     }
     if (o.inputs.size() < 2 || o.joined) return;
     for (const fs::path& path : outputs)
@@ -136,9 +137,10 @@ void check_output_folder(const common_options& o) {
         const fs::path name = *mesh_output(o, input);
         if (!names.insert(name).second)
             refuse("two inputs would both be written to " + name.string());
-        for (const auto& other : o.inputs)
-            if (other != "-" && same_file(name, other))
-                refuse(name.string() + " is an input; no output may replace it");
+        for (const auto* read : {&o.inputs, &o.also_read})
+            for (const auto& other : *read)
+                if (other != "-" && same_file(name, other))
+                    refuse(name.string() + " is an input; no output may replace it");
     }
 }
 
@@ -170,7 +172,10 @@ void check_common_options(const command_line& line, const common_options& option
     if (options.ascii && options.binary) refuse("--ascii and --binary exclude each other");
     if (options.quiet && (options.verbose > 0 || options.progress))
         refuse("-q excludes -v and --progress");
-    if (std::count(options.inputs.begin(), options.inputs.end(), "-") > 1)
+    const auto from_standard_input = [](const std::vector<std::string>& names) {
+        return std::count(names.begin(), names.end(), "-");
+    };
+    if (from_standard_input(options.inputs) + from_standard_input(options.also_read) > 1)
         refuse("standard input can be read only once");
     if (options.output == "-" && options.output_format.empty())
         refuse("-o - needs --output-format");

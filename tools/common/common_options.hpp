@@ -14,6 +14,7 @@ namespace tools {
 
 struct common_options {
     std::vector<std::string> inputs;
+    std::vector<std::string> also_read;  ///< files that are read beside the inputs
     std::filesystem::path output;
     std::filesystem::path output_dir;
     std::string suffix;     ///< for `output_dir`

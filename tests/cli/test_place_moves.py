@@ -1,0 +1,244 @@
+"""Where tf-place puts things: exact travels, statuses, exit codes, what is written."""
+
+from place_support import *
+
+
+class Moves(PlaceTest):
+    def setUp(self):
+        super().setUp()
+        self.mesh("a.obj", box((1, 1, 5.5), (2, 2, 6.5)))
+        self.mesh("floor.obj", box((0, 0, 0), (4, 4, 1)))
+        self.mesh("in.obj", box((1, 1, 0.75), (2, 2, 1.75)))
+
+    def placed(self, *arguments):
+        entry = self.entry(*arguments, status=0)
+        self.assertTrue(entry["placed"])
+        return entry
+
+    def refused(self, *arguments):
+        entry = self.entry(*arguments, "-o", "refused.obj", status=1)
+        self.assertFalse(entry["placed"])
+        self.assertEqual(entry["not_placed"], [entry["input"]])
+        for key in ("matrix", "travel", "output"):
+            self.assertIsNone(entry[key])
+        self.assertNotIn("refused.obj", self.listing())
+        return entry
+
+    def test_a_box_drops_exactly_onto_another(self):
+        entry = self.placed("drop", "a.obj", "--fixed", "floor.obj", "-o", "out.obj")
+        self.assertEqual((entry["travel"], entry["status"], entry["distance"]),
+                         (4.5, "touching", 0))
+        self.assertEqual(entry["matrix"], [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, -4.5],
+                                           [0, 0, 0, 1]])
+        self.assertEqual(self.points("out.obj"), box((1, 1, 1), (2, 2, 2))[0])
+        self.assertIsNone(entry["bed"])
+        for contact in entry["contacts"]:
+            self.assertEqual((contact["point"][2], contact["normal"]), (1, [0, 0, 1]))
+            self.assertIn(contact["fixed"], (2, 3))  # the faces of its top
+        self.assertEqual(len(entry["contacts"]), entry["contact_count"])
+
+    def test_without_fixed_meshes_it_drops_on_the_bed(self):
+        entry = self.placed("drop", "a.obj", "-o", "out.obj")
+        self.assertEqual((entry["travel"], entry["status"]), (5.5, "touching"))
+        self.assertEqual(entry["bed"], {"given": 0, "used": 0, "reached": True})
+        self.assertEqual(self.lowest("out.obj"), 0)
+        self.assertEqual([c["part"] for c in entry["contacts"]], ["bed"])
+        self.assertEqual(self.placed("drop", "a.obj", "--bed", "-2.5")["travel"], 8)
+        self.assertEqual(self.placed("drop", "a.obj", "--bed", "5.5")["travel"], 0)
+
+    def test_the_bed_and_fixed_meshes_together_stop_it_at_the_first(self):
+        both = ("drop", "a.obj", "--fixed", "floor.obj", "--bed")
+        self.assertEqual(self.placed(*both, "0")["travel"], 4.5)
+        self.assertEqual(self.placed(*both, "2")["travel"], 3.5)
+        self.mesh("beside.obj", box((7, 7, 0), (8, 8, 1)))
+        self.assertEqual(self.placed("drop", "a.obj", "--fixed", "beside.obj", "--bed", "0")
+                         ["travel"], 5.5)
+        self.assertIn("nothing is in the way",
+                      self.refused("drop", "a.obj", "--fixed", "beside.obj")["reason"])
+
+    def test_what_is_below_the_bed_is_not_lifted(self):
+        entry = self.refused("drop", "a.obj", "--bed", "6")
+        self.assertEqual(entry["status"], "penetrating")
+        self.assertIn("0.5 below the bed", entry["reason"])
+
+    def test_the_lowest_point_written_is_the_bed_exactly(self):
+        self.mesh("odd.stl", box((0.1, 0.1, 0.3), (0.7, 0.7, 0.9)))
+        self.mesh("odd.obj", box((0.1, 0.1, 1 / 3), (0.7, 0.7, 0.9)))
+        for bed in (0, 0.1, -1 / 3, 1e-9):
+            self.placed("drop", "odd.obj", "--bed", repr(bed), "-o", "out.obj", "-f")
+            self.assertEqual(self.lowest("out.obj"), bed)
+            entry = self.placed("drop", "odd.stl", "--bed", repr(bed), "-o", "out.stl", "-f")
+            self.assertEqual(self.lowest("out.stl"), entry["bed"]["used"])
+            self.assertGreaterEqual(entry["bed"]["used"], bed)
+            self.assertLess(entry["bed"]["used"] - bed, abs(bed) * 2**-22 + 1e-40)
+
+    def test_slide_stops_at_the_clearance(self):
+        slide = ("slide", "a.obj", "--fixed", "floor.obj", "-d", "0,0,-3")
+        entry = self.placed(*slide, "--clearance", "0.5")
+        self.assertEqual((entry["travel"], entry["status"], entry["distance"]), (4, "clear", 0.5))
+        self.assertEqual(entry["direction"], [0, 0, -1])
+        self.assertEqual(self.placed(*slide)["travel"], 4.5)
+        self.assertEqual(entry["closest"]["fixed"]["point"][2], 1)
+        self.assertEqual(entry["closest"]["moving"]["point"][2], 1.5)
+
+    def test_slide_gives_up_beyond_the_longest_travel(self):
+        slide = ("slide", "a.obj", "--fixed", "floor.obj", "-d", "0,0,-1", "--max-travel")
+        self.assertEqual(self.placed(*slide, "4.5")["travel"], 4.5)
+        self.assertIn("within 4.4", self.refused(*slide, "4.4")["reason"])
+        self.assertIn("nothing is in the way", self.refused(
+            "slide", "a.obj", "--fixed", "floor.obj", "-d", "1,0,0")["reason"])
+
+    def test_what_touches_stays_and_what_penetrates_is_said(self):
+        self.mesh("on.obj", box((1, 1, 1), (2, 2, 2)))
+        for mode in (["drop"], ["slide", "-d", "0,0,-1"], ["mate"], ["clear"]):
+            entry = self.placed(*mode, "on.obj", "--fixed", "floor.obj")
+            self.assertEqual((entry["travel"], entry["status"]), (0, "touching"))
+        for mode in (["drop"], ["slide", "-d", "0,0,-1"], ["mate"]):
+            entry = self.refused(*mode, "in.obj", "--fixed", "floor.obj")
+            self.assertEqual(entry["status_at_start"], "penetrating")
+            self.assertIn("penetrates floor.obj", entry["reason"])
+            self.assertGreater(len(entry["contacts"]), 0)
+
+    def test_mate_brings_the_nearest_points_together(self):
+        self.mesh("corner.obj", box((7, 8, 1), (8, 9, 2)))
+        entry = self.placed("mate", "corner.obj", "--fixed", "floor.obj", "-o", "out.obj")
+        self.assertEqual((entry["travel"], entry["status"]), (5, "touching"))
+        self.assertEqual(self.points("out.obj"), box((4, 4, 1), (5, 5, 2))[0])
+        entry = self.placed("mate", "corner.obj", "--fixed", "floor.obj", "--clearance", "1.25")
+        self.assertAlmostEqual(entry["travel"], 3.75, places=12)
+        self.assertEqual(entry["status"], "clear")
+        self.assertGreaterEqual(entry["distance"], 1.25)
+        self.refused("mate", "corner.obj", "--fixed", "floor.obj", "--max-travel", "4.9")
+
+    def test_clear_takes_the_short_way_out(self):
+        entry = self.placed("clear", "in.obj", "--fixed", "floor.obj", "-o", "out.obj")
+        self.assertEqual((entry["travel"], entry["direction"]), (0.25, [0, 0, 1]))
+        self.assertEqual(self.lowest("out.obj"), 1)
+        entry = self.placed("clear", "in.obj", "--fixed", "floor.obj", "--clearance", "0.5")
+        self.assertEqual((entry["travel"], entry["distance"], entry["status"]),
+                         (0.75, 0.5, "clear"))
+        self.assertEqual(entry["status_at_start"], "penetrating")
+        self.assertEqual(self.placed("clear", "a.obj", "--fixed", "floor.obj", "--clearance",
+                                     "4.5")["travel"], 0)
+        self.assertIn("longer than 0.2", self.refused(
+            "clear", "in.obj", "--fixed", "floor.obj", "--max-travel", "0.2")["reason"])
+
+    def test_clear_minds_all_fixed_meshes(self):
+        self.mesh("lid.obj", box((0, 0, 2), (4, 4, 3)))
+        entry = self.placed("clear", "in.obj", "--fixed", "floor.obj", "--fixed", "lid.obj", "-o",
+                            "out.obj")
+        self.assertEqual(entry["travel"], 0.25)
+        self.assertEqual(self.entry("measure", "out.obj", "--fixed", "floor.obj", "--fixed",
+                                    "lid.obj")["status"], "touching")
+        entry = self.placed("clear", "in.obj", "--fixed", "floor.obj", "--fixed", "lid.obj",
+                            "--clearance", "0.5")
+        self.assertEqual((entry["travel"], entry["direction"]), (2.25, [0, 0, -1]))  # not up
+
+    def test_a_float_file_never_penetrates_as_written(self):
+        self.mesh("slope.obj", ([(0, 0, 0), (3, 0, 1), (0, 3, 1.1), (0, 0, -4)],
+                                [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)]))
+        for i in range(12):
+            at = (0.3 + 0.07 * i, 0.2 + 0.05 * i, 3.1)
+            self.mesh("a.stl", box(at, [x + 0.3 for x in at]))
+            entry = self.placed("slide", "a.stl", "--fixed", "slope.obj", "-d", "0.1,-0.03,-1",
+                                "-o", "out.stl", "-f")
+            self.assertEqual(entry["output"]["precision_out"], "float")
+            self.assertEqual(entry["output"]["max_move"], 0)  # as checked
+            again = self.entry("measure", "out.stl", "--fixed", "slope.obj")
+            self.assertIn(again["status"], ("separate", "touching"))
+            self.assertLess(again["distance"], 1e-6)
+
+    def test_precision_is_that_asked_for(self):
+        self.mesh("third.obj", box((0, 0, 1 / 3), (1, 1, 2)))
+        for precision in ("float", "double", "keep"):
+            entry = self.placed("drop", "third.obj", "--bed", "0.1", "-o", "out.ply",
+                                "--precision", precision, "-f")
+            self.assertEqual(entry["output"]["precision_out"],
+                             "float" if precision == "float" else "double")
+
+    def test_several_fixed_meshes_are_indexed_only_where_they_matter(self):
+        for i in range(5):
+            self.mesh(f"far{i}.obj", box((10 + i, 0, 0), (10.5 + i, 1, 1)))
+        fixed = [x for i in range(5) for x in ("--fixed", f"far{i}.obj")]
+        entry = self.placed("drop", "a.obj", *fixed, "--fixed", "floor.obj")
+        self.assertEqual(entry["travel"], 4.5)
+        self.assertEqual([f["indexed"] for f in entry["fixed"]], 5 * [False] + [True])
+        skipped = entry["skipped"]
+        self.assertEqual((skipped["parts_not_indexed"], skipped["pairs_culled_by_box"],
+                          skipped["primitives_not_indexed"]), (5, 5, 60))
+        self.assertEqual({c["part"] for c in entry["contacts"]}, {5})
+
+    def test_stl_corners_are_joined_so_that_a_body_has_an_inside(self):
+        self.mesh("small.stl", box((1, 1, 1), (2, 2, 2)))
+        self.mesh("big.stl", box((0, 0, 0), (10, 10, 10)))
+        entry = self.entry("measure", "small.stl", "--fixed", "big.stl", status=0)
+        self.assertEqual((entry["status"], entry["inside"], entry["distance"],
+                          entry["surface_distance"]), ("penetrating", "moving", 0, 1))
+        entry = self.entry("measure", "big.stl", "--fixed", "small.stl", status=0)
+        self.assertEqual(entry["inside"], "fixed")
+        entry = self.placed("clear", "small.stl", "--fixed", "big.stl")
+        self.assertEqual(entry["travel"], 2)
+
+    def test_measure_tells_the_statuses_apart(self):
+        at = lambda z: self.mesh("m.obj", box((1, 1, z), (2, 2, z + 1)))
+        for z, clearance, status, distance in (
+                (1.25, [], "separate", 0.25), (1, [], "touching", 0), (0.5, [], "penetrating", 0),
+                (1.25, ["--clearance", "0.5"], "closer-than-clearance", 0.25),
+                (1.5, ["--clearance", "0.5"], "clear", 0.5)):
+            entry = self.entry("measure", at(z), "--fixed", "floor.obj", *clearance, status=0)
+            self.assertEqual((entry["status"], entry["distance"]), (status, distance))
+
+    def test_measure_colours_the_faces(self):
+        self.run_tool("measure", "in.obj", "--fixed", "floor.obj", "-o", "out.ply", "--scene",
+                      "--ascii", status=0)
+        text = self.read("out.ply")
+        self.assertIn("property int tf_class", text)
+        faces = [line.split() for line in text.splitlines() if line.startswith("3 ")]
+        self.assertEqual(len(faces), 24)
+        classes = [int(f[-1]) for f in faces]
+        colors = {int(f[-1]): tuple(map(int, f[4:7])) for f in faces}
+        self.assertEqual(colors[1], (224, 32, 32))
+        self.assertEqual(classes[12 + 2], 1)  # the top of the floor
+        self.assertEqual(classes[12 + 3], 2)  # its other half, at the diagonal
+        self.assertEqual(classes[12], 0)
+        self.mesh("near.obj", box((1, 1, 1.25), (2, 2, 2)))
+        self.run_tool("measure", "near.obj", "--fixed", "floor.obj", "-o", "out.ply", "--ascii",
+                      "--clearance", "0.5", "-f", status=0)
+        faces = [line.split() for line in self.read("out.ply").splitlines()
+                 if line.startswith("3 ")]
+        self.assertEqual([int(f[-1]) for f in faces][:4], [3, 3, 0, 0])
+
+    def test_a_scene_holds_the_fixed_meshes_too(self):
+        self.placed("drop", "a.obj", "--fixed", "floor.obj", "-o", "out.obj", "--scene")
+        self.assertEqual(self.points("out.obj"), box((1, 1, 1), (2, 2, 2))[0] +
+                         box((0, 0, 0), (4, 4, 1))[0])
+        self.assertIn("o floor", self.read("out.obj"))
+
+    def test_the_matrix_file_gives_the_place(self):
+        self.mesh("third.obj", box((0, 0, 1 / 3), (1, 1, 2)))
+        self.run_tool("drop", "third.obj", "--matrix", "m.txt", "-o", "out.obj", status=0)
+        rows = [list(map(float, line.split())) for line in self.read("m.txt").splitlines()]
+        self.assertEqual(rows, [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, -1 / 3], [0, 0, 0, 1]])
+        self.assertEqual(self.lowest("out.obj"), 0)
+        run = self.run_tool("drop", "third.obj", "--matrix", "-", status=0)
+        self.assertEqual(run.text, self.read("m.txt"))
+        # fed back, it is at its place already
+        entry = self.placed("drop", "third.obj", "--start", "m.txt")
+        self.assertEqual((entry["travel"], entry["matrix"]), (0, rows))
+
+    def test_a_cloud_drops_on_the_bed(self):
+        with open(self.path("cloud.xyz"), "w") as file:
+            file.write("0 0 3.5\n1 0 4\nnan 0 1\n0 1 5\n")
+        self.assertEqual(self.placed("drop", "cloud.xyz", "-o", "out.xyz")["travel"], 3.5)
+        self.assertEqual(self.read("out.xyz").split("\n")[0], "0 0 0")
+        self.run_tool("drop", "cloud.xyz", "--fixed", "floor.obj", status=3)
+
+    def test_points_without_a_face_move_along_and_do_not_count(self):
+        points, faces = box((1, 1, 5.5), (2, 2, 6.5))
+        write(self.path("stray.obj"), (points + [(0, 0, 1)], faces))
+        self.assertEqual(self.placed("drop", "stray.obj", "-o", "out.obj")["travel"], 5.5)
+        self.assertEqual(self.points("out.obj")[-1], (0, 0, -4.5))
+
+
+if __name__ == "__main__":
+    main()

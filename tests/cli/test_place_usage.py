@@ -1,0 +1,137 @@
+"""The command line of tf-place: help, refusals; its report; the same on any number of threads."""
+
+from place_support import *
+
+NUMBER = (int, float)
+NULL = type(None)
+FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in": str,
+        "faces": int, "triangles": int, "box": dict, "mode": str, "fixed": list, "skipped": dict,
+        "clearance": dict, "max_travel": (str, NULL), "bed": (dict, NULL), "placed": (bool, NULL),
+        "reason": (str, NULL), "status_at_start": str, "status": str, "inside": (str, NULL),
+        "distance": (*NUMBER, NULL), "surface_distance": (*NUMBER, NULL), "closest": (dict, NULL),
+        "direction": (list, NULL), "travel": (*NUMBER, NULL), "backed_off": (int, NULL),
+        "matrix": (list, NULL), "contacts": list, "contact_count": int, "not_placed": list,
+        "matrix_file": (str, NULL), "output": (dict, NULL), "warnings": list, "exit": int}
+
+
+class Usage(PlaceTest):
+    def setUp(self):
+        super().setUp()
+        self.mesh("a.obj", box((1, 1, 5.5), (2, 2, 6.5)))
+        self.mesh("floor.obj", box((0, 0, 0), (4, 4, 1)))
+
+    def refused(self, *arguments):
+        run = self.run_tool(*arguments, status=2)
+        self.assertEqual(run.text, "")
+        self.assertTrue(run.err.startswith("tf-place: error: "), msg=run.err)
+        self.assertEqual([name for name in self.listing() if name.startswith("out")], [])
+        return run.err
+
+    def test_help_fits_80_columns_and_names_what_is_accepted(self):
+        run = self.run_tool("--help", status=0)
+        self.assertTrue(run.text.startswith("Usage: tf-place MODE [OPTIONS] MOVING..."))
+        self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
+        for word in ("Modes:", "Options:", "What to give back:", "Common options:", "Examples:",
+                     "Exit status:", "drop", "slide", "mate", "clear", "measure", "--fixed",
+                     "--bed", "--direction", "--clearance", "--max-travel", "--start", "--scene",
+                     "--matrix"):
+            self.assertIn(word, run.text)
+
+    def test_modes_and_values_are_checked(self):
+        self.assertIn("no mode", self.refused("fly", "a.obj"))
+        self.refused()
+        self.refused("drop")
+        for options in (["-d", "0,0,0"], ["-d", "1,2"], ["-d", "x"], ["-d", "0,0,nan"],
+                        ["--bed", "low"], ["--clearance", "-1"], ["--max-travel", "x"]):
+            self.refused("drop", "a.obj", "-o", "out.obj", *options)
+
+    def test_what_would_do_nothing_is_refused(self):
+        fixed = ("--fixed", "floor.obj")
+        self.assertIn("needs --fixed", self.refused("mate", "a.obj"))
+        self.assertIn("needs --direction", self.refused("slide", "a.obj", *fixed))
+        self.refused("mate", "a.obj", *fixed, "--bed", "0")
+        self.refused("clear", "a.obj", *fixed, "-d", "1,0,0")
+        self.refused("drop", "a.obj", "-d", "0,0,1")
+        self.refused("drop", "a.obj", "--scene")
+        self.refused("drop", "a.obj", "--precision", "float")
+        self.refused("measure", "a.obj", *fixed, "--matrix", "out.txt")
+        self.refused("measure", "a.obj", *fixed, "--max-travel", "1")
+        self.refused("measure", "a.obj", *fixed, "--in-place")
+        self.refused("drop", "a.obj", "--html", "out.html")
+
+    def test_no_output_replaces_a_file_that_is_read(self):
+        before = self.read_bytes("floor.obj")
+        for option in ("-o", "--matrix", "-r"):
+            err = self.refused("drop", "a.obj", "--fixed", "floor.obj", option, "floor.obj", "-f")
+            self.assertIn("is an input", err)
+        self.assertEqual(self.read_bytes("floor.obj"), before)
+
+    def test_bad_files_are_named(self):
+        self.assertIn("none.obj", self.run_tool("drop", "a.obj", "--fixed", "none.obj",
+                                                status=3).err)
+        with open(self.path("m.txt"), "w") as file:
+            file.write("1 0 0 0\n0 1 0 0\n0 0 1\n")
+        self.assertIn("found 11", self.run_tool("drop", "a.obj", "--start", "m.txt",
+                                                status=3).err)
+        with open(self.path("m.txt"), "w") as file:
+            file.write("1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1")
+        self.assertIn("last row", self.run_tool("drop", "a.obj", "--start", "m.txt", status=3).err)
+        self.run_tool("drop", "a.obj", "-o", "out.obj", status=0)
+        self.run_tool("drop", "a.obj", "-o", "out.obj", status=4)
+
+    def test_every_key_is_there_and_of_its_type(self):
+        fixed = ("--fixed", "floor.obj")
+        for arguments in (["drop", "a.obj"], ["drop", "a.obj", *fixed, "-o", "out.stl"],
+                          ["slide", "a.obj", *fixed, "-d", "1,0,0"],
+                          ["measure", "a.obj", *fixed], ["clear", "a.obj", *fixed],
+                          ["mate", "a.obj", *fixed, "--clearance", "0.5"]):
+            report = self.report(*arguments)
+            self.assertEqual(report["schema"], "tf-place-report/1")
+            self.assertEqual(sorted(report["seconds"]),
+                             ["prepare", "read", "search", "settle", "write"])
+            entry = report["files"][0]
+            self.assertEqual(sorted(entry), sorted(FILE))
+            for key, kind in FILE.items():
+                self.assertIsInstance(entry[key], kind, msg=f"{arguments} {key}")
+            self.assertEqual(entry["mode"], arguments[0])
+
+    def test_a_report_is_written_also_when_a_file_is_bad(self):
+        entry = self.report("drop", "none.obj", status=3)["files"][0]
+        self.assertEqual(sorted(entry), sorted(FILE))
+        self.assertIn("none.obj", entry["error"]["text"])
+
+    def test_each_of_several_moving_is_placed_on_its_own(self):
+        self.mesh("b.obj", box((1, 1, 7), (2, 2, 8)))
+        report = self.report("drop", "a.obj", "b.obj", "--fixed", "floor.obj", "--output-dir", ".",
+                             status=0)
+        self.assertEqual([f["travel"] for f in report["files"]], [4.5, 6])
+        self.assertIn("b-place.obj", self.listing())
+        self.refused("drop", "a.obj", "b.obj", "-o", "out.obj")
+        self.refused("drop", "a.obj", "b.obj", "--matrix", "out.txt")
+
+    def test_in_place_replaces_moving(self):
+        self.run_tool("drop", "a.obj", "--in-place", status=0)
+        self.assertEqual(self.lowest("a.obj"), 0)
+
+    def test_any_number_of_threads_gives_the_same_bytes(self):
+        points, faces = grid(30)
+        hills = ([(x, y, (x * 7 + y * 13) % 5 / 4) for x, y, _ in points], faces)
+        self.mesh("hills.obj", hills)
+        self.mesh("small.stl", box((10.3, 11.1, 9), (12.7, 13.2, 10)))
+        seen = set()
+        for threads in (1, 2, 8):
+            for mode in (["drop"], ["mate"], ["drop", "--clearance", "0.3"]):
+                report = self.report(*mode, "small.stl", "--fixed", "hills.obj", "-o", "out.stl",
+                                     "-f", "-j", threads, status=0)
+                seen.add((tuple(mode), self.read_bytes("out.stl"), json.dumps(report["files"])))
+        self.assertEqual(len(seen), 3)
+
+    def test_standard_input_can_be_placed(self):
+        run = self.run_tool("drop", "-", "-o", "-", "--output-format", "obj", status=0,
+                            stdin=self.read_bytes("a.obj"))
+        self.assertEqual(min(p[2] for p in read_obj(run.text)), 0)
+        self.refused("drop", "-", "--fixed", "-")
+
+
+if __name__ == "__main__":
+    main()

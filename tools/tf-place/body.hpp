@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// A file's mesh made ready to be placed.
+
+#include "tools/common/run.hpp"
+#include <libmesh/bounding_box.hpp>
+#include <libmesh/io/mesh_file.hpp>
+#include <libmesh/mesh.hpp>
+#include <libtree/tree.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+/// Faces of `mesh` are the finite triangles of the file; equal corners are one point in it.
+struct body {
+    std::string path{};
+    tf::mesh_file file{};  ///< as read, or as moved by --start
+    tf::mesh mesh{};       ///< only points that its faces use; of a cloud, all finite points
+    std::vector<std::uint32_t> triangle_of_face{};  ///< in the file's mesh; empty: the same
+    std::optional<tf::box3> box{};                  ///< of `mesh`
+    std::uint64_t non_finite = 0;                   ///< triangles left out
+    std::unique_ptr<tf::tree<3>> tree{};            ///< made when first asked for
+
+    [[nodiscard]] std::uint32_t triangle(std::uint32_t face) const {
+        return triangle_of_face.empty() ? face : triangle_of_face[face];
+    }
+    /// The number in the file.
+    [[nodiscard]] std::uint32_t stored_face(std::uint32_t face) const {
+        const std::uint32_t t = triangle(face);
+        return file.stored_face.empty() ? t : file.stored_face[t];
+    }
+    [[nodiscard]] const tf::tree<3>& faces();
+    [[nodiscard]] std::string name() const;  ///< of the file, without folders
+};
+
+/// `file` made ready; what is left out is said by `work`. A cloud may pass where `cloud_allowed`.
+/// \throws failure (bad_input) when there is nothing to place
+[[nodiscard]] body make_body(job& work, const std::string& path, tf::mesh_file file,
+                             bool cloud_allowed);
+
+/// Gives the points of `b.file` that faces use, or all of a cloud, the places of `placed`, which is
+/// by the points of `b.mesh`; all others are moved by `offset`, and rounded to float32 if
+/// `to_single`.
+void take_places(body& b, const std::vector<tf::point3>& placed, const tf::point3& offset,
+                 bool to_single);
+
+/// Rounds every point of the file to float32.
+void round_to_single(tf::mesh_file& file);
+
+}  // namespace tools

@@ -1,0 +1,207 @@
+/// \file
+/// tf-place: finds where to put one mesh with respect to others.
+
+#include "tools/common/command_line.hpp"
+#include "tools/common/common_options.hpp"
+#include "tools/common/run.hpp"
+#include "tools/tf-place/move.hpp"
+#include "tools/tf-place/outputs.hpp"
+#include "tools/tf-place/settings.hpp"
+#include "tools/tf-place/words.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using tools::command_line;
+using tools::common_options;
+using tools::exit_status;
+using tools::place_mode;
+using tools::place_settings;
+
+void add_modes(command_line& line) {
+    line.group("Modes");
+    line.mention(
+        {.names = "drop", .text = "translate down until MOVING rests on the bed or on\n--fixed"});
+    line.mention({.names = "slide",
+                  .text = "translate along --direction until contact (less\n--clearance)"});
+    line.mention(
+        {.names = "mate", .text = "bring the closest points of MOVING and --fixed\ntogether"});
+    line.mention({.names = "clear",
+                  .text = "out of --fixed, or away from it to --clearance: a\n"
+                          "short translation, the shortest of many tried"});
+    line.mention(
+        {.names = "measure", .text = "move nothing; report distance, contact or\npenetration"});
+}
+
+void add_options(command_line& line, place_settings& s, common_options& options) {
+    line.group("Options");
+    line.repeatable_option(options.also_read,
+                           {"--fixed", "FILE", "what stays where it is (repeatable)"});
+    line.option({"--bed", "Z",
+                 "drop: height of the bed; with --fixed there is\nnone unless this is given", "0"},
+                [&s](std::string_view text) { s.bed = tools::parse_number("--bed", text); });
+    line.option(
+        {"-d, --direction", "X,Y,Z", "slide, drop: direction of travel", "0,0,-1"},
+        [&s](std::string_view text) { s.direction = tools::parse_direction("--direction", text); });
+    line.option({"--clearance", "DIST", "gap to leave", "0"}, [&s](std::string_view text) {
+        s.clearance = tools::parse_distance("--clearance", text);
+    });
+    line.option({"--max-travel", "DIST", "give up beyond this travel (exit 1)"},
+                [&s](std::string_view text) {
+                    s.max_travel = tools::parse_distance("--max-travel", text);
+                });
+    line.option({"--start", "FILE", "4x4 matrix applied to MOVING first"},
+                [&s](std::string_view text) { s.start = text; });
+}
+
+void add_what_to_give_back(command_line& line, place_settings& s, common_options& options) {
+    line.group("What to give back");
+    line.output(options.output, {"-o, --output", "FILE",
+                                 "MOVING at its new place; of measure, where it is,\n"
+                                 "with faces that penetrate red, touching yellow,\n"
+                                 "closer than --clearance cyan (PLY, GLB)"});
+    line.flag(s.scene, {"--scene", "", "-o and --output-dir: the fixed meshes too"});
+    line.output(s.matrix, {"--matrix", "FILE",
+                           "4x4 matrix, 4 lines, row-major, column vectors:\n"
+                           "new = M * old, in file coordinates; \"-\" = stdout"});
+}
+
+const char* const epilogue =
+    "DIST is in the unit of the file; \"0.01%\" is that share of the diagonal of\n"
+    "MOVING's box. Contact is found exactly on the coordinates as read. MOVING is\n"
+    "then looked at again, exactly, in the coordinates that are written, and moved\n"
+    "back by units in their last place where rounding made it penetrate. A clearance\n"
+    "holds for distances as computed, to their rounding error.\n"
+    "\n"
+    "What penetrates at the start is not moved, but by clear; what touches stays.\n"
+    "Only closed meshes have an inside. Resting on the bed, the lowest points have\n"
+    "exactly its height (a float32 that is not below it, where these are written).\n"
+    "With several MOVING each is placed on its own. Face numbers are those of the\n"
+    "files, from 0.\n"
+    "\n"
+    "Examples:\n"
+    "  tf-place drop part.stl -o on_bed.stl --matrix m.txt\n"
+    "  tf-place slide crown.stl --fixed jaw.stl -d 0,0,-1 --clearance 0.03 -o s.stl\n"
+    "  tf-place clear a.obj --fixed b.obj --fixed c.obj --clearance 1 -o a_moved.obj\n"
+    "  tf-place measure a.stl --fixed b.stl -r -\n"
+    "\n"
+    "Exit status: 0 placed, or measured; 1 no such place (no contact, penetrating at\n"
+    "  the start); 2 usage; 3 input; 4 output; 5 stopped; 70 bug.\n";
+
+[[noreturn]] void refuse(const std::string& text) {
+    throw tools::failure(tools::bad_usage, "usage", text);
+}
+
+/// Options that would do nothing are refused rather than passed over.
+void check_settings(place_settings& s, const common_options& o) {
+    s.mode = tools::parse_mode(s.mode_text);
+    s.fixed = o.also_read;
+    const std::string mode = s.mode_text;
+    if (s.mode == place_mode::lay || s.mode == place_mode::arrange || s.mode == place_mode::fit)
+        refuse(mode + ": not yet");
+    if (s.fixed.empty() && s.mode != place_mode::drop) refuse(mode + " needs --fixed");
+    if (s.bed && s.mode != place_mode::drop) refuse("--bed: only drop has one");
+    if (s.direction && !s.moves_along_direction())
+        refuse("--direction: " + mode + " finds its own");
+    if (s.mode == place_mode::slide && !s.direction) refuse("slide needs --direction");
+    if (s.has_bed() && s.direction && !(s.direction->z < 0.0))
+        refuse("--direction: does not lead down to the bed");
+    if (s.max_travel && s.mode == place_mode::measure)
+        refuse("--max-travel: measure moves nothing");
+    if (s.mode == place_mode::measure && !s.matrix.empty())
+        refuse("--matrix: measure moves nothing");
+    const bool mesh = tools::wants_mesh(o);
+    if (s.mode == place_mode::measure && o.in_place) refuse("--in-place: measure moves nothing");
+    if (s.scene && (!mesh || o.in_place)) refuse("--scene needs -o or --output-dir");
+    if (!mesh && (o.ascii || o.binary || o.precision != "keep" || !o.output_format.empty()))
+        refuse(
+            "--output-format, --ascii, --binary and --precision need -o, --output-dir or "
+            "--in-place");
+}
+
+/// The fixed meshes, read once for all MOVING.
+struct fixed_meshes {
+    std::vector<tools::body> bodies{};
+    tools::json entries = tools::json::array();
+    bool read = false;
+    bool as_single = false;
+};
+
+void read_fixed(tools::job& work, const place_settings& s, bool as_single, fixed_meshes& fixed) {
+    if (fixed.read && fixed.as_single == as_single) return;
+    fixed = {.as_single = as_single};
+    for (const std::string& path : s.fixed) {
+        tools::json about{{"input", path}};
+        tf::mesh_file file = work.read(path, about);
+        for (const tf::io_warning& w : file.warnings) work.warn(w.code, path + ": " + w.text);
+        if (as_single) tools::round_to_single(file);
+        fixed.bodies.push_back(tools::make_body(work, path, std::move(file), false));
+        fixed.entries.push_back(std::move(about));
+    }
+    fixed.read = true;
+}
+
+tools::body read_moving(tools::job& work, const place_settings& s, const tf::transform<3>& start) {
+    tools::json about;
+    tf::mesh_file file = work.read(work.path, about);
+    for (const char* key : {"format", "sha256", "precision_in"}) work.entry[key] = about[key];
+    for (const tf::io_warning& w : file.warnings) work.warn(w.code, w.text);
+    if (start != tf::transform<3>{})
+        for (tf::point3& p : file.mesh.points) p = start(p);
+    const bool cloud_allowed = s.mode == place_mode::drop && s.fixed.empty();
+    return tools::make_body(work, work.path, std::move(file), cloud_allowed);
+}
+
+exit_status look_at(tools::job& work, const place_settings& s, fixed_meshes& fixed) {
+    tools::enter_blank_report(work, s);
+    tools::check_outputs(work, s);
+    const tf::transform<3> start =
+        s.start.empty() ? tf::transform<3>{} : tools::read_matrix(s.start);
+    tools::body moving = read_moving(work, s, start);
+    const bool to_single = tools::writes_single(work, moving.file);
+    read_fixed(work, s, s.scene && to_single, fixed);
+    work.entry["fixed"] = fixed.entries;
+    tools::surroundings among(fixed.bodies);
+    tools::enter_bodies(work, moving, among);
+
+    const tools::placement p = tools::place(work, moving, among, s, to_single);
+    const tf::transform<3> matrix = tf::after(tf::translation<3>(p.offset), start);
+    work.out.result(work.name + ": " + tools::verdict(p, among, s));
+    tools::say_details(work, p, among);
+    tools::enter_report(work, moving, p, among, matrix);
+    if (!p.placed) return tools::found;
+    const auto timing = work.time("write");
+    if (!s.matrix.empty()) tools::write_matrix(work, s.matrix, matrix);
+    tools::write_result(work, moving, p, among, s, to_single);
+    return tools::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    command_line line("tf-place", "MODE [OPTIONS] MOVING...",
+                      "Find where to put one mesh (or point set) with respect to others.\n"
+                      "The result never penetrates: it is checked again in the precision written.");
+    place_settings s;
+    fixed_meshes fixed;
+    common_options options;
+    options.suffix = "-place";
+    line.word(s.mode_text, "MODE");
+    line.inputs(options.inputs, "STL OBJ PLY OFF GLB/glTF 3MF files; \"-\" = stdin", "MOVING");
+    add_modes(line);
+    add_options(line, s, options);
+    add_what_to_give_back(line, s, options);
+    line.group("Common options");
+    tools::add_common_options(line, options,
+                              {.output_formats = {"ply", "obj", "stl", "off", "glb", "xyz"}});
+    line.refuse("--html", true, "makes no sense here; measure -o file.ply shows the faces");
+    line.epilogue(epilogue);
+    return tools::run(
+        line, options, {"read", "prepare", "search", "settle", "write"}, argc, argv,
+        [&] { check_settings(s, options); },
+        [&](tools::job& work) { return look_at(work, s, fixed); });
+}

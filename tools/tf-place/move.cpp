@@ -1,0 +1,294 @@
+#include "tools/tf-place/move.hpp"
+
+#include "tools/common/console.hpp"
+#include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libmesh/place/clear.hpp>
+#include <libmesh/place/settle_among.hpp>
+#include <libmesh/place/slide.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tools {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t contact_limit = 1000;
+
+/// The least float32 value that is not below `x`.
+double float_not_below(double x) {
+    const double nearest = tf::detail::nearest_float(x);
+    if (nearest >= x) return nearest;
+    return static_cast<double>(
+        std::nextafterf(static_cast<float>(nearest), std::numeric_limits<float>::infinity()));
+}
+
+class placing {
+  public:
+    placing(job& work, body& moving, const surroundings& among, const place_settings& settings,
+            bool to_single)
+        : work_(work), moving_(moving), among_(among), settings_(settings), to_single_(to_single) {
+        result_.clearance = settings.clearance.used(tf::diagonal(*moving.box));
+        result_.points = moving.mesh.points;
+        if (settings.max_travel) longest_ = settings.max_travel->used(tf::diagonal(*moving.box));
+    }
+
+    [[nodiscard]] placement run() {
+        look_at_start();
+        switch (settings_.mode) {
+            case place_mode::drop:
+            case place_mode::slide:
+                along_direction();
+                break;
+            case place_mode::mate:
+                mate();
+                break;
+            case place_mode::clear:
+                make_clear();
+                break;
+            default:
+                result_.placed = true;
+                break;
+        }
+        look_at_place();
+        return std::move(result_);
+    }
+
+  private:
+    [[nodiscard]] place_status status_of(const std::optional<nearest_part>& near) const {
+        const double c = result_.clearance;
+        if (!near) return c > 0.0 ? place_status::clear : place_status::separate;
+        switch (near->how.relation.relation) {
+            case tf::mesh_relation::penetrating:
+                return place_status::penetrating;
+            case tf::mesh_relation::touching:
+                return place_status::touching;
+            default:
+                break;
+        }
+        if (!(c > 0.0)) return place_status::separate;
+        return near->how.distance < c ? place_status::closer_than_clearance : place_status::clear;
+    }
+
+    void look_at_start() {
+        if (moving_.mesh.faces.empty()) return;
+        result_.nearest = among_.nearest(moving_.mesh, moving_.faces(), *moving_.box, radius(0.0));
+        result_.status_at_start = status_of(result_.nearest);
+        result_.status = result_.status_at_start;
+    }
+
+    /// How far to look for the nearest part. On the way along a direction only those matter that
+    /// are met; others need not even be indexed.
+    [[nodiscard]] double radius(double more) const {
+        return settings_.moves_along_direction() ? result_.clearance + more : infinity;
+    }
+
+    void fail(const std::string& why) { result_.reason = why; }
+
+    /// Says why nothing can move if that is so: penetrating, or nearer than the clearance.
+    [[nodiscard]] bool stuck_at_start() {
+        const std::string& part =
+            result_.nearest ? among_.all()[result_.nearest->part].path : moving_.path;
+        switch (result_.status_at_start) {
+            case place_status::penetrating:
+                fail("penetrates " + part + " where it is; clear would take it out");
+                return true;
+            case place_status::closer_than_clearance:
+                fail("is nearer to " + part + " than the clearance where it is");
+                return true;
+            case place_status::touching:
+                if (result_.clearance > 0.0)
+                    fail("touches " + part + " where it is, which leaves no clearance");
+                else
+                    stay();
+                return true;
+            default:
+                return false;
+        }
+    }
+
+    /// The place is where MOVING is, if that can be written.
+    void stay() { settle({}, {0.0, 0.0, -1.0}, 0.0, false, false); }
+
+    void settle(const chosen_parts& known, const tf::point3& motion, double time, bool floor,
+                bool forward) {
+        const auto timing = work_.time("settle");
+        const chosen_parts parts =
+            known.parts.empty() ? among_.on_the_way(*moving_.box, motion, time, result_.clearance)
+                                : known;
+        tf::settle_among_options options{
+            .to_single = to_single_, .clearance = result_.clearance, .forward = forward};
+        if (floor) options.floor = result_.bed->used;
+        auto settled = tf::settle_among(moving_.mesh, parts.parts, motion, time, options);
+        work_.keeper.check();
+        result_.backed_off = settled.backed_off;
+        if (!settled.good) {
+            fail(to_single_ ? "rounded to float32 there is no such place; --precision double, in a "
+                              "format that has it, may find one"
+                            : "there is no such place in coordinates that can be written");
+            return;
+        }
+        result_.placed = true;
+        result_.points = std::move(settled.points);
+        for (std::size_t k = 0; k < 3; ++k) result_.offset[k] = settled.time * motion[k] + 0.0;
+        result_.travel = settled.time * length(motion);
+        if (result_.travel > 0.0) {
+            const double size = length(motion);
+            result_.direction = {motion.x / size, motion.y / size, motion.z / size};
+        }
+    }
+
+    void along_direction() {
+        const tf::point3 motion =
+            in_range(settings_.direction.value_or(tf::point3{0.0, 0.0, -1.0}));
+        const double speed = length(motion);
+        if (settings_.has_bed() && !meet_bed(motion)) return;
+        if (stuck_at_start()) return;
+        const double allowed = longest_.value_or(infinity) / speed;
+        const double latest = std::min(bed_time_, allowed);
+        const chosen_parts parts =
+            among_.on_the_way(*moving_.box, motion, latest, result_.clearance);
+        result_.skipped.parts_culled = among_.all().size() - parts.parts.size();
+        tf::slide_result slid;
+        if (!parts.parts.empty()) {
+            const auto timing = work_.time("search");
+            slid = tf::slide(
+                moving_.mesh, moving_.faces(), parts.parts, motion,
+                {.clearance = result_.clearance, .latest = latest, .limit = contact_limit});
+            result_.skipped.pairs_tested = slid.pairs_tested;
+        }
+        work_.keeper.check();
+        if (slid.end == tf::motion_end::contact) {
+            result_.contacts = contacts_of(moving_, among_.all(), parts, slid, motion);
+            result_.contact_count = slid.contact_count;
+            settle(parts, motion, slid.time, settings_.has_bed(), false);
+        } else if (bed_time_ < infinity && bed_time_ <= allowed) {
+            result_.on_bed = true;
+            settle(parts, motion, bed_time_, true, false);
+        } else if (longest_) {
+            fail("nothing is met within " + shortest(*longest_));
+        } else {
+            fail("nothing is in the way");
+        }
+    }
+
+    /// The time at which the bed is met; false when MOVING is below it.
+    [[nodiscard]] bool meet_bed(const tf::point3& motion) {
+        const double given = settings_.bed.value_or(0.0);
+        const double level = given + result_.clearance;
+        result_.bed = bed_level{given, to_single_ ? float_not_below(level) : level};
+        const double above = moving_.box->min.z - result_.bed->used;
+        if (above < 0.0) {
+            const bool below = moving_.box->min.z < given;
+            result_.status_at_start =
+                below ? place_status::penetrating : place_status::closer_than_clearance;
+            result_.status = result_.status_at_start;
+            fail("reaches " + shortest(-above) + " below " +
+                 (result_.clearance > 0.0 ? "the clearance over the bed" : "the bed") +
+                 "; drop only goes down");
+            return false;
+        }
+        bed_time_ = above / -motion.z;
+        return true;
+    }
+
+    void mate() {
+        if (stuck_at_start()) return;
+        const auto& near = *result_.nearest;
+        const tf::point3 &from = near.how.on_a.point, &to = near.how.on_b.point;
+        const tf::point3 way{to.x - from.x, to.y - from.y, to.z - from.z};
+        // Nothing is nearer than the nearest point. Corners that are to meet there may miss each
+        // other by the rounding of their distance.
+        const double latest = 1.0 + 0x1p-20;
+        const chosen_parts parts = among_.on_the_way(*moving_.box, way, latest, result_.clearance);
+        result_.skipped.parts_culled = among_.all().size() - parts.parts.size();
+        const auto slid =
+            tf::slide(moving_.mesh, moving_.faces(), parts.parts, way,
+                      {.clearance = result_.clearance, .latest = latest, .limit = contact_limit});
+        result_.skipped.pairs_tested = slid.pairs_tested;
+        const double time = slid.end == tf::motion_end::contact
+                                ? slid.time
+                                : 1.0 - result_.clearance / near.how.distance;
+        result_.contacts = contacts_of(moving_, among_.all(), parts, slid, way);
+        result_.contact_count = slid.contact_count;
+        if (time * length(way) > longest_.value_or(infinity))
+            fail("the nearest point is further away than " + shortest(*longest_));
+        else
+            settle(parts, way, time, false, false);
+    }
+
+    void make_clear() {
+        const bool near =
+            result_.status_at_start == place_status::penetrating ||
+            (result_.clearance > 0.0 && result_.status_at_start != place_status::clear);
+        if (!near) return stay();
+        const chosen_parts parts = among_.everything();
+        std::vector<tf::clear_move> moves;
+        {
+            const auto timing = work_.time("search");
+            moves = tf::clear_moves(moving_.mesh, moving_.faces(), parts.parts,
+                                    {.clearance = result_.clearance});
+        }
+        work_.keeper.check();
+        for (const tf::clear_move& move : moves) {
+            if (move.time > longest_.value_or(infinity)) break;
+            settle(parts, move.direction, move.time, false, true);
+            if (result_.placed) return;
+        }
+        if (moves.empty()) return stay();
+        if (result_.reason.empty())
+            fail("the shortest translation found is longer than " + shortest(*longest_) + ": " +
+                 shortest(moves[0].time));
+    }
+
+    /// What is true at the place, in the coordinates that are written.
+    void look_at_place() {
+        if (moving_.mesh.faces.empty()) {
+            if (result_.on_bed) result_.status = place_status::touching;
+            return;
+        }
+        const tf::mesh_view there{result_.points, moving_.mesh.faces};
+        const bool moved = result_.points != moving_.mesh.points;
+        std::optional<tf::tree<3>> own;
+        if (moved) {
+            own = tf::face_tree(there);
+            const tf::box3 box = *tf::bounding_box(there.points);
+            result_.nearest = among_.nearest(there, *own, box, radius(tf::diagonal(box) * 0x1p-10));
+            result_.status = status_of(result_.nearest);
+        }
+        if (result_.on_bed) on_bed_at_place(there);
+        if (result_.contacts.empty() && (result_.status == place_status::touching ||
+                                         result_.status == place_status::penetrating))
+            result_.contacts = contacts_at(moving_, there, moved ? *own : moving_.faces(),
+                                           among_.all(), contact_limit, result_.contact_count);
+    }
+
+    void on_bed_at_place(tf::mesh_view there) {
+        if (const auto contact = contact_with_bed(moving_, there)) {
+            result_.contacts.push_back(*contact);
+            ++result_.contact_count;
+        }
+        if (result_.status == place_status::separate) result_.status = place_status::touching;
+    }
+
+    job& work_;
+    body& moving_;
+    const surroundings& among_;
+    const place_settings& settings_;
+    bool to_single_;
+    std::optional<double> longest_{};
+    double bed_time_ = infinity;
+    placement result_{};
+};
+
+}  // namespace
+
+placement place(job& work, body& moving, const surroundings& among, const place_settings& settings,
+                bool to_single) {
+    return placing(work, moving, among, settings, to_single).run();
+}
+
+}  // namespace tools

@@ -1,0 +1,252 @@
+#include "tools/tf-place/outputs.hpp"
+
+#include "tools/common/console.hpp"
+#include "tools/common/output_file.hpp"
+#include "tools/tf-place/marks.hpp"
+#include "tools/tf-place/words.hpp"
+#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/write.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace tools {
+namespace {
+
+json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
+
+json box_entry(const std::optional<tf::box3>& box) {
+    if (!box) return nullptr;
+    return {{"min", triple(box->min)}, {"max", triple(box->max)}};
+}
+
+json side_entry(const body& b, const tf::surface_point& at) {
+    return {{"point", triple(at.point)},
+            {"face", b.stored_face(at.face)},
+            {"triangle", b.triangle(at.face)},
+            {"barycentric", at.barycentric}};
+}
+
+json closest_entry(const body& moving, const nearest_part& near, const surroundings& among) {
+    const body& part = among.all()[near.part];
+    json fixed = side_entry(part, near.how.on_b);
+    fixed["file"] = part.path;
+    fixed["part"] = near.part;
+    return {{"moving", side_entry(moving, near.how.on_a)}, {"fixed", std::move(fixed)}};
+}
+
+json contacts_entry(const std::vector<contact_row>& contacts) {
+    json rows = json::array();
+    for (const contact_row& c : contacts)
+        rows.push_back({{"point", triple(c.point)},
+                        {"normal", triple(c.normal)},
+                        {"moving", c.moving},
+                        {"fixed", c.fixed ? json(*c.fixed) : json(nullptr)},
+                        {"part", c.fixed ? json(c.part) : json("bed")}});
+    return rows;
+}
+
+json matrix_entry(const tf::transform<3>& matrix) {
+    json rows = json::array();
+    for (const auto& row : matrix.rows) rows.push_back(row);
+    rows.push_back({0.0, 0.0, 0.0, 1.0});
+    return rows;
+}
+
+json inside_entry(const placement& p) {
+    if (!p.nearest) return nullptr;
+    const auto& how = p.nearest->how.relation;
+    return how.a_inside_b ? json("moving") : how.b_inside_a ? json("fixed") : json(nullptr);
+}
+
+bool is_text(const std::string& format) {
+    return format.ends_with("ascii") || format.starts_with("obj") || format.starts_with("off") ||
+           format.starts_with("xyz") || format.starts_with("csv");
+}
+
+/// In-place, a file keeps its kind.
+std::pair<std::string, bool> format_of(const job& work, const tf::mesh_file& file,
+                                       const std::filesystem::path& path) {
+    const common_options& o = work.options;
+    if (!o.in_place) return {mesh_format(o, path), o.ascii};
+    const std::string format = file.format.substr(0, file.format.find('-'));
+    if (std::find(o.mesh_formats.begin(), o.mesh_formats.end(), format) == o.mesh_formats.end())
+        throw failure(bad_output, "output",
+                      work.path + ": --in-place cannot write " + file.format + "; use -o");
+    return {format, o.ascii || (file.format.ends_with("ascii") && !o.binary)};
+}
+
+/// `file` and the fixed meshes, each a part with the name of its file; other properties are left
+/// out.
+tf::mesh_file scene_of(const body& moving, const surroundings& among) {
+    tf::mesh_file scene;
+    scene.format = moving.file.format;
+    scene.stored_as = moving.file.stored_as;
+    const auto add = [&](const body& b) {
+        const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
+        scene.attributes.parts.push_back(
+            {.object = std::filesystem::path(b.name()).stem().string(),
+             .first_face = static_cast<std::uint32_t>(scene.mesh.faces.size())});
+        scene.mesh.points.insert(scene.mesh.points.end(), b.file.mesh.points.begin(),
+                                 b.file.mesh.points.end());
+        for (const tf::face& f : b.file.mesh.faces)
+            scene.mesh.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+    };
+    add(moving);
+    for (const body& part : among.all()) add(part);
+    scene.stored_faces = scene.mesh.faces.size();
+    return scene;
+}
+
+/// Of a scene, the classes of all parts follow each other as its faces do.
+void color_faces(tf::mesh_file& file, const all_classes& classes, bool scene) {
+    face_classes all = classes.moving;
+    if (scene) {
+        for (const face_classes& part : classes.fixed)
+            all.insert(all.end(), part.begin(), part.end());
+    } else {
+        tf::split_polygons(file);
+    }
+    set_class_colors(file, all);
+}
+
+}  // namespace
+
+void check_outputs(const job& work, const place_settings& settings) {
+    const common_options& o = work.options;
+    if (!settings.matrix.empty()) check_output(settings.matrix, o.force);
+    if (o.dry_run) return;
+    if (const auto path = mesh_output(o, work.path)) check_output(*path, o.force || o.in_place);
+}
+
+bool writes_single(const job& work, const tf::mesh_file& file) {
+    const auto path = mesh_output(work.options, work.path);
+    if (!path) return false;
+    const auto [format, ascii] = format_of(work, file, *path);
+    if (format == "glb" || (format == "stl" && !ascii)) return true;
+    if (work.options.precision != "keep") return work.options.precision == "float";
+    return file.stored_as == tf::precision::single_ && !is_text(file.format) &&
+           tf::fits_single(file.mesh.points);
+}
+
+void enter_blank_report(job& work, const place_settings& settings) {
+    json& entry = work.entry;
+    for (const char* key : {"format", "sha256", "precision_in", "faces", "triangles", "box"})
+        entry[key] = nullptr;
+    entry["mode"] = name_of(settings.mode);
+    entry["fixed"] = json::array();
+    entry["skipped"] = {{"non_finite", nullptr},
+                        {"parts_not_loaded", 0},
+                        {"parts_not_indexed", nullptr},
+                        {"primitives_not_indexed", nullptr},
+                        {"pairs_culled_by_box", nullptr},
+                        {"face_pairs_in_motion", nullptr}};
+    entry["clearance"] = {{"given", settings.clearance.given}, {"used", nullptr}};
+    entry["max_travel"] = settings.max_travel ? json(settings.max_travel->given) : json(nullptr);
+    for (const char* key :
+         {"bed", "placed", "reason", "status_at_start", "status", "inside", "distance",
+          "surface_distance", "closest", "direction", "travel", "backed_off", "matrix"})
+        entry[key] = nullptr;
+    entry["contacts"] = json::array();
+    entry["contact_count"] = nullptr;
+    entry["not_placed"] = json::array();
+    entry["matrix_file"] = settings.matrix.empty() ? json(nullptr) : json(settings.matrix.string());
+    entry["output"] = nullptr;
+    entry["warnings"] = json::array();
+}
+
+void enter_bodies(job& work, const body& moving, const surroundings& among) {
+    json& entry = work.entry;
+    entry["faces"] = moving.file.stored_faces;
+    entry["triangles"] = moving.file.mesh.faces.size();
+    entry["box"] = box_entry(moving.box);
+    std::uint64_t non_finite = moving.non_finite;
+    for (std::size_t i = 0; i < among.all().size(); ++i) {
+        const body& part = among.all()[i];
+        json& one = entry["fixed"][i];
+        one["faces"] = part.file.stored_faces;
+        one["box"] = box_entry(part.box);
+        non_finite += part.non_finite;
+    }
+    entry["skipped"]["non_finite"] = non_finite;
+}
+
+void enter_report(job& work, const body& moving, const placement& p, const surroundings& among,
+                  const tf::transform<3>& matrix) {
+    json& entry = work.entry;
+    const std::uint64_t parts = among.all().size();
+    entry["skipped"]["parts_not_indexed"] = parts - among.indexed();
+    std::uint64_t faces = 0;
+    for (const body& part : among.all())
+        if (!part.tree) faces += part.mesh.faces.size();
+    entry["skipped"]["primitives_not_indexed"] = faces;
+    entry["skipped"]["pairs_culled_by_box"] = p.skipped.parts_culled;
+    entry["skipped"]["face_pairs_in_motion"] = p.skipped.pairs_tested;
+    for (std::size_t i = 0; i < parts; ++i)
+        entry["fixed"][i]["indexed"] = among.all()[i].tree != nullptr;
+    entry["clearance"]["used"] = p.clearance;
+    if (p.bed)
+        entry["bed"] = {{"given", p.bed->given}, {"used", p.bed->used}, {"reached", p.on_bed}};
+    entry["placed"] = p.placed;
+    if (!p.placed) entry["reason"] = p.reason;
+    entry["status_at_start"] = name_of(p.status_at_start);
+    entry["status"] = name_of(p.status);
+    entry["inside"] = inside_entry(p);
+    entry["contacts"] = contacts_entry(p.contacts);
+    entry["contact_count"] = p.contact_count;
+    if (p.nearest) {
+        entry["distance"] = p.nearest->how.distance;
+        entry["surface_distance"] = p.nearest->how.surface_distance;
+        entry["closest"] = closest_entry(moving, *p.nearest, among);
+    }
+    if (!p.placed) {
+        entry["not_placed"].push_back(work.entry["input"]);
+        return;
+    }
+    entry["direction"] = p.travel > 0.0 ? triple(p.direction) : json(nullptr);
+    entry["travel"] = p.travel;
+    entry["backed_off"] = p.backed_off;
+    entry["matrix"] = matrix_entry(matrix);
+}
+
+void write_matrix(const job& work, const std::filesystem::path& path,
+                  const tf::transform<3>& matrix) {
+    output_file file(path, work.options.force, work.keeper);
+    file.write(matrix_text(matrix));
+    file.commit();
+}
+
+void write_result(job& work, body& moving, const placement& p, const surroundings& among,
+                  const place_settings& settings, bool to_single) {
+    const common_options& o = work.options;
+    const auto path = mesh_output(o, work.path);
+    if (!path || o.dry_run) return;
+    const auto [format, ascii] = format_of(work, moving.file, *path);
+    std::optional<all_classes> classes;
+    if (settings.mode == place_mode::measure && (format == "ply" || format == "glb"))
+        classes = classify_faces(moving, among, p.clearance);
+    take_places(moving, p.points, p.offset, to_single);
+    tf::mesh_file file = settings.scene ? scene_of(moving, among) : moving.file;
+    if (classes) color_faces(file, *classes, settings.scene);
+    const tf::write_options options{
+        .format = format,
+        .ascii = ascii,
+        .precision = to_single ? tf::precision::single_ : tf::precision::double_};
+    output_place place(*path, o.force || o.in_place, work.keeper);
+    tf::write_result written;
+    try {
+        written = tf::write_mesh(place.writable(), file, options);
+    } catch (const tf::io_error& error) {
+        throw failure(bad_output, "output", error.what());
+    }
+    place.commit();
+    work.entry["output"] = {
+        {"file", path->string()},
+        {"format", written.format},
+        {"precision_out", written.written_as == tf::precision::single_ ? "float" : "double"},
+        {"max_move", written.largest_move},
+        {"scene", settings.scene}};
+    for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
+}
+
+}  // namespace tools

@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// What a user of tf-place asks for.
+
+#include "tools/common/parse_value.hpp"
+#include <libmesh/exact/point.hpp>
+#include <libtree/transform.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tools {
+
+enum class place_mode { drop, lay, slide, mate, clear, measure, arrange, fit };
+
+struct place_settings {
+    std::string mode_text{};
+    place_mode mode = place_mode::measure;
+    std::vector<std::string> fixed{};
+    std::optional<double> bed{};
+    std::optional<tf::point3> direction{};
+    distance clearance{};
+    std::optional<distance> max_travel{};
+    std::filesystem::path start{};
+    std::filesystem::path matrix{};
+    bool scene = false;
+
+    /// Whether the bed stops MOVING: `drop` without fixed meshes, or where --bed is given.
+    [[nodiscard]] bool has_bed() const {
+        return mode == place_mode::drop && (bed.has_value() || fixed.empty());
+    }
+    [[nodiscard]] bool moves_along_direction() const {
+        return mode == place_mode::drop || mode == place_mode::slide;
+    }
+};
+
+/// \throws failure (bad_usage) for a word that is no mode
+[[nodiscard]] place_mode parse_mode(std::string_view text);
+[[nodiscard]] const char* name_of(place_mode mode);
+
+/// Three numbers, not all 0. \throws failure (bad_usage)
+[[nodiscard]] tf::point3 parse_direction(std::string_view option, std::string_view text);
+
+/// The same direction, exactly: along an axis of length 1, else scaled by a power of two.
+[[nodiscard]] tf::point3 in_range(const tf::point3& direction);
+[[nodiscard]] double length(const tf::point3& v);
+
+/// A 4x4 matrix in a file: 16 numbers by rows, the last row 0 0 0 1.
+/// \throws failure (bad_input)
+[[nodiscard]] tf::transform<3> read_matrix(const std::filesystem::path& path);
+
+/// Four lines of four numbers with 17 digits.
+[[nodiscard]] std::string matrix_text(const tf::transform<3>& matrix);
+
+}  // namespace tools

@@ -1,0 +1,106 @@
+#include "tools/tf-place/surroundings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tools {
+namespace {
+
+/// Wider than all rounding, also that to float32.
+double margin(const tf::box3& a, const tf::box3& b) {
+    double largest = 0.0;
+    for (const tf::box3* box : {&a, &b})
+        for (std::size_t k = 0; k < 3; ++k)
+            largest = std::max({largest, std::abs(box->min[k]), std::abs(box->max[k])});
+    return largest * 0x1p-20;
+}
+
+/// Whether box `a`, moved by some t in [0, latest] times `motion`, comes within `reach` of `b`: by
+/// the times at which it is so along each axis.
+bool meets_on_the_way(const tf::box3& a, const tf::box3& b, const tf::point3& motion, double latest,
+                      double reach) {
+    const double wide = reach + margin(a, b);
+    double first = 0.0;
+    double last = latest;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double low = b.min[k] - a.max[k] - wide;
+        const double high = b.max[k] - a.min[k] + wide;
+        if (motion[k] == 0.0) {
+            if (low > 0.0 || high < 0.0) return false;
+            continue;
+        }
+        const double one = low / motion[k], two = high / motion[k];
+        first = std::max(first, std::min(one, two));
+        last = std::min(last, std::max(one, two));
+    }
+    return first <= last * (1.0 + 0x1p-20);
+}
+
+/// The distance of two boxes, not above the exact one.
+double box_distance(const tf::box3& a, const tf::box3& b) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double gap = std::max({0.0, b.min[k] - a.max[k], a.min[k] - b.max[k]});
+        sum += gap * gap;
+    }
+    return std::sqrt(sum) * (1.0 - 0x1p-48);
+}
+
+/// The order of what matters more: penetrating, touching, then the nearer.
+bool before(const nearest_part& a, const nearest_part& b) {
+    if (a.how.relation.relation != b.how.relation.relation)
+        return a.how.relation.relation > b.how.relation.relation;
+    if (a.how.distance != b.how.distance) return a.how.distance < b.how.distance;
+    return a.part < b.part;
+}
+
+}  // namespace
+
+chosen_parts surroundings::choose(const std::vector<std::size_t>& numbers) const {
+    chosen_parts chosen;
+    chosen.number = numbers;
+    for (const std::size_t i : numbers) chosen.parts.push_back({all_[i].mesh, &all_[i].faces()});
+    return chosen;
+}
+
+chosen_parts surroundings::on_the_way(const tf::box3& box, const tf::point3& motion, double latest,
+                                      double reach) const {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < all_.size(); ++i)
+        if (meets_on_the_way(box, *all_[i].box, motion, latest, reach)) numbers.push_back(i);
+    return choose(numbers);
+}
+
+chosen_parts surroundings::everything() const {
+    std::vector<std::size_t> numbers(all_.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    return choose(numbers);
+}
+
+std::optional<nearest_part> surroundings::nearest(tf::mesh_view mesh, const tf::tree<3>& faces,
+                                                  const tf::box3& box, double radius) const {
+    std::vector<std::size_t> order(all_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<double> least;
+    for (const body& part : all_) least.push_back(box_distance(box, *part.box));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t i, std::size_t j) { return least[i] < least[j]; });
+    std::optional<nearest_part> best;
+    for (const std::size_t i : order) {
+        if (best) radius = best->how.distance;
+        if (least[i] > radius) break;
+        const auto how = tf::measure(mesh, faces, all_[i].mesh, all_[i].faces(), radius);
+        if (!how) continue;
+        const nearest_part one{i, *how};
+        if (!best || before(one, *best)) best = one;
+    }
+    return best;
+}
+
+std::uint64_t surroundings::indexed() const {
+    return static_cast<std::uint64_t>(
+        std::count_if(all_.begin(), all_.end(), [](const body& b) { return b.tree != nullptr; }));
+}
+
+}  // namespace tools

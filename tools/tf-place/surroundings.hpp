@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// The fixed meshes: those that matter for a motion are indexed, no others.
+
+#include "tools/tf-place/body.hpp"
+#include "tools/tf-place/settings.hpp"
+#include <libmesh/place/measure.hpp>
+#include <libmesh/place/still_part.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace tools {
+
+/// What did not have to be looked at.
+struct skipped_work {
+    std::uint64_t parts_culled = 0;  ///< whose box told that they cannot matter
+    std::uint64_t pairs_tested = 0;  ///< of faces in motion
+};
+
+/// A part and how MOVING lies to it.
+struct nearest_part {
+    std::size_t part = 0;
+    tf::mesh_measure how{};
+};
+
+/// A few of the fixed meshes, with their numbers among all.
+struct chosen_parts {
+    std::vector<tf::still_part> parts{};
+    std::vector<std::size_t> number{};
+};
+
+class surroundings {
+  public:
+    explicit surroundings(std::vector<body>& all) : all_(all) {}
+
+    [[nodiscard]] std::vector<body>& all() const { return all_; }
+    /// Those whose boxes come within `reach` of `box` when it is moved by up to `latest` times
+    /// `motion`; a little more is allowed for rounding.
+    [[nodiscard]] chosen_parts on_the_way(const tf::box3& box, const tf::point3& motion,
+                                          double latest, double reach) const;
+    [[nodiscard]] chosen_parts everything() const;
+    /// The part that `mesh` penetrates, else one that it touches, else the nearest one; of several
+    /// the lowest. None when there is no part within `radius`; those whose boxes are further away
+    /// are not indexed for this.
+    [[nodiscard]] std::optional<nearest_part> nearest(tf::mesh_view mesh, const tf::tree<3>& faces,
+                                                      const tf::box3& box, double radius) const;
+    [[nodiscard]] std::uint64_t indexed() const;
+
+  private:
+    [[nodiscard]] chosen_parts choose(const std::vector<std::size_t>& numbers) const;
+
+    std::vector<body>& all_;
+};
+
+}  // namespace tools
