@@ -124,7 +124,7 @@ void check_same(const cloud& points, double tolerance, test::random& random) {
     CAPTURE(tolerance);
     for (const weld_rule rule : rules) {
         const auto expected = leaders(points, rule, tolerance);
-        for (const std::size_t count : {1, 2, 3, 7, 50}) {
+        for (const std::size_t count : {1U, 2U, 3U, 7U, 50U}) {
             CAPTURE(static_cast<int>(rule));
             CAPTURE(count);
             CHECK(weld_in_tiles(points, rule, tolerance, count, random).leader == expected);
