@@ -57,13 +57,14 @@ struct arrangement {
 /// exactly that of the bed (to float32 if asked for); no coordinate is outside of the plate or
 /// above its height; any two placed parts are at least `spacing` apart, decided on the exact boxes
 /// or by `mesh_distance` less its error. With a spacing of 0 parts have no common point unless it
-/// is in a plane that separates their boxes. Parts do not stand in each other's shadow: seen from
-/// above they are apart too, but a small part may stand in the hole of another one.
+/// is in a plane that separates their boxes. Parts are not put on or under each other, but for
+/// what `tighten` moves below an overhang; a small one may stand in the hole of another.
 ///
 /// It is a search: parts in the order of the area they cover, each at the free place of the least
 /// y, then x, found on a raster of some 512 cells a side and then moved down y and x until
 /// something is in the way. A part that is not placed may have had a place. Parts without faces
-/// take no room and are left where they are, placed.
+/// take no room and are left where they are, placed; points that no face uses move along with their
+/// part and do not count.
 ///
 /// \throws std::invalid_argument naming the part with a corner that is no point or not finite, and
 ///         for options that are negative, NaN, or (but for the height) not finite

@@ -1,0 +1,274 @@
+#include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libmesh/nearness/mesh_distance.hpp>
+#include <libmesh/place/detail/plate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tf::detail {
+namespace {
+
+/// Cosine and sine of `turn` times 15 degrees, the same on every machine; quarters are exact.
+std::array<double, 2> cosine_and_sine(unsigned turn) {
+    constexpr double cosine[] = {1.0,
+                                 0.96592582628906828675,
+                                 0.86602540378443864676,
+                                 0.70710678118654752440,
+                                 0.5,
+                                 0.25881904510252076235,
+                                 0.0};
+    const auto of = [&](unsigned t) {
+        t %= 24;
+        if (t > 12) t = 24 - t;
+        return t <= 6 ? cosine[t] : -cosine[12 - t];
+    };
+    return {of(turn), of(turn + 18)};
+}
+
+/// The box of the points that faces use.
+box3 box_of(mesh_view mesh) {
+    const point3& first = mesh.points[mesh.faces[0][0]];
+    box3 box{first, first};
+    for (const face& f : mesh.faces)
+        for (const std::uint32_t i : f)
+            for (std::size_t k = 0; k < 3; ++k) {
+                box.min[k] = std::min(box.min[k], mesh.points[i][k]);
+                box.max[k] = std::max(box.max[k], mesh.points[i][k]);
+            }
+    return box;
+}
+
+/// Whether `high` - `low` is `least` or more, exactly; so is one that is `least` or less.
+int compare_difference(double high, double low, double least) {
+    const double difference = high - low;
+    if (difference != least) return difference > least ? 1 : -1;
+    const double shift = difference - high;
+    const double rest = (high - (difference - shift)) + (-low - shift);
+    return (rest > 0.0) - (rest < 0.0);
+}
+
+bool boxes_apart(const box3& a, const box3& b, double spacing) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (compare_difference(a.min[k], b.max[k], spacing) >= 0 ||
+            compare_difference(b.min[k], a.max[k], spacing) >= 0)
+            return true;
+    return false;
+}
+
+}  // namespace
+
+turned_part::turned_part(mesh_view part, unsigned turn)
+    : turn_(turn), faces_(part.faces), axis_(cosine_and_sine(turn)) {
+    const box3 box = box_of(part);
+    for (std::size_t k = 0; k < 3; ++k) centre_[k] = 0.5 * box.min[k] + 0.5 * box.max[k];
+    const auto [c, s] = axis_;
+    points_.reserve(part.points.size());
+    for (const point3& p : part.points) {
+        const double x = p.x - centre_.x, y = p.y - centre_.y;
+        points_.push_back({c * x - s * y, s * x + c * y, p.z});
+    }
+    lowest_ = box_of(mesh()).min;
+    for (point3& p : points_) p = {p.x - lowest_.x, p.y - lowest_.y, p.z - lowest_.z};
+    const point3 highest = box_of(mesh()).max;
+    size_ = highest;
+    // Of infinite coordinates the box is not to be relied on.
+    for (const face& f : faces_)
+        for (const std::uint32_t i : f)
+            for (std::size_t k = 0; k < 3; ++k)
+                if (!std::isfinite(points_[i][k]))
+                    size_[k] = std::numeric_limits<double>::quiet_NaN();
+}
+
+transform<3> turned_part::matrix(const point3& by) const {
+    const auto [c, s] = axis_;
+    transform<3> m;
+    m.rows[0] = {c, -s, 0.0, (by.x - lowest_.x) - (c * centre_.x - s * centre_.y)};
+    m.rows[1] = {s, c, 0.0, (by.y - lowest_.y) - (s * centre_.x + c * centre_.y)};
+    m.rows[2] = {0.0, 0.0, 1.0, by.z - lowest_.z};
+    return m;
+}
+
+plate::plate(const arrange_options& options, double cell, bool square)
+    : options_(options),
+      cell_(cell),
+      unit_(0.0),
+      raster_(cell > 0.0 ? static_cast<std::uint32_t>(options.size.x / cell) + 8 : 1,
+              cell > 0.0 ? static_cast<std::uint32_t>(options.size.y / cell) + 8 : 1,
+              cell > 0.0 ? std::min(options.spacing / cell, 1e5) : 0.0, square) {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < 2; ++k)
+        largest = std::max(largest, std::abs(options.corner[k]) + options.size[k]);
+    unit_ = std::ldexp(largest, options.to_single ? -23 : -52);
+}
+
+plate::resident plate::at(std::uint32_t number, const turned_part& part, const point3& by) const {
+    resident one{number, {}, part.mesh().faces, {}, {}};
+    one.part.placed = true;
+    one.part.matrix = part.matrix(by);
+    one.part.points.reserve(part.mesh().points.size());
+    for (const point3& p : part.mesh().points) {
+        point3 q{p.x + by.x, p.y + by.y, p.z + by.z};
+        if (options_.to_single)
+            for (std::size_t k = 0; k < 3; ++k) q[k] = nearest_float(q[k]);
+        one.part.points.push_back(q);
+    }
+    one.box = box_of(one.mesh());
+    return one;
+}
+
+bool plate::inside(const box3& box) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double corner = k == 2 ? box.min.z : options_.corner[k];
+        if (box.min[k] < corner || !std::isfinite(box.max[k])) return false;
+        if (compare_difference(box.max[k], corner, options_.size[k]) > 0) return false;
+    }
+    return true;
+}
+
+/// Either the boxes are apart, exactly; or the faces are by what `mesh_distance` says less its
+/// error, 2^-49 of a length that is no more than the diagonal of the box around both.
+bool plate::apart(const resident& a, const resident& b) {
+    const double spacing = options_.spacing;
+    if (boxes_apart(a.box, b.box, spacing)) return true;
+    ++measured_;
+    box3 both = a.box;
+    for (std::size_t k = 0; k < 3; ++k) {
+        both.min[k] = std::min(both.min[k], b.box.min[k]);
+        both.max[k] = std::max(both.max[k], b.box.max[k]);
+    }
+    const double error = 0x1p-48 * diagonal(both);
+    const auto found =
+        mesh_distance(a.mesh(), a.faces_tree, b.mesh(), b.faces_tree, spacing + 2.0 * error);
+    return !found || (found->distance > 0.0 && found->distance - error >= spacing);
+}
+
+bool plate::fits(const resident& one) {
+    return inside(one.box) && std::all_of(residents_.begin(), residents_.end(),
+                                          [&](const resident& r) { return apart(one, r); });
+}
+
+/// The least distance of the part, moved by `by`, to these; `most` when it is more.
+double plate::distance_to(const std::vector<const resident*>& others, const turned_part& part,
+                          const tree<3>& faces_tree, const point3& by, double most) const {
+    const transformed<3> moved(faces_tree, translation<3>(by));
+    for (const resident* r : others) {
+        const auto found = mesh_distance(part.mesh(), moved, r->mesh(), r->faces_tree, most);
+        if (found) most = std::min(most, found->distance);
+    }
+    return most;
+}
+
+/// How far the part may move against the direction of `axis`: steps of what it is still away from
+/// all that is in the way, beyond the spacing, in which it passes nothing. Where it is as near as
+/// it may be to something that it only moves along, so that this step is 0, it goes on from the
+/// nearest place that is free again: by less than its own length, so that it passes no wall either.
+double plate::free_travel(const turned_part& part, const tree<3>& faces_tree, const point3& by,
+                          std::size_t axis) const {
+    const double spacing = options_.spacing;
+    const double limit = by[axis] - options_.corner[axis];
+    box3 swept;
+    for (std::size_t k = 0; k < 3; ++k) {
+        swept.min[k] = by[k];
+        swept.max[k] = by[k] + part.size()[k];
+    }
+    swept.min[axis] = options_.corner[axis];
+    std::vector<const resident*> in_the_way;
+    for (const resident& r : residents_)
+        if (!boxes_apart(swept, r.box, spacing)) in_the_way.push_back(&r);
+
+    double travel = 0.0;
+    const auto room_at = [&](double t, double most) {
+        point3 there = by;
+        there[axis] -= t;
+        return distance_to(in_the_way, part, faces_tree, there, most + spacing) - spacing;
+    };
+    for (unsigned step = 0; step < 40 && travel < limit; ++step) {
+        double room = std::max(room_at(travel, limit - travel), 0.0);
+        if (room <= 1e-4 * cell_) {
+            room = std::min(0.5 * part.size()[axis], limit - travel);
+            while (room > 0.1 * cell_ && room_at(travel + room, unit_) < -8.0 * unit_) room *= 0.5;
+            if (room <= 0.1 * cell_) break;
+        }
+        travel += room;
+    }
+    return std::min(travel, limit);
+}
+
+/// The least coordinate to be written that is `spacing` above `below`, exactly.
+double plate::next_above(double below) const {
+    const auto written = [&](double x) { return options_.to_single ? nearest_float(x) : x; };
+    double at = written(below + options_.spacing);
+    while (compare_difference(at, below, options_.spacing) < 0)
+        at = options_.to_single
+                 ? static_cast<double>(std::nextafter(static_cast<float>(at),
+                                                      std::numeric_limits<float>::infinity()))
+                 : std::nextafter(at, std::numeric_limits<double>::infinity());
+    return at;
+}
+
+/// A slide ends where rounding has it. Where that is, but for rounding, the spacing above the box
+/// of a part, it is to be that exactly: so that rows of boxes are as long as they should be.
+double plate::snapped(double at, std::size_t axis) const {
+    for (const resident& r : residents_) {
+        const double exact = next_above(r.box.max[axis]);
+        if (std::abs(exact - at) <= 64.0 * unit_) return exact;
+    }
+    return at;
+}
+
+/// Down y and down x, for as long as it brings something.
+void plate::slide(const turned_part& part, const tree<3>& faces_tree, point3& by) {
+    for (unsigned round = 0; round < 4; ++round) {
+        double moved = 0.0;
+        for (const std::size_t axis : {1, 0}) {
+            const double travel = free_travel(part, faces_tree, by, axis);
+            by[axis] = travel < by[axis] - options_.corner[axis] ? snapped(by[axis] - travel, axis)
+                                                                 : options_.corner[axis];
+            moved += travel;
+        }
+        if (moved <= 1e-3 * cell_) break;
+    }
+}
+
+bool plate::put(std::uint32_t number, mesh_view mesh, unsigned turn, cell_place place) {
+    const turned_part part(mesh, turn);
+    const point3 raster_place{
+        options_.corner.x + place.column * cell_, options_.corner.y + place.row * cell_,
+        options_.to_single ? nearest_float(options_.corner.z) : options_.corner.z};
+    const auto settle = [&](const point3& by) {
+        resident one = this->at(number, part, by);
+        if (!inside(one.box)) return false;
+        one.faces_tree = face_tree(one.mesh());
+        if (!fits(one)) return false;
+        raster_.take(cells_covered(one.mesh(), options_.corner.x, options_.corner.y, cell_));
+        residents_.push_back(std::move(one));
+        return true;
+    };
+    if (options_.tighten) {
+        const tree<3> faces_tree = face_tree(part.mesh());
+        point3 tight = raster_place;
+        slide(part, faces_tree, tight);
+        // What rounding has brought too near is moved away again by units in the last place.
+        if (settle(tight)) return true;
+        for (double back = unit_; back < 100.0 * unit_; back *= 4.0)
+            for (const auto& [x, y] : {std::pair(back, 0.0), {0.0, back}, {back, back}})
+                if (settle({tight.x + x, tight.y + y, tight.z})) return true;
+    }
+    return settle(raster_place);
+}
+
+std::vector<arranged_part> plate::take_parts(std::span<const mesh_view> parts) {
+    std::vector<arranged_part> result(parts.size());
+    for (resident& r : residents_) result[r.number] = std::move(r.part);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (result[i].placed) continue;
+        result[i].placed = parts[i].faces.empty();
+        result[i].points.assign(parts[i].points.begin(), parts[i].points.end());
+    }
+    return result;
+}
+
+}  // namespace tf::detail
