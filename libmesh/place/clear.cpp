@@ -12,6 +12,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace tf {
 namespace {
@@ -19,6 +20,9 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double dot(const point3& a, const point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+point3 cross(const point3& u, const point3& v) {
+    return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+}
 point3 scaled(const point3& v, double by) { return {v.x * by, v.y * by, v.z * by}; }
 point3 sum(const point3& a, const point3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
@@ -36,7 +40,7 @@ std::optional<point3> normal_of(mesh_view mesh, std::uint32_t f) {
     const point3 &p = mesh.points[corners[0]], &q = mesh.points[corners[1]],
                  &r = mesh.points[corners[2]];
     const point3 u{q.x - p.x, q.y - p.y, q.z - p.z}, v{r.x - p.x, r.y - p.y, r.z - p.z};
-    return direction_of({u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x});
+    return direction_of(cross(u, v));
 }
 
 class clearing {
@@ -57,18 +61,41 @@ class clearing {
         std::vector<clear_move> found;
         const auto pair = nearest({});
         const double lacking = pair ? options_.clearance - pair->distance : 0.0;
-        double best = infinity;
-        for (const point3& direction : directions())
-            if (const auto time = way_out(direction, lacking, best)) {
-                found.push_back({direction, *time});
-                best = std::min(best, *time);
-            }
+        clear_move best{{}, infinity};
+        const auto look = [&](const std::optional<point3>& direction) {
+            if (!direction) return;
+            const auto time = way_out(*direction, lacking, best.time);
+            if (!time) return;
+            found.push_back({*direction, *time});
+            if (*time < best.time) best = found.back();
+        };
+        for (const point3& direction : directions()) look(direction);
+        for (const double tilt : {0.5, 0.25, 0.125, 0.0625})
+            for (const point3& aside : around(best.direction))
+                look(direction_of(sum(best.direction, scaled(aside, tilt))));
         std::stable_sort(found.begin(), found.end(),
                          [](const auto& x, const auto& y) { return x.time < y.time; });
         return found;
     }
 
   private:
+    /// Six directions at right angles to one.
+    [[nodiscard]] static std::vector<point3> around(const point3& d) {
+        const std::size_t k = std::abs(d.x) > std::abs(d.y) ? 1 : 0;
+        point3 axis{};
+        axis[k] = 1.0;
+        const auto u = direction_of(cross(d, axis));
+        if (!u) return {};
+        const point3 v = cross(d, *u);
+        const double half = std::sqrt(0.75);
+        std::vector<point3> all;
+        for (const auto& [x, y] :
+             {std::pair(1.0, 0.0), std::pair(0.5, half), std::pair(-0.5, half),
+              std::pair(-1.0, 0.0), std::pair(-0.5, -half), std::pair(0.5, -half)})
+            all.push_back(sum(scaled(*u, x), scaled(v, y)));
+        return all;
+    }
+
     [[nodiscard]] bool boxes_within(std::size_t i, const point3& offset) const {
         for (std::size_t k = 0; k < 3; ++k) {
             const double c = options_.clearance;

@@ -30,17 +30,18 @@ struct clear_move {
 ///
 /// The directions tried are the six of the axes, those of the line between the nearest points, the
 /// normals of faces that meet, their sum, and the way of a walk that steps out of the reach of the
-/// nearest part until none is. In each, some places from near to far are looked at; from the first
-/// free one the mesh slides back, as `slide` does, until contact or to the clearance. That need not
-/// be the least translation in a direction, nor the best of all directions, which is a boundary
-/// point of a set with O(n^2 m^2) faces. At least one is given: along an axis, past all boxes.
+/// nearest part until none is; then others around the best, ever closer to it. In each, some places
+/// from near to far are looked at; from the first free one the mesh slides back, as `slide` does,
+/// until contact or to the clearance. That need not be the least translation in a direction, nor
+/// the best of all directions, which is a boundary point of a set with O(n^2 m^2) faces. At least
+/// one is given: along an axis, past all boxes.
 ///
 /// The places are those of exact translations but for rounding: `settle_among`, backing off
 /// `forward`, decides in the coordinates that are written.
 ///
 /// \pre    `tree_a` is `face_tree(a)`
 /// \throws std::invalid_argument as `relation`, or when the clearance is negative or not finite
-/// \cost   for each of some 30 directions up to a dozen `intersects` or `mesh_distance`, a
+/// \cost   for each of some 50 directions up to a dozen `intersects` or `mesh_distance`, a
 ///         `face_tree` of `a` and a `slide`
 /// \same   on any number of threads
 /// \source why the least translation is no target: Dobkin, Hershberger, Kirkpatrick and Suri,
