@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(g++ cmake ninja-build
-    libtbb-dev libhwy-dev libassimp-dev libcli11-dev nlohmann-json3-dev)
+    libeigen3-dev libtbb-dev libhwy-dev libassimp-dev libcli11-dev nlohmann-json3-dev)
 
 step() { printf '\n== %s\n' "$*"; }
 

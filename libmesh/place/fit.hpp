@@ -14,7 +14,8 @@
 namespace tf {
 
 enum class fit_method : std::uint8_t {
-    /// Least squares of distances to the planes of the nearest faces: few iterations on surfaces.
+    /// Least squares of distances to the planes of the nearest faces, or square to the way to the
+    /// nearest edge or corner: few iterations on surfaces.
     point_to_plane,
     /// Least squares of distances to the nearest points: for clouds, and where planes say little.
     point_to_point,
@@ -30,7 +31,8 @@ struct fit_options {
     double max_distance = std::numeric_limits<double>::infinity();
     bool scale = false;  ///< find a uniform scale, too
     unsigned max_iterations = 100;
-    /// Converged when a step moves no point by more than this share of the fixed box's diagonal.
+    /// Converged when a step moves no point near the fixed one by more than about this share of the
+    /// diagonal of its box.
     double tolerance = 1e-9;
     /// At most this many moving points are used in the steps, evenly by number; 0 is all.
     std::size_t samples = 100'000;
