@@ -226,6 +226,41 @@ class Moves(PlaceTest):
         entry = self.placed("drop", "third.obj", "--start", "m.txt")
         self.assertEqual((entry["travel"], entry["matrix"]), (0, rows))
 
+    def test_lay_turns_a_side_down_exactly(self):
+        points, faces = box((0, 0, 0), (1, 2, 4))
+        turned = [(0.6 * x - 0.8 * z, y, 0.8 * x + 0.6 * z + 3) for x, y, z in points]
+        self.mesh("turned.obj", (turned, faces))
+        entry = self.placed("lay", "turned.obj", "--bed", "0.1", "-o", "out.obj", "--matrix",
+                            "m.txt")
+        self.assertEqual((entry["status"], entry["bed"]["reached"]), ("touching", True))
+        self.assertAlmostEqual(entry["sides"][entry["chosen"]]["area"], 8)
+        self.assertEqual(self.lowest("out.obj"), 0.1)
+        self.assertEqual(sum(p[2] == 0.1 for p in self.points("out.obj")), 4)
+        rows = [list(map(float, line.split())) for line in self.read("m.txt").splitlines()]
+        self.assertEqual(rows, entry["matrix"])
+        for old, new in zip(turned, self.points("out.obj")):
+            for row, x in zip(rows, new):
+                self.assertAlmostEqual(sum(m * c for m, c in zip(row, (*old, 1))), x, places=12)
+        entry = self.placed("lay", "a.obj", "--face-normal", "1,0.1,0", "-o", "out.stl")
+        self.assertEqual(entry["sides"][entry["chosen"]]["normal"], [1, 0, 0])
+        self.assertEqual(self.lowest("out.stl"), 0)
+        entry = self.placed("lay", "a.obj", "--face-point", "1.5,1,6")
+        self.assertEqual(entry["sides"][entry["chosen"]]["normal"], [0, -1, 0])
+
+    def test_normals_turn_with_the_mesh(self):
+        lines = ["ply", "format ascii 1.0", "element vertex 3"]
+        lines += [f"property double {name}" for name in ("x", "y", "z", "nx", "ny", "nz")]
+        lines += ["element face 1", "property list uchar int vertex_indices", "end_header"]
+        lines += ["0 0 5 1 0 0", "1 0 5 1 0 0", "0 1 5 1 0 0", "3 0 1 2"]
+        with open(self.path("n.ply"), "w") as file:
+            file.write("\n".join(lines) + "\n")
+        with open(self.path("turn.txt"), "w") as file:
+            file.write("0 -1 0 0\n1 0 0 0\n0 0 1 0\n0 0 0 1\n")
+        self.placed("drop", "n.ply", "--start", "turn.txt", "-o", "out.ply", "--ascii")
+        rows = [line.split() for line in self.read("out.ply").splitlines()]
+        self.assertEqual([list(map(float, row)) for row in rows if len(row) == 6],
+                         [[0, 0, 0, 0, 1, 0], [0, 1, 0, 0, 1, 0], [-1, 0, 0, 0, 1, 0]])
+
     def test_a_cloud_drops_on_the_bed(self):
         with open(self.path("cloud.xyz"), "w") as file:
             file.write("0 0 3.5\n1 0 4\nnan 0 1\n0 1 5\n")

@@ -10,7 +10,8 @@ FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in
         "reason": (str, NULL), "status_at_start": str, "status": str, "inside": (str, NULL),
         "distance": (*NUMBER, NULL), "surface_distance": (*NUMBER, NULL), "closest": (dict, NULL),
         "direction": (list, NULL), "travel": (*NUMBER, NULL), "backed_off": (int, NULL),
-        "matrix": (list, NULL), "contacts": list, "contact_count": int, "not_placed": list,
+        "matrix": (list, NULL), "contacts": list, "contact_count": int, "sides": list,
+        "chosen": (int, NULL), "not_placed": list,
         "matrix_file": (str, NULL), "output": (dict, NULL), "warnings": list, "exit": int}
 
 
@@ -57,6 +58,11 @@ class Usage(PlaceTest):
         self.refused("measure", "a.obj", *fixed, "--matrix", "out.txt")
         self.refused("measure", "a.obj", *fixed, "--max-travel", "1")
         self.refused("measure", "a.obj", *fixed, "--in-place")
+        self.refused("drop", "a.obj", "--keep-spin")
+        self.refused("lay", "a.obj", *fixed)
+        self.refused("lay", "a.obj", "--largest-face", "--face-point", "0,0,0")
+        for mode in ("arrange", "fit"):
+            self.assertIn("not yet", self.refused(mode, "a.obj", *fixed))
         self.refused("drop", "a.obj", "--html", "out.html")
 
     def test_no_output_replaces_a_file_that_is_read(self):
@@ -81,7 +87,7 @@ class Usage(PlaceTest):
 
     def test_every_key_is_there_and_of_its_type(self):
         fixed = ("--fixed", "floor.obj")
-        for arguments in (["drop", "a.obj"], ["drop", "a.obj", *fixed, "-o", "out.stl"],
+        for arguments in (["drop", "a.obj"], ["lay", "a.obj"], ["drop", "a.obj", *fixed, "-o", "out.stl"],
                           ["slide", "a.obj", *fixed, "-d", "1,0,0"],
                           ["measure", "a.obj", *fixed], ["clear", "a.obj", *fixed],
                           ["mate", "a.obj", *fixed, "--clearance", "0.5"]):

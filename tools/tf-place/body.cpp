@@ -8,7 +8,9 @@
 #include <libmesh/weld/equal_points.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <numeric>
 #include <utility>
@@ -18,6 +20,38 @@ namespace {
 
 bool finite(const tf::point3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+tf::point3 rounded(const tf::point3& p) {
+    using tf::detail::nearest_float;
+    return {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
+}
+
+/// The cofactors of the linear part, which is how normals go.
+tf::transform<3> of_normals(const tf::transform<3>& m) {
+    tf::transform<3> result;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const auto& r = m.rows[(i + 1) % 3];
+            const auto& s = m.rows[(i + 2) % 3];
+            result.rows[i][j] = r[(j + 1) % 3] * s[(j + 2) % 3] - r[(j + 2) % 3] * s[(j + 1) % 3];
+        }
+    return result;
+}
+
+bool holds_numbers(const tf::column& c) {
+    return !c.list_length && c.role == tf::column_role::data &&
+           (c.type == tf::scalar_type::float32 || c.type == tf::scalar_type::float64);
+}
+
+void set_number(tf::column& c, std::size_t row, double value) {
+    const auto put = [&](auto one) {
+        std::memcpy(c.values.data() + row * sizeof(one), &one, sizeof(one));
+    };
+    if (c.type == tf::scalar_type::float32)
+        put(static_cast<float>(value));
+    else
+        put(value);
 }
 
 /// The numbers of the faces that can be computed with.
@@ -69,7 +103,7 @@ body make_body(job& work, const std::string& path, tf::mesh_file file, bool clou
     return b;
 }
 
-void take_places(body& b, const std::vector<tf::point3>& placed, const tf::point3& offset,
+void take_places(body& b, const std::vector<tf::point3>& placed, const tf::transform<3>& matrix,
                  bool to_single) {
     auto& points = b.file.mesh.points;
     const bool cloud = b.mesh.faces.empty();
@@ -79,10 +113,8 @@ void take_places(body& b, const std::vector<tf::point3>& placed, const tf::point
             p = placed[next++];
             continue;
         }
-        for (std::size_t k = 0; k < 3; ++k) {
-            p[k] += offset[k];
-            if (to_single) p[k] = tf::detail::nearest_float(p[k]);
-        }
+        p = matrix(p);
+        if (to_single) p = rounded(p);
     }
     for (std::uint32_t f = 0; f < b.mesh.faces.size(); ++f)
         for (std::size_t i = 0; i < 3; ++i)
@@ -90,8 +122,29 @@ void take_places(body& b, const std::vector<tf::point3>& placed, const tf::point
 }
 
 void round_to_single(tf::mesh_file& file) {
-    for (tf::point3& p : file.mesh.points)
-        for (std::size_t k = 0; k < 3; ++k) p[k] = tf::detail::nearest_float(p[k]);
+    for (tf::point3& p : file.mesh.points) p = rounded(p);
+}
+
+void turn_normals(tf::mesh_file& file, const tf::transform<3>& matrix) {
+    const tf::transform<3> turn = of_normals(matrix);
+    for (tf::element& e : file.attributes.elements) {
+        std::array<tf::column*, 3> axes{};
+        constexpr std::array<const char*, 3> names{"nx", "ny", "nz"};
+        for (tf::column& c : e.columns)
+            for (std::size_t k = 0; k < 3; ++k)
+                if (c.name == names[k] && holds_numbers(c)) axes[k] = &c;
+        if (!axes[0] || !axes[1] || !axes[2]) continue;
+        for (std::size_t row = 0; row < e.rows; ++row) {
+            tf::point3 n;
+            for (std::size_t k = 0; k < 3; ++k) n[k] = tf::number_at(*axes[k], row);
+            const tf::point3 turned = turn(n);
+            const double before = std::hypot(n.x, n.y, n.z);
+            const double after = std::hypot(turned.x, turned.y, turned.z);
+            if (!(after > 0.0)) continue;
+            for (std::size_t k = 0; k < 3; ++k)
+                set_number(*axes[k], row, turned[k] / after * before);
+        }
+    }
 }
 
 }  // namespace tools

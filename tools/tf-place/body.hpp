@@ -6,6 +6,7 @@
 #include <libmesh/bounding_box.hpp>
 #include <libmesh/io/mesh_file.hpp>
 #include <libmesh/mesh.hpp>
+#include <libtree/transform.hpp>
 #include <libtree/tree.hpp>
 
 #include <cstdint>
@@ -44,10 +45,13 @@ struct body {
                              bool cloud_allowed);
 
 /// Gives the points of `b.file` that faces use, or all of a cloud, the places of `placed`, which is
-/// by the points of `b.mesh`; all others are moved by `offset`, and rounded to float32 if
+/// by the points of `b.mesh`; all others are moved by `matrix`, and rounded to float32 if
 /// `to_single`.
-void take_places(body& b, const std::vector<tf::point3>& placed, const tf::point3& offset,
+void take_places(body& b, const std::vector<tf::point3>& placed, const tf::transform<3>& matrix,
                  bool to_single);
+
+/// Turns the columns nx, ny, nz of the file's points and faces as `matrix` turns normals.
+void turn_normals(tf::mesh_file& file, const tf::transform<3>& matrix);
 
 /// Rounds every point of the file to float32.
 void round_to_single(tf::mesh_file& file);

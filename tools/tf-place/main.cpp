@@ -26,6 +26,7 @@ void add_modes(command_line& line) {
     line.group("Modes");
     line.mention(
         {.names = "drop", .text = "translate down until MOVING rests on the bed or on\n--fixed"});
+    line.mention({.names = "lay", .text = "turn a flat side down, on the bed"});
     line.mention({.names = "slide",
                   .text = "translate along --direction until contact (less\n--clearance)"});
     line.mention(
@@ -41,9 +42,10 @@ void add_options(command_line& line, place_settings& s, common_options& options)
     line.group("Options");
     line.repeatable_option(options.also_read,
                            {"--fixed", "FILE", "what stays where it is (repeatable)"});
-    line.option({"--bed", "Z",
-                 "drop: height of the bed; with --fixed there is\nnone unless this is given", "0"},
-                [&s](std::string_view text) { s.bed = tools::parse_number("--bed", text); });
+    line.option(
+        {"--bed", "Z",
+         "drop, lay: height of the bed; drop with --fixed has\nnone unless this is given", "0"},
+        [&s](std::string_view text) { s.bed = tools::parse_number("--bed", text); });
     line.option(
         {"-d, --direction", "X,Y,Z", "slide, drop: direction of travel", "0,0,-1"},
         [&s](std::string_view text) { s.direction = tools::parse_direction("--direction", text); });
@@ -54,6 +56,22 @@ void add_options(command_line& line, place_settings& s, common_options& options)
                 [&s](std::string_view text) {
                     s.max_travel = tools::parse_distance("--max-travel", text);
                 });
+    line.repeatable_flag(s.sides_chosen, {"--largest-face", "",
+                                          "lay: on the largest side of the convex hull", "this"});
+    line.option({"--face-normal", "X,Y,Z", "lay: on the side whose normal is nearest to this"},
+                [&s](std::string_view text) {
+                    s.lay.choose = tf::lay_choice::nearest_normal;
+                    s.lay.toward = tools::parse_direction("--face-normal", text);
+                    ++s.sides_chosen;
+                });
+    line.option({"--face-point", "X,Y,Z", "lay: on the side that holds this point"},
+                [&s](std::string_view text) {
+                    const auto v = tools::parse_numbers("--face-point", text, 3);
+                    s.lay.choose = tf::lay_choice::holding_point;
+                    s.lay.toward = {v[0], v[1], v[2]};
+                    ++s.sides_chosen;
+                });
+    line.flag(s.lay.keep_spin, {"--keep-spin", "", "lay: keep the turn about the vertical"});
     line.option({"--start", "FILE", "4x4 matrix applied to MOVING first"},
                 [&s](std::string_view text) { s.start = text; });
 }
@@ -96,15 +114,29 @@ const char* const epilogue =
     throw tools::failure(tools::bad_usage, "usage", text);
 }
 
+void check_lay(const place_settings& s) {
+    if (s.mode != place_mode::lay) {
+        if (s.sides_chosen > 0 || s.lay.keep_spin)
+            refuse("--largest-face, --face-normal, --face-point and --keep-spin are for lay");
+        return;
+    }
+    if (s.sides_chosen > 1)
+        refuse("--largest-face, --face-normal and --face-point exclude each other");
+    if (!s.fixed.empty()) refuse("--fixed: lay puts MOVING on the bed alone");
+    if (s.clearance.value > 0.0) refuse("--clearance: lay puts MOVING on the bed");
+    if (s.max_travel) refuse("--max-travel: lay goes to the bed");
+}
+
 /// Options that would do nothing are refused rather than passed over.
 void check_settings(place_settings& s, const common_options& o) {
     s.mode = tools::parse_mode(s.mode_text);
     s.fixed = o.also_read;
     const std::string mode = s.mode_text;
-    if (s.mode == place_mode::lay || s.mode == place_mode::arrange || s.mode == place_mode::fit)
-        refuse(mode + ": not yet");
-    if (s.fixed.empty() && s.mode != place_mode::drop) refuse(mode + " needs --fixed");
-    if (s.bed && s.mode != place_mode::drop) refuse("--bed: only drop has one");
+    if (s.mode == place_mode::arrange || s.mode == place_mode::fit) refuse(mode + ": not yet");
+    check_lay(s);
+    const bool on_bed = s.mode == place_mode::drop || s.mode == place_mode::lay;
+    if (s.fixed.empty() && !on_bed) refuse(mode + " needs --fixed");
+    if (s.bed && !on_bed) refuse("--bed: only drop and lay have one");
     if (s.direction && !s.moves_along_direction())
         refuse("--direction: " + mode + " finds its own");
     if (s.mode == place_mode::slide && !s.direction) refuse("slide needs --direction");
@@ -152,7 +184,8 @@ tools::body read_moving(tools::job& work, const place_settings& s, const tf::tra
     for (const tf::io_warning& w : file.warnings) work.warn(w.code, w.text);
     if (start != tf::transform<3>{})
         for (tf::point3& p : file.mesh.points) p = start(p);
-    const bool cloud_allowed = s.mode == place_mode::drop && s.fixed.empty();
+    const bool cloud_allowed =
+        s.mode == place_mode::lay || (s.mode == place_mode::drop && s.fixed.empty());
     return tools::make_body(work, work.path, std::move(file), cloud_allowed);
 }
 
@@ -169,14 +202,14 @@ exit_status look_at(tools::job& work, const place_settings& s, fixed_meshes& fix
     tools::enter_bodies(work, moving, among);
 
     const tools::placement p = tools::place(work, moving, among, s, to_single);
-    const tf::transform<3> matrix = tf::after(tf::translation<3>(p.offset), start);
+    const tf::transform<3> matrix = tf::after(p.matrix, start);
     work.out.result(work.name + ": " + tools::verdict(p, among, s));
     tools::say_details(work, p, among);
     tools::enter_report(work, moving, p, among, matrix);
     if (!p.placed) return tools::found;
     const auto timing = work.time("write");
     if (!s.matrix.empty()) tools::write_matrix(work, s.matrix, matrix);
-    tools::write_result(work, moving, p, among, s, to_single);
+    tools::write_result(work, moving, p, among, s, matrix, to_single);
     return tools::done;
 }
 

@@ -4,6 +4,7 @@
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/place/clear.hpp>
+#include <libmesh/place/lay.hpp>
 #include <libmesh/place/settle_among.hpp>
 #include <libmesh/place/slide.hpp>
 
@@ -42,6 +43,9 @@ class placing {
             case place_mode::drop:
             case place_mode::slide:
                 along_direction();
+                break;
+            case place_mode::lay:
+                lay();
                 break;
             case place_mode::mate:
                 mate();
@@ -133,7 +137,8 @@ class placing {
         }
         result_.placed = true;
         result_.points = std::move(settled.points);
-        for (std::size_t k = 0; k < 3; ++k) result_.offset[k] = settled.time * motion[k] + 0.0;
+        for (std::size_t k = 0; k < 3; ++k)
+            result_.matrix.rows[k][3] = settled.time * motion[k] + 0.0;  // no -0
         result_.travel = settled.time * length(motion);
         if (result_.travel > 0.0) {
             const double size = length(motion);
@@ -193,6 +198,24 @@ class placing {
         }
         bed_time_ = above / -motion.z;
         return true;
+    }
+
+    void lay() {
+        const auto timing = work_.time("search");
+        tf::lay_options options = settings_.lay;
+        const double given = settings_.bed.value_or(0.0);
+        options.bed = to_single_ ? float_not_below(given) : given;
+        options.to_single = to_single_;
+        auto laid = tf::lay(moving_.mesh, options);
+        work_.keeper.check();
+        if (!laid) return fail("has no side: all its points are on a line");
+        result_.placed = true;
+        result_.on_bed = true;
+        result_.bed = bed_level{given, laid->bed};
+        result_.points = std::move(laid->points);
+        result_.matrix = laid->matrix;
+        result_.sides = std::move(laid->sides);
+        result_.chosen = laid->chosen;
     }
 
     void mate() {

@@ -1,10 +1,11 @@
 #pragma once
 /// \file
-/// Where MOVING goes: the modes drop, slide, mate, clear and measure.
+/// Where MOVING goes: the modes drop, lay, slide, mate, clear and measure.
 
 #include "tools/tf-place/contacts.hpp"
 #include "tools/tf-place/settings.hpp"
 #include "tools/tf-place/surroundings.hpp"
+#include <libmesh/place/convex_hull.hpp>
 #include <libtree/transform.hpp>
 
 #include <cstdint>
@@ -33,12 +34,14 @@ struct placement {
     bool on_bed = false;     ///< it was the bed that stopped it
     tf::point3 direction{};  ///< of the travel; 0 when there is none
     double travel = 0.0;
-    tf::point3 offset{};                    ///< the translation
+    tf::transform<3> matrix{};              ///< of the move
     unsigned backed_off = 0;                ///< steps taken back from what rounding made penetrate
     std::vector<tf::point3> points{};       ///< of MOVING's mesh at the place; as they are written
     std::optional<nearest_part> nearest{};  ///< at the place
     std::vector<contact_row> contacts{};
     std::uint64_t contact_count = 0;
+    std::vector<tf::hull_side> sides{};  ///< of `lay`: what there was to choose from
+    std::size_t chosen = 0;              ///< of `sides`
     skipped_work skipped{};
 };
 

@@ -135,12 +135,9 @@ void enter_blank_report(job& work, const place_settings& settings) {
         entry[key] = nullptr;
     entry["mode"] = name_of(settings.mode);
     entry["fixed"] = json::array();
-    entry["skipped"] = {{"non_finite", nullptr},
-                        {"parts_not_loaded", 0},
-                        {"parts_not_indexed", nullptr},
-                        {"primitives_not_indexed", nullptr},
-                        {"pairs_culled_by_box", nullptr},
-                        {"face_pairs_in_motion", nullptr}};
+    entry["skipped"] = {{"non_finite", nullptr},          {"parts_not_loaded", 0},
+                        {"parts_not_indexed", nullptr},   {"primitives_not_indexed", nullptr},
+                        {"pairs_culled_by_box", nullptr}, {"face_pairs_in_motion", nullptr}};
     entry["clearance"] = {{"given", settings.clearance.given}, {"used", nullptr}};
     entry["max_travel"] = settings.max_travel ? json(settings.max_travel->given) : json(nullptr);
     for (const char* key :
@@ -149,6 +146,8 @@ void enter_blank_report(job& work, const place_settings& settings) {
         entry[key] = nullptr;
     entry["contacts"] = json::array();
     entry["contact_count"] = nullptr;
+    entry["sides"] = json::array();
+    entry["chosen"] = nullptr;
     entry["not_placed"] = json::array();
     entry["matrix_file"] = settings.matrix.empty() ? json(nullptr) : json(settings.matrix.string());
     entry["output"] = nullptr;
@@ -207,6 +206,11 @@ void enter_report(job& work, const body& moving, const placement& p, const surro
     entry["travel"] = p.travel;
     entry["backed_off"] = p.backed_off;
     entry["matrix"] = matrix_entry(matrix);
+    for (const tf::hull_side& side : p.sides)
+        entry["sides"].push_back({{"normal", triple(side.normal)},
+                                  {"area", side.area},
+                                  {"centre", triple(side.centre)}});
+    if (!p.sides.empty()) entry["chosen"] = p.chosen;
 }
 
 void write_matrix(const job& work, const std::filesystem::path& path,
@@ -217,7 +221,8 @@ void write_matrix(const job& work, const std::filesystem::path& path,
 }
 
 void write_result(job& work, body& moving, const placement& p, const surroundings& among,
-                  const place_settings& settings, bool to_single) {
+                  const place_settings& settings, const tf::transform<3>& all_moves,
+                  bool to_single) {
     const common_options& o = work.options;
     const auto path = mesh_output(o, work.path);
     if (!path || o.dry_run) return;
@@ -225,7 +230,8 @@ void write_result(job& work, body& moving, const placement& p, const surrounding
     std::optional<all_classes> classes;
     if (settings.mode == place_mode::measure && (format == "ply" || format == "glb"))
         classes = classify_faces(moving, among, p.clearance);
-    take_places(moving, p.points, p.offset, to_single);
+    take_places(moving, p.points, p.matrix, to_single);
+    turn_normals(moving.file, all_moves);
     tf::mesh_file file = settings.scene ? scene_of(moving, among) : moving.file;
     if (classes) color_faces(file, *classes, settings.scene);
     const tf::write_options options{

@@ -24,8 +24,9 @@ void write_matrix(const job& work, const std::filesystem::path& path,
                   const tf::transform<3>& matrix);
 
 /// MOVING at its place, with --scene the fixed meshes too; of `measure` with the faces coloured by
-/// what they meet.
+/// what they meet. Normals turn as `all_moves` does.
 void write_result(job& work, body& moving, const placement& p, const surroundings& among,
-                  const place_settings& settings, bool to_single);
+                  const place_settings& settings, const tf::transform<3>& all_moves,
+                  bool to_single);
 
 }  // namespace tools

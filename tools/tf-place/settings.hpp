@@ -4,6 +4,7 @@
 
 #include "tools/common/parse_value.hpp"
 #include <libmesh/exact/point.hpp>
+#include <libmesh/place/lay.hpp>
 #include <libtree/transform.hpp>
 
 #include <filesystem>
@@ -27,6 +28,8 @@ struct place_settings {
     std::filesystem::path start{};
     std::filesystem::path matrix{};
     bool scene = false;
+    tf::lay_options lay{};  ///< which side, and the spin
+    int sides_chosen = 0;   ///< options given that choose a side
 
     /// Whether the bed stops MOVING: `drop` without fixed meshes, or where --bed is given.
     [[nodiscard]] bool has_bed() const {

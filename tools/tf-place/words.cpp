@@ -61,6 +61,10 @@ std::string verdict(const placement& p, const surroundings& among, const place_s
         return text;
     }
     if (settings.mode == place_mode::measure) return relation_in_words(p, among);
+    if (settings.mode == place_mode::lay)
+        return "laid on side " + std::to_string(p.chosen) + " of " +
+               std::to_string(p.sides.size()) + ", of area " + shortest(p.sides[p.chosen].area) +
+               "; " + relation_in_words(p, among);
     const std::string text =
         p.travel == 0.0 ? "stays where it is"
                         : std::string(moved_word(settings.mode)) + " by " + shortest(p.travel);
@@ -70,7 +74,8 @@ std::string verdict(const placement& p, const surroundings& among, const place_s
 void say_details(job& work, const placement& p, const surroundings& among) {
     console& out = work.out;
     if (!out.shows(level::info)) return;
-    out.info(work.name + ": translation " + in_words(p.offset) + ", " +
+    out.info(work.name + ": translation " +
+             in_words({p.matrix.rows[0][3], p.matrix.rows[1][3], p.matrix.rows[2][3]}) + ", " +
              std::to_string(p.backed_off) + " steps taken back for rounding");
     if (p.nearest)
         out.info(work.name + ": nearest points " + in_words(p.nearest->how.on_a.point) + " and " +
