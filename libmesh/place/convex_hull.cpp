@@ -52,7 +52,8 @@ struct first_simplex {
 first_simplex find_simplex(points_view points, const detail::scaled_points& scaled) {
     first_simplex s;
     if (points.empty()) return s;
-    auto& [a, b, c, d] = s.corner;
+    // Not bindings: clang 14 lets no lambda have them.
+    std::uint32_t &a = s.corner[0], &b = s.corner[1], &c = s.corner[2], &d = s.corner[3];
     const std::size_t count = points.size();
     for (std::uint32_t i = 1; i < count; ++i) {
         const point3 &p = points[i], &q = points[a];

@@ -223,7 +223,7 @@ double plate::snapped(double at, std::size_t axis) const {
 void plate::slide(const turned_part& part, const tree<3>& faces_tree, point3& by) {
     for (unsigned round = 0; round < 4; ++round) {
         double moved = 0.0;
-        for (const std::size_t axis : {1, 0}) {
+        for (const std::size_t axis : {std::size_t{1}, std::size_t{0}}) {
             const double travel = free_travel(part, faces_tree, by, axis);
             by[axis] = travel < by[axis] - options_.corner[axis] ? snapped(by[axis] - travel, axis)
                                                                  : options_.corner[axis];
