@@ -56,38 +56,12 @@ template <class Answer>
 /// \same   on any number of threads
 /// \source Sajovic, Knez and Korez, tf::tree, section III-D, less its bound from above by the
 ///         boxes, which their contents need not keep; the larger box is opened, eight at a time
-template <std::size_t D, class DistanceOf>
-[[nodiscard]] auto k_nearest_pairs(const transformed<D>& a, const transformed<D>& b, std::size_t k,
-                                   const DistanceOf& distance_of,
-                                   double radius = std::numeric_limits<double>::infinity());
-
-/// The nearest pair, of equally near ones that of the lowest numbers, but of those at distance zero
-/// any, the same in every run; none when a tree is empty or all are beyond the radius. See
-/// `k_nearest_pairs`.
-template <std::size_t D, class DistanceOf>
-[[nodiscard]] auto nearest_pair(const transformed<D>& a, const transformed<D>& b,
-                                const DistanceOf& distance_of,
-                                double radius = std::numeric_limits<double>::infinity()) {
-    auto pairs = k_nearest_pairs(a, b, 1, distance_of, radius);
-    return pairs.empty() ? std::nullopt : std::optional(std::move(pairs[0]));
-}
-
-template <std::size_t D, class DistanceOf>
-[[nodiscard]] auto nearest_pair(const tree<D>& a, const tree<D>& b, const DistanceOf& distance_of,
-                                double radius = std::numeric_limits<double>::infinity()) {
-    return nearest_pair(transformed<D>(a), transformed<D>(b), distance_of, radius);
-}
-
-template <std::size_t D, class DistanceOf>
-[[nodiscard]] auto k_nearest_pairs(const tree<D>& a, const tree<D>& b, std::size_t k,
+template <placed_tree A, placed_tree B, class DistanceOf>
+[[nodiscard]] auto k_nearest_pairs(const A& first, const B& second, std::size_t k,
                                    const DistanceOf& distance_of,
                                    double radius = std::numeric_limits<double>::infinity()) {
-    return k_nearest_pairs(transformed<D>(a), transformed<D>(b), k, distance_of, radius);
-}
-
-template <std::size_t D, class DistanceOf>
-[[nodiscard]] auto k_nearest_pairs(const transformed<D>& a, const transformed<D>& b, std::size_t k,
-                                   const DistanceOf& distance_of, double radius) {
+    constexpr std::size_t D = A::dimensions;
+    const transformed<D> a(first), b(second);
     const double squared = detail::squared_radius("tf::k_nearest_pairs", radius);
     using answer =
         std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t, std::uint32_t>>;
@@ -114,6 +88,16 @@ template <std::size_t D, class DistanceOf>
                    for (auto& one : part.sorted()) all.offer(std::move(one));
                })
         .sorted();
+}
+
+/// The nearest pair, of equally near ones that of the lowest numbers, but of those at distance zero
+/// any, the same in every run; none when a tree is empty or all are beyond the radius. See
+/// `k_nearest_pairs`.
+template <placed_tree A, placed_tree B, class DistanceOf>
+[[nodiscard]] auto nearest_pair(const A& a, const B& b, const DistanceOf& distance_of,
+                                double radius = std::numeric_limits<double>::infinity()) {
+    auto pairs = k_nearest_pairs(a, b, 1, distance_of, radius);
+    return pairs.empty() ? std::nullopt : std::optional(std::move(pairs[0]));
 }
 
 }  // namespace tf

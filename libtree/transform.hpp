@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <type_traits>
 
 namespace tf {
@@ -70,6 +71,41 @@ template <std::size_t D>
             for (std::size_t i = 0; i < D; ++i) sum += outer.rows[k][i] * inner.rows[i][j];
             result.rows[k][j] = sum;
         }
+    return result;
+}
+
+/// The map that undoes `by`: after(inverse(by), by) is the identity but for rounding. Exactly so
+/// for translations, exchanges of axes and scalings by powers of two.
+///
+/// \throws std::invalid_argument when `by` flattens space, as far as its rounded determinant says,
+///         or an entry of the result is not finite
+/// \source Cramer's rule
+template <std::size_t D>
+requires(D == 2 || D == 3) [[nodiscard]] transform<D> inverse(const transform<D>& by) {
+    const auto& m = by.rows;
+    transform<D> result;
+    double determinant = 0.0;
+    if constexpr (D == 2) {
+        result.rows = {{{m[1][1], -m[0][1], 0.0}, {-m[1][0], m[0][0], 0.0}}};
+        determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    } else {
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j) {
+                const std::size_t r = (j + 1) % 3, s = (j + 2) % 3;
+                const std::size_t c = (i + 1) % 3, d = (i + 2) % 3;
+                result.rows[i][j] = m[r][c] * m[s][d] - m[r][d] * m[s][c];
+            }
+        for (std::size_t k = 0; k < 3; ++k) determinant += m[0][k] * result.rows[k][0];
+    }
+    for (auto& row : result.rows) {
+        double shift = 0.0;
+        for (std::size_t k = 0; k < D; ++k) {
+            row[k] = row[k] / determinant + 0.0;  // no -0
+            shift -= row[k] * m[k][D];
+        }
+        row[D] = shift + 0.0;
+    }
+    if (!result.finite()) throw std::invalid_argument("tf::inverse: the map has no inverse");
     return result;
 }
 

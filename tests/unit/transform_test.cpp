@@ -6,7 +6,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cstddef>
 #include <limits>
+#include <stdexcept>
 
 namespace {
 
@@ -32,6 +34,20 @@ TEST_CASE("transform: `after` is the outer map of what the inner one gives") {
     CHECK(tf::after(quarter_turn, move)(p) == quarter_turn(move(p)));
     CHECK(tf::after(move, quarter_turn)(p) == move(quarter_turn(p)));
     CHECK(tf::after(move, quarter_turn) != tf::after(quarter_turn, move));
+}
+
+TEST_CASE("transform: `inverse` undoes a map, exactly where nothing is rounded") {
+    const tf::transform<3> exact{{{{0, -2, 0, 3}, {0, 0, 4, -5}, {0.5, 0, 0, 1e9}}}};
+    CHECK(tf::after(tf::inverse(exact), exact) == tf::transform<3>{});
+    CHECK(tf::after(exact, tf::inverse(exact)) == tf::transform<3>{});
+    CHECK(tf::inverse(quarter_turn)(quarter_turn(tf::point2{3, 4})) == tf::point2{3, 4});
+    const tf::transform<3> skew{{{{1, 2, 3, 4}, {0, 1, 5, 5}, {7, 0, 1, 6}}}};
+    const tf::transform<3> around = tf::after(tf::inverse(skew), skew);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 4; ++j)
+            CHECK(around.rows[i][j] == doctest::Approx(i == j ? 1.0 : 0.0).epsilon(1e-13));
+    const tf::transform<3> flat{{{{1, 2, 3, 4}, {2, 4, 6, 5}, {7, 0, 1, 6}}}};
+    CHECK_THROWS_AS(static_cast<void>(tf::inverse(flat)), std::invalid_argument);
 }
 
 TEST_CASE("transform: knows whether an entry is NaN or infinite") {
