@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <mutex>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -154,38 +155,47 @@ void tile_steps::take_over_tile(std::size_t t) {
                                   ": this tile's files are not what was written; done again");
 }
 
-/// As many slabs as keep each within bounds, halo included. Where halos are most of it, larger
-/// tiles one at a time; where they are all of it, the tolerance is large and little will be kept:
-/// one tile.
+/// Small tiles stay in the caches while they are welded. Where halos are much of them, larger
+/// ones; where they are most of all, the tolerance is large and little will be kept: one tile.
 tf::tile_slabs tile_steps::plan() const {
-    const double all = static_cast<double>(survey_.points);
-    const double scale = 1.0 / survey_.sample_share;
-    const double roomy = 0.6 * static_cast<double>(task_.memory / bytes_per_point());
-    double most = std::max(
-        1.0, task_.points_per_tile > 0 ? static_cast<double>(task_.points_per_tile) : 0.25 * roomy);
-    auto count = static_cast<std::size_t>(std::ceil(all / most));
-    while (count > 1) {
-        tf::tile_slabs slabs(survey_.sample, tolerance_, count);
-        std::vector<double> size(slabs.size(), 0.0);
+    const auto all = static_cast<double>(survey_.points);
+    if (task_.points_per_tile > 0)
+        return slabs_of(all / static_cast<double>(task_.points_per_tile));
+    constexpr double small = 250000.0;
+    constexpr double tiles = 1024.0;
+    const double room = 0.6 * static_cast<double>(task_.memory / bytes_per_point());
+    struct way {
+        double most;       ///< points in a tile, about
+        double with_halo;  ///< points of all tiles, of all points
+    };
+    for (const way w : {way{std::min(0.25 * room, std::max(small, all / tiles)), 1.1},
+                        way{0.25 * room, 1.5}, way{room, 4.0}}) {
         double sum = 0.0;
-        for (const tf::point3& p : survey_.sample) {
-            const auto place = slabs.find(p);
-            for (std::uint32_t t = place.first; t <= place.last; ++t) size[t] += scale;
-            sum += scale * (place.last - place.first + 1);
-        }
-        if (task_.points_per_tile > 0) return slabs;
-        // A tile may pass what is meant for it: four are to find room, and by a sample's chance.
-        if (*std::max_element(size.begin(), size.end()) <= 1.25 * most) return slabs;
-        if (sum > 1.5 * all && most < roomy) {
-            most = roomy;
-            count = static_cast<std::size_t>(std::ceil(all / most));
-        } else if (sum > 4.0 * all || count > 65536) {
-            break;
-        } else {
-            count += count / 4 + 1;
+        for (double count = all / w.most; sum <= w.with_halo * all; count = 1.25 * count + 1.0) {
+            tf::tile_slabs slabs = slabs_of(count);
+            const std::vector<double> size = sizes_of(slabs);
+            sum = std::accumulate(size.begin(), size.end(), 0.0);
+            const double largest = *std::max_element(size.begin(), size.end());
+            if (sum <= w.with_halo * all && largest <= 1.25 * w.most) return slabs;
+            if (count > static_cast<double>(survey_.sample.size())) break;  // equal points
         }
     }
-    return tf::tile_slabs(survey_.sample, tolerance_, 1);
+    return slabs_of(1.0);
+}
+
+tf::tile_slabs tile_steps::slabs_of(double count) const {
+    return {survey_.sample, tolerance_, static_cast<std::size_t>(std::ceil(std::max(count, 1.0)))};
+}
+
+/// Points in each slab, halo included, judged by the sample.
+std::vector<double> tile_steps::sizes_of(const tf::tile_slabs& slabs) const {
+    std::vector<double> size(slabs.size(), 0.0);
+    for (const tf::point3& p : survey_.sample) {
+        const auto place = slabs.find(p);
+        for (std::uint32_t t = place.first; t <= place.last; ++t)
+            size[t] += 1.0 / survey_.sample_share;
+    }
+    return size;
 }
 
 void tile_steps::scatter(double tolerance) {
@@ -256,7 +266,7 @@ std::size_t tile_steps::at_a_time() const {
     for (const tile& t : tiles_) largest = std::max(largest, t.points.records);
     const double room = 0.7 * static_cast<double>(task_.memory);
     const double each = static_cast<double>(largest * bytes_per_point() + 4 * piece);
-    return static_cast<std::size_t>(std::clamp(room / each, 1.0, 4.0));
+    return static_cast<std::size_t>(std::clamp(room / each, 1.0, 64.0));
 }
 
 void tile_steps::weld_tiles() {

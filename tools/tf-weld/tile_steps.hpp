@@ -73,6 +73,8 @@ class tile_steps {
 
     [[nodiscard]] std::filesystem::path file(std::size_t t, const char* what) const;
     [[nodiscard]] tf::tile_slabs plan() const;
+    [[nodiscard]] tf::tile_slabs slabs_of(double count) const;
+    [[nodiscard]] std::vector<double> sizes_of(const tf::tile_slabs& slabs) const;
     [[nodiscard]] bool take_over(const json& plan);
     void take_over_tile(std::size_t t);
     void weld_tile(std::size_t t);
