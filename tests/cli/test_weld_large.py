@@ -205,17 +205,18 @@ class Large(WeldTest):
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_a_cloud_beyond_the_memory_limit_is_welded_all_the_same(self):
         rng = random.Random(5)
-        count = 400000
-        points = [(rng.random(), rng.random(), rng.random()) for _ in range(count // 2)]
-        points += [(x + 1e-7, y, z) for x, y, z in points]
-        head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {count}\n"
-                "property double x\nproperty double y\nproperty double z\nend_header\n")
-        self.write("in.ply", head.encode() + b"".join(struct.pack("<ddd", *p) for p in points))
-        self.run_tool("in.ply", "-t", "2e-7", "-o", "memory.ply", status=0)
-        run = self.run_tool("in.ply", "-t", "2e-7", "-o", "out.ply", "--memory", "48M", "-v",
-                            "-j2", status=0)
-        self.assertIn("tiles", run.err)
-        self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+        some = [(rng.random(), rng.random(), rng.random()) for _ in range(200000)]
+        near = some + [(x + 1e-7, y, z) for x, y, z in some]
+        heap = [p if i % 2 else (0.5, 0.5, 0.5) for i, p in enumerate(near)]
+        for points in (near, heap):
+            head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
+                    "property double x\nproperty double y\nproperty double z\nend_header\n")
+            self.write("in.ply", head.encode() + b"".join(struct.pack("<ddd", *p) for p in points))
+            self.run_tool("in.ply", "-t", "2e-7", "-o", "memory.ply", "-f", status=0)
+            run = self.run_tool("in.ply", "-t", "2e-7", "-o", "out.ply", "-f", "--memory", "48M",
+                                "-v", "-j2", status=0)
+            self.assertIn(" tiles", run.err)
+            self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace tools {
@@ -20,10 +21,15 @@ class sampler {
         std::erase_if(chosen_, [&](const auto& c) { return (c.first & mask_) != 0; });
     }
     [[nodiscard]] double share() const { return 1.0 / (static_cast<double>(mask_) + 1.0); }
+    /// Heaps of equal points count once, as they take no room where they are welded.
     [[nodiscard]] std::vector<tf::point3> points() const {
         std::vector<tf::point3> all;
         all.reserve(chosen_.size());
         for (const auto& c : chosen_) all.push_back(c.second);
+        std::sort(all.begin(), all.end(), [](const tf::point3& a, const tf::point3& b) {
+            return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+        });
+        all.erase(std::unique(all.begin(), all.end()), all.end());
         return all;
     }
 

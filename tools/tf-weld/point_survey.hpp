@@ -21,7 +21,7 @@ struct point_survey {
     bool single = true;  ///< float32 holds every coordinate
     std::string format{};
     std::vector<tf::io_warning> warnings{};
-    std::vector<tf::point3> sample{};  ///< finite points, from everywhere in the file
+    std::vector<tf::point3> sample{};  ///< finite points, all different
     double sample_share = 1.0;         ///< of all points
 };
 
