@@ -2,6 +2,8 @@
 
 from place_support import *
 
+import math
+
 
 class Moves(PlaceTest):
     def setUp(self):
@@ -246,6 +248,47 @@ class Moves(PlaceTest):
         self.assertEqual(self.lowest("out.stl"), 0)
         entry = self.placed("lay", "a.obj", "--face-point", "1.5,1,6")
         self.assertEqual(entry["sides"][entry["chosen"]]["normal"], [0, -1, 0])
+
+    def test_arrange_puts_all_on_the_plate_or_names_what_does_not_fit(self):
+        for i in range(4):
+            self.mesh(f"p{i}.stl", box((7 * i, 3, 5), (7 * i + 4, 7, 8)))
+        names = [f"p{i}.stl" for i in range(4)]
+        entry = self.placed("arrange", *names, "--size", "10,10", "--spacing", "1.5", "-o",
+                            "out.stl", "--matrix", "m.txt")
+        self.assertEqual((entry["fits"], entry["not_placed"]), (True, []))
+        self.assertEqual(len(self.read("m.txt").splitlines()), 16)
+        points = self.points("out.stl")
+        self.assertEqual(len(points), 4 * 36)
+        self.assertEqual(min(p[2] for p in points), 0)
+        for axis in (0, 1):
+            self.assertGreaterEqual(min(p[axis] for p in points), 0)
+            self.assertLessEqual(max(p[axis] for p in points), 10)
+        for i in range(4):  # each as a file of its own, then measured against the others
+            write(self.path(f"q{i}.stl"), (points[36 * i:36 * i + 36],
+                                           [(3 * f, 3 * f + 1, 3 * f + 2) for f in range(12)]))
+        for i in range(4):
+            fixed = [x for j in range(4) if j != i for x in ("--fixed", f"q{j}.stl")]
+            self.assertGreaterEqual(self.entry("measure", f"q{i}.stl", *fixed)["distance"], 1.5)
+        entry = self.entry("arrange", *names, "--size", "10,9", "--spacing", "1.5", status=1)
+        self.assertEqual((entry["fits"], len(entry["not_placed"])), (False, 2))
+        self.mesh("tall.stl", box((0, 0, 0), (1, 1, 9)))
+        entry = self.entry("arrange", "tall.stl", "--size", "5,5,8", status=1)
+        self.assertEqual(entry["not_placed"], ["tall.stl"])
+
+    def test_fit_brings_a_moved_copy_back(self):
+        points, faces = grid(12)
+        hills = [(x, y, 0.06 * (x - 5) ** 2 - 0.02 * (y - 7) ** 2 + 0.003 * x * x * y)
+                 for x, y, _ in points]
+        c, s = math.cos(0.02), math.sin(0.02)
+        self.mesh("fixed.obj", (hills, faces))
+        moved = [(c * x - s * y + 0.05, s * x + c * y - 0.03, z + 0.04) for x, y, z in hills]
+        self.mesh("moved.obj", (moved, faces))
+        entry = self.entry("fit", "moved.obj", "--fixed", "fixed.obj", "-o", "out.obj", status=0)
+        self.assertTrue(entry["fit"]["converged"])
+        self.assertLess(entry["fit"]["rms"], 1e-3 * entry["fit"]["rms_at_start"])
+        for p, q in zip(self.points("out.obj"), hills):
+            for x, y in zip(p, q):
+                self.assertAlmostEqual(x, y, places=3)
 
     def test_normals_turn_with_the_mesh(self):
         lines = ["ply", "format ascii 1.0", "element vertex 3"]

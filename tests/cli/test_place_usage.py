@@ -11,7 +11,7 @@ FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in
         "distance": (*NUMBER, NULL), "surface_distance": (*NUMBER, NULL), "closest": (dict, NULL),
         "direction": (list, NULL), "travel": (*NUMBER, NULL), "backed_off": (int, NULL),
         "matrix": (list, NULL), "contacts": list, "contact_count": int, "sides": list,
-        "chosen": (int, NULL), "not_placed": list,
+        "chosen": (int, NULL), "fit": (dict, NULL), "fits": (bool, NULL), "parts": list, "not_placed": list,
         "matrix_file": (str, NULL), "output": (dict, NULL), "warnings": list, "exit": int}
 
 
@@ -61,8 +61,13 @@ class Usage(PlaceTest):
         self.refused("drop", "a.obj", "--keep-spin")
         self.refused("lay", "a.obj", *fixed)
         self.refused("lay", "a.obj", "--largest-face", "--face-point", "0,0,0")
-        for mode in ("arrange", "fit"):
-            self.assertIn("not yet", self.refused(mode, "a.obj", *fixed))
+        self.assertIn("needs --size", self.refused("arrange", "a.obj"))
+        self.refused("arrange", "a.obj", "--size", "9,9", *fixed)
+        self.refused("arrange", "a.obj", "--size", "9,-9")
+        self.refused("drop", "a.obj", "--seed", "1")
+        self.refused("drop", "a.obj", "--scale")
+        self.refused("fit", "a.obj", *fixed, "--overlap", "2")
+        self.refused("fit", "a.obj", *fixed, *fixed)
         self.refused("drop", "a.obj", "--html", "out.html")
 
     def test_no_output_replaces_a_file_that_is_read(self):

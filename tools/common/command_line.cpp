@@ -80,8 +80,12 @@ void command_line::repeatable_option(std::vector<std::string>& target, option_te
     mention(std::move(text));
 }
 
-void command_line::word(std::string& target, std::string name) {
-    parser_->app.add_option(std::move(name), target)->required();
+void command_line::word(std::string name, std::function<void(std::string_view)> accept) {
+    parser_->app
+        .add_option_function<std::string>(
+            std::move(name),
+            [accept = std::move(accept)](const std::string& value) { accept(value); })
+        ->required();
 }
 
 void command_line::inputs(std::vector<std::string>& target, std::string text, std::string name) {

@@ -36,7 +36,7 @@ class command_line {
     /// An option that may be given several times, with one value each time.
     void repeatable_option(std::vector<std::string>& target, option_text text);
     /// A word that stands ahead of the inputs, such as a mode.
-    void word(std::string& target, std::string name);
+    void word(std::string name, std::function<void(std::string_view)> accept);
     /// `name` stands for them in the help.
     void inputs(std::vector<std::string>& target, std::string text, std::string name = "INPUT");
     /// An entry of the help without an option behind it.

@@ -6,6 +6,7 @@
 #include "tools/common/run.hpp"
 #include "tools/tf-place/move.hpp"
 #include "tools/tf-place/outputs.hpp"
+#include "tools/tf-place/plate.hpp"
 #include "tools/tf-place/settings.hpp"
 #include "tools/tf-place/words.hpp"
 
@@ -35,6 +36,9 @@ void add_modes(command_line& line) {
                   .text = "out of --fixed, or away from it to --clearance: a\n"
                           "short translation, the shortest of many tried"});
     line.mention(
+        {.names = "arrange", .text = "put all MOVING on the bed or in a box without overlap"});
+    line.mention({.names = "fit", .text = "align by ICP from the present position"});
+    line.mention(
         {.names = "measure", .text = "move nothing; report distance, contact or\npenetration"});
 }
 
@@ -42,10 +46,11 @@ void add_options(command_line& line, place_settings& s, common_options& options)
     line.group("Options");
     line.repeatable_option(options.also_read,
                            {"--fixed", "FILE", "what stays where it is (repeatable)"});
-    line.option(
-        {"--bed", "Z",
-         "drop, lay: height of the bed; drop with --fixed has\nnone unless this is given", "0"},
-        [&s](std::string_view text) { s.bed = tools::parse_number("--bed", text); });
+    line.option({"--bed", "Z",
+                 "drop, lay, arrange: height of the bed; drop with\n"
+                 "--fixed has none unless this is given",
+                 "0"},
+                [&s](std::string_view text) { s.bed = tools::parse_number("--bed", text); });
     line.option(
         {"-d, --direction", "X,Y,Z", "slide, drop: direction of travel", "0,0,-1"},
         [&s](std::string_view text) { s.direction = tools::parse_direction("--direction", text); });
@@ -72,6 +77,41 @@ void add_options(command_line& line, place_settings& s, common_options& options)
                     ++s.sides_chosen;
                 });
     line.flag(s.lay.keep_spin, {"--keep-spin", "", "lay: keep the turn about the vertical"});
+    line.option({"--size", "X,Y[,Z]", "arrange: bed or box size"}, [&s](std::string_view text) {
+        s.arrange.size = tools::parse_size3(text);
+        s.size_given = s.arrange_options_given = true;
+    });
+    line.option({"--spacing", "DIST", "arrange: between parts", "2"}, [&s](std::string_view text) {
+        const tools::distance spacing = tools::parse_distance("--spacing", text);
+        if (spacing.relative)
+            throw tools::failure(tools::bad_usage, "usage", "--spacing: expected a length");
+        s.arrange.spacing = spacing.value;
+        s.arrange_options_given = true;
+    });
+    line.option({"--rotate", "SET", "arrange: none | 90 | 45 | any", "90"},
+                [&s](std::string_view text) {
+                    s.arrange.turns = tools::parse_turns(text);
+                    s.arrange_options_given = true;
+                });
+    line.option({"--seed", "N", "arrange: same N, same result", "0"}, [&s](std::string_view text) {
+        s.arrange.seed = tools::parse_count("--seed", text);
+        s.arrange_options_given = true;
+    });
+    line.option({"--max-distance", "DIST", "fit: ignore pairs further apart"},
+                [&s](std::string_view text) {
+                    s.max_distance = tools::parse_distance("--max-distance", text);
+                    s.fit_options_given = true;
+                });
+    line.option({"--overlap", "F", "fit: share of MOVING that has a partner", "1"},
+                [&s](std::string_view text) {
+                    s.fit.overlap = tools::parse_number("--overlap", text);
+                    if (!(s.fit.overlap > 0.0 && s.fit.overlap <= 1.0))
+                        throw tools::failure(
+                            tools::bad_usage, "usage",
+                            "--overlap " + std::string(text) + ": expected a share up to 1");
+                    s.fit_options_given = true;
+                });
+    line.flag(s.fit.scale, {"--scale", "", "fit: allow uniform scale"});
     line.option({"--start", "FILE", "4x4 matrix applied to MOVING first"},
                 [&s](std::string_view text) { s.start = text; });
 }
@@ -98,7 +138,8 @@ const char* const epilogue =
     "What penetrates at the start is not moved, but by clear; what touches stays.\n"
     "Only closed meshes have an inside. Resting on the bed, the lowest points have\n"
     "exactly its height (a float32 that is not below it, where these are written).\n"
-    "With several MOVING each is placed on its own. Face numbers are those of the\n"
+    "With several MOVING each is placed on its own, but by arrange; then -o is the\n"
+    "plate, and --matrix has 4 lines for each. Face numbers are those of the\n"
     "files, from 0.\n"
     "\n"
     "Examples:\n"
@@ -108,7 +149,8 @@ const char* const epilogue =
     "  tf-place measure a.stl --fixed b.stl -r -\n"
     "\n"
     "Exit status: 0 placed, or measured; 1 no such place (no contact, penetrating at\n"
-    "  the start); 2 usage; 3 input; 4 output; 5 stopped; 70 bug.\n";
+    "  the start, not all fit, not converged); 2 usage; 3 input; 4 output;\n"
+    "  5 stopped (memory, timeout, signal); 70 bug. Of several inputs, the highest.\n";
 
 [[noreturn]] void refuse(const std::string& text) {
     throw tools::failure(tools::bad_usage, "usage", text);
@@ -127,16 +169,31 @@ void check_lay(const place_settings& s) {
     if (s.max_travel) refuse("--max-travel: lay goes to the bed");
 }
 
+void check_arrange_and_fit(const place_settings& s) {
+    const bool arranges = s.mode == place_mode::arrange;
+    const bool fits = s.mode == place_mode::fit;
+    if (!arranges && s.arrange_options_given)
+        refuse("--size, --spacing, --rotate and --seed are for arrange");
+    if (!fits && (s.fit_options_given || s.fit.scale))
+        refuse("--max-distance, --overlap and --scale are for fit");
+    if (arranges && !s.size_given) refuse("arrange needs --size");
+    if (arranges && !s.fixed.empty()) refuse("--fixed: arrange puts MOVING on an empty plate");
+    if (fits && s.fixed.size() > 1) refuse("fit: one --fixed only");
+    if ((arranges || fits) && (s.clearance.value > 0.0 || s.max_travel))
+        refuse("--clearance and --max-travel are not for " + s.mode_text);
+}
+
 /// Options that would do nothing are refused rather than passed over.
 void check_settings(place_settings& s, const common_options& o) {
     s.mode = tools::parse_mode(s.mode_text);
     s.fixed = o.also_read;
     const std::string mode = s.mode_text;
-    if (s.mode == place_mode::arrange || s.mode == place_mode::fit) refuse(mode + ": not yet");
     check_lay(s);
-    const bool on_bed = s.mode == place_mode::drop || s.mode == place_mode::lay;
+    check_arrange_and_fit(s);
+    const bool arranges = s.mode == place_mode::arrange;
+    const bool on_bed = s.mode == place_mode::drop || s.mode == place_mode::lay || arranges;
     if (s.fixed.empty() && !on_bed) refuse(mode + " needs --fixed");
-    if (s.bed && !on_bed) refuse("--bed: only drop and lay have one");
+    if (s.bed && !on_bed) refuse("--bed: only drop, lay and arrange have one");
     if (s.direction && !s.moves_along_direction())
         refuse("--direction: " + mode + " finds its own");
     if (s.mode == place_mode::slide && !s.direction) refuse("slide needs --direction");
@@ -171,7 +228,8 @@ void read_fixed(tools::job& work, const place_settings& s, bool as_single, fixed
         tf::mesh_file file = work.read(path, about);
         for (const tf::io_warning& w : file.warnings) work.warn(w.code, path + ": " + w.text);
         if (as_single) tools::round_to_single(file);
-        fixed.bodies.push_back(tools::make_body(work, path, std::move(file), false));
+        const bool cloud_allowed = s.mode == place_mode::fit;
+        fixed.bodies.push_back(tools::make_body(work, path, std::move(file), cloud_allowed));
         fixed.entries.push_back(std::move(about));
     }
     fixed.read = true;
@@ -184,8 +242,8 @@ tools::body read_moving(tools::job& work, const place_settings& s, const tf::tra
     for (const tf::io_warning& w : file.warnings) work.warn(w.code, w.text);
     if (start != tf::transform<3>{})
         for (tf::point3& p : file.mesh.points) p = start(p);
-    const bool cloud_allowed =
-        s.mode == place_mode::lay || (s.mode == place_mode::drop && s.fixed.empty());
+    const bool cloud_allowed = s.mode == place_mode::lay || s.mode == place_mode::fit ||
+                               (s.mode == place_mode::drop && s.fixed.empty());
     return tools::make_body(work, work.path, std::move(file), cloud_allowed);
 }
 
@@ -210,7 +268,7 @@ exit_status look_at(tools::job& work, const place_settings& s, fixed_meshes& fix
     const auto timing = work.time("write");
     if (!s.matrix.empty()) tools::write_matrix(work, s.matrix, matrix);
     tools::write_result(work, moving, p, among, s, matrix, to_single);
-    return tools::done;
+    return p.complete ? tools::done : tools::found;
 }
 
 }  // namespace
@@ -223,7 +281,10 @@ int main(int argc, char** argv) {
     fixed_meshes fixed;
     common_options options;
     options.suffix = "-place";
-    line.word(s.mode_text, "MODE");
+    line.word("MODE", [&](std::string_view text) {
+        s.mode_text = text;
+        options.joined = text == "arrange";  // they go to one plate
+    });
     line.inputs(options.inputs, "STL OBJ PLY OFF GLB/glTF 3MF files; \"-\" = stdin", "MOVING");
     add_modes(line);
     add_options(line, s, options);
@@ -236,5 +297,8 @@ int main(int argc, char** argv) {
     return tools::run(
         line, options, {"read", "prepare", "search", "settle", "write"}, argc, argv,
         [&] { check_settings(s, options); },
-        [&](tools::job& work) { return look_at(work, s, fixed); });
+        [&](tools::job& work) {
+            return s.mode == place_mode::arrange ? tools::arrange_all(work, s)
+                                                 : look_at(work, s, fixed);
+        });
 }

@@ -38,12 +38,15 @@ class placing {
     }
 
     [[nodiscard]] placement run() {
-        look_at_start();
+        if (settings_.mode != place_mode::fit) look_at_start();
         switch (settings_.mode) {
             case place_mode::drop:
             case place_mode::slide:
                 along_direction();
                 break;
+            case place_mode::fit:
+                fit();
+                return std::move(result_);
             case place_mode::lay:
                 lay();
                 break;
@@ -184,7 +187,7 @@ class placing {
     [[nodiscard]] bool meet_bed(const tf::point3& motion) {
         const double given = settings_.bed.value_or(0.0);
         const double level = given + result_.clearance;
-        result_.bed = bed_level{given, to_single_ ? float_not_below(level) : level};
+        result_.bed = bed_level{given, bed_to_write(level, to_single_)};
         const double above = moving_.box->min.z - result_.bed->used;
         if (above < 0.0) {
             const bool below = moving_.box->min.z < given;
@@ -204,7 +207,7 @@ class placing {
         const auto timing = work_.time("search");
         tf::lay_options options = settings_.lay;
         const double given = settings_.bed.value_or(0.0);
-        options.bed = to_single_ ? float_not_below(given) : given;
+        options.bed = bed_to_write(given, to_single_);
         options.to_single = to_single_;
         auto laid = tf::lay(moving_.mesh, options);
         work_.keeper.check();
@@ -216,6 +219,23 @@ class placing {
         result_.matrix = laid->matrix;
         result_.sides = std::move(laid->sides);
         result_.chosen = laid->chosen;
+    }
+
+    void fit() {
+        const auto timing = work_.time("search");
+        tf::fit_options options = settings_.fit;
+        if (settings_.max_distance)
+            options.max_distance = settings_.max_distance->used(tf::diagonal(*moving_.box));
+        result_.fit = tf::fit(moving_.mesh.points, among_.all()[0].mesh, options);
+        work_.keeper.check();
+        result_.placed = true;
+        result_.complete = result_.fit->converged;
+        result_.matrix = result_.fit->matrix;
+        for (tf::point3& p : result_.points) {
+            p = result_.matrix(p);
+            for (std::size_t k = 0; k < 3 && to_single_; ++k)
+                p[k] = tf::detail::nearest_float(p[k]);
+        }
     }
 
     void mate() {
@@ -308,6 +328,10 @@ class placing {
 };
 
 }  // namespace
+
+double bed_to_write(double given, bool to_single) {
+    return to_single ? float_not_below(given) : given;
+}
 
 placement place(job& work, body& moving, const surroundings& among, const place_settings& settings,
                 bool to_single) {

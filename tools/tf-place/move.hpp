@@ -1,11 +1,12 @@
 #pragma once
 /// \file
-/// Where MOVING goes: the modes drop, lay, slide, mate, clear and measure.
+/// Where MOVING goes: the modes drop, lay, slide, mate, clear, measure and fit.
 
 #include "tools/tf-place/contacts.hpp"
 #include "tools/tf-place/settings.hpp"
 #include "tools/tf-place/surroundings.hpp"
 #include <libmesh/place/convex_hull.hpp>
+#include <libmesh/place/fit.hpp>
 #include <libtree/transform.hpp>
 
 #include <cstdint>
@@ -25,6 +26,7 @@ struct bed_level {
 
 /// What came of it. "At the place" is where MOVING goes, or where it is if it goes nowhere.
 struct placement {
+    bool complete = true;                          ///< of `fit`: it converged
     bool placed = false;                           ///< a place was found; always for `measure`
     std::string reason{};                          ///< why not, in words
     place_status status = place_status::separate;  ///< at the place
@@ -41,9 +43,13 @@ struct placement {
     std::vector<contact_row> contacts{};
     std::uint64_t contact_count = 0;
     std::vector<tf::hull_side> sides{};  ///< of `lay`: what there was to choose from
-    std::size_t chosen = 0;              ///< of `sides`
+    std::optional<tf::fit_result> fit{};
+    std::size_t chosen = 0;  ///< of `sides`
     skipped_work skipped{};
 };
+
+/// Height of the bed that can be written.
+[[nodiscard]] double bed_to_write(double given, bool to_single);
 
 /// Finds the place. `to_single`: what is written is float32.
 [[nodiscard]] placement place(job& work, body& moving, const surroundings& among,

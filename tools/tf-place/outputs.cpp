@@ -59,6 +59,21 @@ json inside_entry(const placement& p) {
     return how.a_inside_b ? json("moving") : how.b_inside_a ? json("fixed") : json(nullptr);
 }
 
+/// The faces were not looked at: nothing is said of how they lie to each other.
+void enter_fit(job& work, const tf::fit_result& fit) {
+    json& entry = work.entry;
+    for (const char* key : {"status", "status_at_start", "contact_count"}) entry[key] = nullptr;
+    for (const char* key : {"travel", "backed_off"}) entry[key] = nullptr;
+    entry["fit"] = {{"rms", fit.rms},
+                    {"rms_at_start", fit.rms_at_start},
+                    {"overlap", fit.overlap},
+                    {"scale", fit.scale},
+                    {"converged", fit.converged},
+                    {"iterations", fit.iterations},
+                    {"pivot", triple(fit.pivot)},
+                    {"pivot_moved", triple(fit.pivot_moved)}};
+}
+
 bool is_text(const std::string& format) {
     return format.ends_with("ascii") || format.starts_with("obj") || format.starts_with("off") ||
            format.starts_with("xyz") || format.starts_with("csv");
@@ -76,12 +91,11 @@ std::pair<std::string, bool> format_of(const job& work, const tf::mesh_file& fil
     return {format, o.ascii || (file.format.ends_with("ascii") && !o.binary)};
 }
 
-/// `file` and the fixed meshes, each a part with the name of its file; other properties are left
-/// out.
-tf::mesh_file scene_of(const body& moving, const surroundings& among) {
+/// All together, each a part with the name of its file; other properties are left out.
+tf::mesh_file scene_of(const std::vector<const body*>& bodies) {
     tf::mesh_file scene;
-    scene.format = moving.file.format;
-    scene.stored_as = moving.file.stored_as;
+    scene.format = bodies[0]->file.format;
+    scene.stored_as = bodies[0]->file.stored_as;
     const auto add = [&](const body& b) {
         const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
         scene.attributes.parts.push_back(
@@ -92,10 +106,34 @@ tf::mesh_file scene_of(const body& moving, const surroundings& among) {
         for (const tf::face& f : b.file.mesh.faces)
             scene.mesh.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
     };
-    add(moving);
-    for (const body& part : among.all()) add(part);
+    for (const body* b : bodies) add(*b);
     scene.stored_faces = scene.mesh.faces.size();
     return scene;
+}
+
+/// Writes `file` and says so in the report.
+void write_file(job& work, const tf::mesh_file& file, const std::filesystem::path& path,
+                const std::string& format, bool ascii, bool to_single, bool scene) {
+    const common_options& o = work.options;
+    const tf::write_options options{
+        .format = format,
+        .ascii = ascii,
+        .precision = to_single ? tf::precision::single_ : tf::precision::double_};
+    output_place place(path, o.force || o.in_place, work.keeper);
+    tf::write_result written;
+    try {
+        written = tf::write_mesh(place.writable(), file, options);
+    } catch (const tf::io_error& error) {
+        throw failure(bad_output, "output", error.what());
+    }
+    place.commit();
+    work.entry["output"] = {
+        {"file", path.string()},
+        {"format", written.format},
+        {"precision_out", written.written_as == tf::precision::single_ ? "float" : "double"},
+        {"max_move", written.largest_move},
+        {"scene", scene}};
+    for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
 }
 
 /// Of a scene, the classes of all parts follow each other as its faces do.
@@ -147,7 +185,8 @@ void enter_blank_report(job& work, const place_settings& settings) {
     entry["contacts"] = json::array();
     entry["contact_count"] = nullptr;
     entry["sides"] = json::array();
-    entry["chosen"] = nullptr;
+    for (const char* key : {"chosen", "fit", "fits"}) entry[key] = nullptr;
+    entry["parts"] = json::array();
     entry["not_placed"] = json::array();
     entry["matrix_file"] = settings.matrix.empty() ? json(nullptr) : json(settings.matrix.string());
     entry["output"] = nullptr;
@@ -211,6 +250,7 @@ void enter_report(job& work, const body& moving, const placement& p, const surro
                                   {"area", side.area},
                                   {"centre", triple(side.centre)}});
     if (!p.sides.empty()) entry["chosen"] = p.chosen;
+    if (p.fit) enter_fit(work, *p.fit);
 }
 
 void write_matrix(const job& work, const std::filesystem::path& path,
@@ -232,27 +272,23 @@ void write_result(job& work, body& moving, const placement& p, const surrounding
         classes = classify_faces(moving, among, p.clearance);
     take_places(moving, p.points, p.matrix, to_single);
     turn_normals(moving.file, all_moves);
-    tf::mesh_file file = settings.scene ? scene_of(moving, among) : moving.file;
+    std::vector<const body*> bodies{&moving};
+    for (const body& part : among.all()) bodies.push_back(&part);
+    tf::mesh_file file = settings.scene ? scene_of(bodies) : moving.file;
     if (classes) color_faces(file, *classes, settings.scene);
-    const tf::write_options options{
-        .format = format,
-        .ascii = ascii,
-        .precision = to_single ? tf::precision::single_ : tf::precision::double_};
-    output_place place(*path, o.force || o.in_place, work.keeper);
-    tf::write_result written;
-    try {
-        written = tf::write_mesh(place.writable(), file, options);
-    } catch (const tf::io_error& error) {
-        throw failure(bad_output, "output", error.what());
-    }
-    place.commit();
-    work.entry["output"] = {
-        {"file", path->string()},
-        {"format", written.format},
-        {"precision_out", written.written_as == tf::precision::single_ ? "float" : "double"},
-        {"max_move", written.largest_move},
-        {"scene", settings.scene}};
-    for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
+    write_file(work, file, *path, format, ascii, to_single, settings.scene);
+}
+
+void write_plate(job& work, const std::vector<body>& bodies, const std::vector<bool>& placed,
+                 bool to_single) {
+    const auto path = mesh_output(work.options, work.path);
+    if (!path || work.options.dry_run) return;
+    std::vector<const body*> there;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        if (placed[i]) there.push_back(&bodies[i]);
+    if (there.empty()) return;
+    const auto [format, ascii] = format_of(work, there[0]->file, *path);
+    write_file(work, scene_of(there), *path, format, ascii, to_single, true);
 }
 
 }  // namespace tools

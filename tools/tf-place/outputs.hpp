@@ -29,4 +29,8 @@ void write_result(job& work, body& moving, const placement& p, const surrounding
                   const place_settings& settings, const tf::transform<3>& all_moves,
                   bool to_single);
 
+/// The parts that were placed, together in one file.
+void write_plate(job& work, const std::vector<body>& bodies, const std::vector<bool>& placed,
+                 bool to_single);
+
 }  // namespace tools

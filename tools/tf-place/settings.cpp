@@ -33,6 +33,25 @@ place_mode parse_mode(std::string_view text) {
     throw failure(bad_usage, "usage", std::string(text) + ": no mode; expected one of " + list);
 }
 
+tf::plate_turns parse_turns(std::string_view text) {
+    if (text == "none") return tf::plate_turns::none;
+    if (text == "90") return tf::plate_turns::quarter;
+    if (text == "45") return tf::plate_turns::eighth;
+    if (text == "any") return tf::plate_turns::any;
+    throw failure(bad_usage, "usage",
+                  "--rotate " + std::string(text) + ": expected none, 90, 45 or any");
+}
+
+tf::point3 parse_size3(std::string_view text) {
+    const bool flat = std::count(text.begin(), text.end(), ',') < 2;
+    const auto v = parse_numbers("--size", text, flat ? 2 : 3);
+    const tf::point3 size{v[0], v[1], flat ? tf::arrange_options{}.size.z : v[2]};
+    if (!(size.x > 0.0 && size.y > 0.0 && size.z > 0.0))
+        throw failure(bad_usage, "usage",
+                      "--size " + std::string(text) + ": expected lengths greater than 0");
+    return size;
+}
+
 const char* name_of(place_mode mode) { return mode_names[static_cast<std::size_t>(mode)]; }
 
 tf::point3 parse_direction(std::string_view option, std::string_view text) {

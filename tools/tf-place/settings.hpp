@@ -4,6 +4,8 @@
 
 #include "tools/common/parse_value.hpp"
 #include <libmesh/exact/point.hpp>
+#include <libmesh/place/arrange.hpp>
+#include <libmesh/place/fit.hpp>
 #include <libmesh/place/lay.hpp>
 #include <libtree/transform.hpp>
 
@@ -28,6 +30,12 @@ struct place_settings {
     std::filesystem::path start{};
     std::filesystem::path matrix{};
     bool scene = false;
+    tf::fit_options fit{};
+    std::optional<distance> max_distance{};
+    bool fit_options_given = false;
+    tf::arrange_options arrange{};
+    bool size_given = false;
+    bool arrange_options_given = false;
     tf::lay_options lay{};  ///< which side, and the spin
     int sides_chosen = 0;   ///< options given that choose a side
 
@@ -43,6 +51,11 @@ struct place_settings {
 /// \throws failure (bad_usage) for a word that is no mode
 [[nodiscard]] place_mode parse_mode(std::string_view text);
 [[nodiscard]] const char* name_of(place_mode mode);
+
+/// "none", "90", "45" or "any". \throws failure (bad_usage)
+[[nodiscard]] tf::plate_turns parse_turns(std::string_view text);
+/// "250,210" or "250,210,300", all greater than 0. \throws failure (bad_usage)
+[[nodiscard]] tf::point3 parse_size3(std::string_view text);
 
 /// Three numbers, not all 0. \throws failure (bad_usage)
 [[nodiscard]] tf::point3 parse_direction(std::string_view option, std::string_view text);

@@ -61,6 +61,10 @@ std::string verdict(const placement& p, const surroundings& among, const place_s
         return text;
     }
     if (settings.mode == place_mode::measure) return relation_in_words(p, among);
+    if (p.fit)
+        return std::string(p.fit->converged ? "fitted" : "not converged") + " after " +
+               counted(p.fit->iterations, "step", "steps") + "; rms " + shortest(p.fit->rms) +
+               ", from " + shortest(p.fit->rms_at_start) + "; overlap " + shortest(p.fit->overlap);
     if (settings.mode == place_mode::lay)
         return "laid on side " + std::to_string(p.chosen) + " of " +
                std::to_string(p.sides.size()) + ", of area " + shortest(p.sides[p.chosen].area) +
