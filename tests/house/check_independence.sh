@@ -9,7 +9,7 @@ set -euo pipefail
 source=$1 work=$2 cxx=$3
 
 hidden=()
-for package in CGAL GMP GMPXX MPFR Eigen3 doctest benchmark; do
+for package in CGAL GMP GMPXX MPFR doctest benchmark; do
     hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 cmake -S "$source" -B "$work" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$cxx" \
