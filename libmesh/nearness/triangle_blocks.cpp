@@ -44,7 +44,7 @@ struct spans {
 HWY_INLINE void look_along(const eight_triangles& t, const sight_line& line, spans& seen) {
     const lanes_tag d;
     for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
-        vec least = hn::Undefined(d), most = least, reach = least;
+        vec least = hn::Zero(d), most = least, reach = least;
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const auto from_origin = [&](std::size_t k) {
                 return hn::Sub(hn::Load(d, t.at[corner][k] + i), hn::Set(d, line.origin[k]));
