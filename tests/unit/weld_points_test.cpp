@@ -473,7 +473,7 @@ TEST_CASE("weld_points: chains do not depend on the order of points") {
 }
 
 TEST_CASE("weld_points: many kinds at one place take no time") {
-    const std::size_t count = 50'000;
+    constexpr std::uint32_t count = 50'000;
     const std::vector<point3> points(count, {1, 2, 3});
     numbers kinds(count);
     for (std::uint32_t i = 0; i < count; ++i) kinds[i] = i % (count / 2);
