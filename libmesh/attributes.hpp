@@ -62,6 +62,34 @@ template <class T>
     }
 }
 
+/// `f(T{})` for the C++ type T that `type` stands for.
+template <class F>
+decltype(auto) with_type(scalar_type type, F&& f) {
+    switch (type) {
+        case scalar_type::int8:
+            return f(std::int8_t{});
+        case scalar_type::uint8:
+            return f(std::uint8_t{});
+        case scalar_type::int16:
+            return f(std::int16_t{});
+        case scalar_type::uint16:
+            return f(std::uint16_t{});
+        case scalar_type::int32:
+            return f(std::int32_t{});
+        case scalar_type::uint32:
+            return f(std::uint32_t{});
+        case scalar_type::int64:
+            return f(std::int64_t{});
+        case scalar_type::uint64:
+            return f(std::uint64_t{});
+        case scalar_type::float32:
+            return f(float{});
+        case scalar_type::float64:
+            break;
+    }
+    return f(double{});
+}
+
 /// What a column stands for. All but `data` hold no values of their own: they keep the type and
 /// the place among their neighbours of what lives in `mesh::points` and `mesh::faces`.
 enum class column_role : std::uint8_t { data, x, y, z, corners };

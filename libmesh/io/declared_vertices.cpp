@@ -1,7 +1,7 @@
 #include <libmesh/io/detail/declared_vertices.hpp>
+#include <libmesh/io/detail/is_value_of.hpp>
 #include <libmesh/io/detail/ply_header.hpp>
 #include <libmesh/io/detail/vertex_columns.hpp>
-#include <libmesh/io/detail/with_type.hpp>
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,6 +1,5 @@
 #include <libmesh/io/detail/formats.hpp>
 #include <libmesh/io/detail/number.hpp>
-#include <libmesh/io/detail/with_type.hpp>
 #include <libmesh/io/detail/writers.hpp>
 #include <libmesh/io/write.hpp>
 

@@ -4,7 +4,6 @@
 #include <libmesh/io/detail/pcd_header.hpp>
 #include <libmesh/io/detail/scratch.hpp>
 #include <libmesh/io/detail/vertex_columns.hpp>
-#include <libmesh/io/detail/with_type.hpp>
 #include <libmesh/io/detail/writers.hpp>
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #include <libmesh/io/detail/number.hpp>
 #include <libmesh/io/detail/ply_header.hpp>
 #include <libmesh/io/detail/vertex_columns.hpp>
-#include <libmesh/io/detail/with_type.hpp>
 #include <libmesh/io/detail/writers.hpp>
 
 #include <algorithm>

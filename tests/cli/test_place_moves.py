@@ -39,6 +39,10 @@ class Moves(PlaceTest):
             self.assertIn(contact["fixed"], (2, 3))  # the faces of its top
         self.assertEqual(len(entry["contacts"]), entry["contact_count"])
 
+    def test_without_a_direction_it_slides_down(self):
+        entry = self.placed("slide", "a.obj", "--fixed", "floor.obj", "-o", "out.obj")
+        self.assertEqual((entry["travel"], entry["direction"]), (4.5, [0, 0, -1]))
+
     def test_without_fixed_meshes_it_drops_on_the_bed(self):
         entry = self.placed("drop", "a.obj", "-o", "out.obj")
         self.assertEqual((entry["travel"], entry["status"]), (5.5, "touching"))

@@ -49,7 +49,6 @@ class Usage(PlaceTest):
     def test_what_would_do_nothing_is_refused(self):
         fixed = ("--fixed", "floor.obj")
         self.assertIn("needs --fixed", self.refused("mate", "a.obj"))
-        self.assertIn("needs --direction", self.refused("slide", "a.obj", *fixed))
         self.refused("mate", "a.obj", *fixed, "--bed", "0")
         self.refused("clear", "a.obj", *fixed, "-d", "1,0,0")
         self.refused("drop", "a.obj", "-d", "0,0,1")

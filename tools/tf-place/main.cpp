@@ -196,7 +196,6 @@ void check_settings(place_settings& s, const common_options& o) {
     if (s.bed && !on_bed) refuse("--bed: only drop, lay and arrange have one");
     if (s.direction && !s.moves_along_direction())
         refuse("--direction: " + mode + " finds its own");
-    if (s.mode == place_mode::slide && !s.direction) refuse("slide needs --direction");
     if (s.has_bed() && s.direction && !(s.direction->z < 0.0))
         refuse("--direction: does not lead down to the bed");
     if (s.max_travel && s.mode == place_mode::measure)

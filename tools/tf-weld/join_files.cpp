@@ -16,40 +16,13 @@ namespace {
 
 using tf::scalar_type;
 
-/// Calls `f` with a value of the type.
-template <class F>
-void with_type(scalar_type type, F&& f) {
-    switch (type) {
-        case scalar_type::int8:
-            return f(std::int8_t{});
-        case scalar_type::uint8:
-            return f(std::uint8_t{});
-        case scalar_type::int16:
-            return f(std::int16_t{});
-        case scalar_type::uint16:
-            return f(std::uint16_t{});
-        case scalar_type::int32:
-            return f(std::int32_t{});
-        case scalar_type::uint32:
-            return f(std::uint32_t{});
-        case scalar_type::int64:
-            return f(std::int64_t{});
-        case scalar_type::uint64:
-            return f(std::uint64_t{});
-        case scalar_type::float32:
-            return f(float{});
-        case scalar_type::float64:
-            return f(double{});
-    }
-}
-
 bool is_floating(scalar_type type) { return type >= scalar_type::float32; }
 
 /// Whether every value of `narrow` is one of `wide`.
 bool holds(scalar_type wide, scalar_type narrow) {
     bool result = false;
-    with_type(wide, [&]<class W>(W) {
-        with_type(narrow, [&]<class N>(N) {
+    tf::with_type(wide, [&]<class W>(W) {
+        tf::with_type(narrow, [&]<class N>(N) {
             using w = std::numeric_limits<W>;
             using n = std::numeric_limits<N>;
             result = w::digits >= n::digits && (w::is_signed || !n::is_signed) &&
@@ -74,7 +47,7 @@ void append_values(tf::column& to, const tf::column& from) {
         to.values.insert(to.values.end(), from.values.begin(), from.values.end());
         return;
     }
-    with_type(to.type, [&]<class T>(T) {
+    tf::with_type(to.type, [&]<class T>(T) {
         const std::size_t count = tf::value_count(from);
         const std::size_t begin = to.values.size();
         to.values.resize(begin + count * sizeof(T));
@@ -92,7 +65,7 @@ void append_nothing(tf::column& to, std::size_t rows) {
         return;
     }
     tf::column filler{.name = to.name, .type = to.type};
-    with_type(to.type, [&]<class T>(T) {
+    tf::with_type(to.type, [&]<class T>(T) {
         const std::vector<T> values(
             rows, std::is_floating_point_v<T> ? std::numeric_limits<T>::quiet_NaN() : T{});
         filler = tf::make_column<T>(to.name, values);

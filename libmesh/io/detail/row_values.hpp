@@ -5,8 +5,8 @@
 
 #include <libmesh/attributes.hpp>
 #include <libmesh/io/detail/byte_order.hpp>
+#include <libmesh/io/detail/is_value_of.hpp>
 #include <libmesh/io/detail/text.hpp>
-#include <libmesh/io/detail/with_type.hpp>
 
 #include <cmath>
 #include <limits>
