@@ -1,0 +1,46 @@
+#pragma once
+/// \file
+/// The common subdivision of input faces that overlap in one plane.
+
+#include <libmesh/arrange/detail/meetings.hpp>
+#include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/mesh.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace tf::detail {
+
+/// A part of the plane: its corners turn left about the normal of the first cover.
+/// Points are of the input, then named, then `made` by this cluster, in that order of numbers.
+struct cluster_face {
+    std::array<std::uint32_t, 3> corners{};
+    std::size_t covers = 0;  ///< where its covers begin
+};
+
+struct cut_cluster {
+    std::vector<constructed_point> made;  ///< points where lines cross that no two faces name
+    std::vector<cluster_face> faces;      ///< ascending by first cover
+    std::vector<covering_face> covers;    ///< face by face
+    /// Numbers of points that turned out to be one point.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> same;
+};
+
+/// What a cluster needs to know of the mesh.
+struct cluster_input {
+    mesh_view mesh;
+    const mesh_meetings* met;
+    std::span<const std::uint32_t> members;  ///< faces that overlap in one plane, ascending
+    /// The meetings of a member, as numbers.
+    const std::vector<std::size_t>* meetings_begin;
+    const std::vector<std::uint32_t>* meetings_of_face;
+};
+
+[[nodiscard]] cut_cluster cut(const cluster_input& input);
+
+}  // namespace tf::detail

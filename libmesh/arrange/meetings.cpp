@@ -1,0 +1,90 @@
+#include <libmesh/arrange/detail/meetings.hpp>
+#include <libmesh/geometry/detail/features.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace tf::detail {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 10;
+
+triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
+    const face& c = mesh.faces[f];
+    return {mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]};
+}
+
+std::size_t place_of(feature f) { return static_cast<std::size_t>(index_of(f)); }
+
+/// The name of an end that is no corner.
+point_name name_of(mesh_view mesh, std::uint32_t a, std::uint32_t b, contact at) {
+    if (!is_edge(at.on_a))
+        return {point_name::origin::edge_face, edge_of(mesh.faces[b], place_of(at.on_b)), {a, 0}};
+    const edge_name edge = edge_of(mesh.faces[a], place_of(at.on_a));
+    if (!is_edge(at.on_b)) return {point_name::origin::edge_face, edge, {b, 0}};
+    const edge_name other = edge_of(mesh.faces[b], place_of(at.on_b));
+    return {point_name::origin::edges, std::min(edge, other), std::max(edge, other)};
+}
+
+/// An end whose point is to become the number of `name`.
+struct open_end {
+    point_name name;
+    std::size_t meeting;
+    std::uint8_t end;
+};
+
+constructed_point point_of(mesh_view mesh, const point_name& name) {
+    const point3& p = mesh.points[name.edge[0]];
+    const point3& q = mesh.points[name.edge[1]];
+    if (name.kind == point_name::origin::edges)
+        return constructed_point::where_lines_cross(p, q, mesh.points[name.by[0]],
+                                                    mesh.points[name.by[1]]);
+    const triangle3 t = triangle_of(mesh, name.by[0]);
+    return constructed_point::where_line_meets(p, q, {t[0], t[1], t[2]});
+}
+
+}  // namespace
+
+mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs) {
+    mesh_meetings result;
+    result.meetings.resize(pairs.size());
+    std::vector<std::vector<open_end>> open_of(chunk_count(pairs.size(), grain));
+    for_chunks(pairs.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto [a, b, kind] = pairs[i];
+            const triangle_contact common = intersect(triangle_of(mesh, a), triangle_of(mesh, b));
+            meeting& m = result.meetings[i];
+            m = {a, b, common.kind, common.coplanar, common.count, {}};
+            for (std::uint8_t k = 0; k < common.count; ++k) {
+                const contact at = common.ends[k];
+                m.ends[k] = {0, at.on_a, at.on_b};
+                if (is_corner(at.on_a))
+                    m.ends[k].point = mesh.faces[a][place_of(at.on_a)];
+                else if (is_corner(at.on_b))
+                    m.ends[k].point = mesh.faces[b][place_of(at.on_b)];
+                else
+                    open_of[chunk].push_back({name_of(mesh, a, b, at), i, k});
+            }
+        }
+    });
+
+    std::vector<open_end> open;
+    for (const auto& part : open_of) open.insert(open.end(), part.begin(), part.end());
+    std::sort(open.begin(), open.end(),
+              [](const open_end& x, const open_end& y) { return x.name < y.name; });
+    for (const open_end& o : open) {
+        if (result.names.empty() || result.names.back() != o.name) result.names.push_back(o.name);
+        result.meetings[o.meeting].ends[o.end].point =
+            static_cast<std::uint32_t>(mesh.points.size() + result.names.size() - 1);
+    }
+    result.points.resize(result.names.size());
+    for_chunks(result.names.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
+            result.points[i] = point_of(mesh, result.names[i]);
+    });
+    return result;
+}
+
+}  // namespace tf::detail
