@@ -1,6 +1,7 @@
 /// \file
 /// The constants that the filter and the widths rest on, recomputed from the polynomials.
 
+#include <libmesh/exact/detail/constructed_polynomials.hpp>
 #include <libmesh/exact/detail/exact_sign.hpp>
 #include <libmesh/exact/detail/filter.hpp>
 #include <libmesh/exact/detail/ray_polynomials.hpp>
@@ -53,12 +54,18 @@ int factors_of(const detail::vector3<rounding_count>& v) {
 int factors_of(const detail::vector2<rounding_count>& v) {
     return std::max(v.x.factors, v.y.factors);
 }
+int factors_of(const detail::vector_over<rounding_count>& v) {
+    return std::max(factors_of(v.over), v.under.factors);
+}
 int operations_of(operation_count c) { return c.operations; }
 int operations_of(const detail::vector3<operation_count>& v) {
     return std::max({v.x.operations, v.y.operations, v.z.operations});
 }
 int operations_of(const detail::vector2<operation_count>& v) {
     return std::max(v.x.operations, v.y.operations);
+}
+int operations_of(const detail::vector_over<operation_count>& v) {
+    return std::max(operations_of(v.over), v.under.operations);
 }
 
 template <class Polynomial>
@@ -80,6 +87,7 @@ TEST_CASE("the filter's constant exceeds the error bound of its polynomial") {
     check_error_factor<detail::compare_along_polynomial>();
     check_error_factor<detail::compare_distance_polynomial>();
     check_error_factor<detail::normal_dot_polynomial>();
+    check_error_factor<detail::normal_cross_polynomial>();
     check_error_factor<detail::normal_turn_polynomial>();
     check_error_factor<detail::normal_determinant_polynomial>();
     check_error_factor<detail::direction_side_polynomial>();
@@ -87,6 +95,9 @@ TEST_CASE("the filter's constant exceeds the error bound of its polynomial") {
     check_error_factor<detail::cut_polynomial>();
     check_error_factor<detail::compare_cut_polynomial>();
     check_error_factor<detail::compare_cuts_polynomial>();
+    check_error_factor<detail::lines_polynomial>();
+    check_error_factor<detail::line_plane_polynomial>();
+    check_error_factor<detail::planes_polynomial>();
 }
 
 TEST_CASE("the guards keep what underflow loses below the slack, and products finite") {
@@ -100,6 +111,7 @@ TEST_CASE("the guards keep what underflow loses below the slack, and products fi
     check.operator()<4>();
     check.operator()<5>();
     check.operator()<6>();
+    check.operator()<7>();
     // 2^400 of further factors, 2^-1020 lost an operation, 2^7 operations, coefficients below 2^6
     CHECK(400 - 1020 + 7 + 6 < std::log2(detail::least_permanent) - 52 - 1);
 }
@@ -157,6 +169,7 @@ TEST_CASE("no value exceeds its polynomial's growth, and half the growth would b
     check_growth<detail::compare_along_polynomial>(ends);
     check_growth<detail::compare_distance_polynomial>({0, 1});
     check_growth<detail::normal_dot_polynomial>(ends);
+    check_growth<detail::normal_cross_polynomial>(ends);
     check_growth<detail::normal_turn_polynomial>(ends);
     check_growth<detail::normal_determinant_polynomial>(ends);
     check_growth<detail::direction_side_polynomial>(ends);

@@ -11,7 +11,7 @@
 /// multiplies its result by one (1 + e), and fusing a product with a sum removes one. So computed
 /// and exact value are sums of the same products of d^, each times at most K factors (1 + e) in
 /// all, K = Polynomial::roundings; hence
-///     |value^ - value| <= ((1 + u)^K - 1) P,   P^ >= (1 - u)^K P,   K <= 18,
+///     |value^ - value| <= ((1 + u)^K - 1) P,   P^ >= (1 - u)^K P,   K <= 20,
 /// and c P^ with c = (K + 1) u, rounded once more, exceeds the error by more than P u / 2.
 ///
 /// Underflow. An operation may besides lose less than 2^-1020: a result and two operands below

@@ -138,6 +138,27 @@ struct normal_dot_polynomial {
     }
 };
 
+/// (n x m).z of planes (a, b, c) and (d, e, f). Growth: likewise, at most 8 D^4.
+struct normal_cross_polynomial {
+    static constexpr std::size_t points = 6;
+    static constexpr int degree = 4;
+    static constexpr int growth = 3;
+    static constexpr int roundings = 10;
+    template <class Number>
+    using vector = vector3<Number>;
+
+    template <class Number>
+    static constexpr auto differences(const std::array<vector<Number>, points>& p) {
+        return std::array{p[1] - p[0], p[2] - p[0], p[4] - p[3], p[5] - p[3]};
+    }
+    template <class Number>
+    static constexpr auto value(const std::array<vector<Number>, 4>& d) {
+        const auto x = [&](std::size_t i) { return d[i].y * d[i + 1].z - d[i].z * d[i + 1].y; };
+        const auto y = [&](std::size_t i) { return d[i].z * d[i + 1].x - d[i].x * d[i + 1].z; };
+        return x(0) * y(2) - y(0) * x(2);
+    }
+};
+
 /// (n x m) . (h - g) of planes (a, b, c) and (d, e, f). Growth: likewise, at most 12 D^5.
 struct normal_turn_polynomial {
     static constexpr std::size_t points = 8;

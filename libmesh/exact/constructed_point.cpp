@@ -1,0 +1,482 @@
+#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/detail/constructed_filter.hpp>
+#include <libmesh/exact/detail/constructed_polynomials.hpp>
+#include <libmesh/exact/detail/dyadic.hpp>
+#include <libmesh/exact/detail/exact_sign.hpp>
+#include <libmesh/exact/detail/lattice.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+namespace tf {
+namespace {
+
+using detail::ball;
+using detail::ball_of;
+using detail::count_factor;
+using detail::dyadic;
+using detail::lattice;
+using detail::sum;
+using detail::term;
+using detail::undecided;
+using detail::vector3;
+using detail::vector_of;
+
+constexpr double u = 0x1p-52;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void count(predicate_counters* counters, bool open) {
+    if (!counters) return;
+    ++counters->calls;
+    counters->undecided += open;
+}
+
+void count_exact(predicate_counters* counters) {
+    if (counters) ++counters->by_width.back();
+}
+
+// ---- where a point is, nearly
+
+/// A computed number, and how far the exact one may be off.
+struct estimate {
+    double value;
+    double error;
+};
+
+/// num / den.
+///
+/// Let num = num^ + e with |e| <= E and den = den^ + f with |f| <= F, where E and F are the bounds
+/// of filter.hpp (the constant with one u more for the roundings here) and 2^-600, which is more
+/// than underflow takes. With q = num^ / den^,
+///     |num / den - q| = |e - q f| / |den| <= (E + |q| F) / (|den^| - F),
+/// and the computed q^ is off q by u |q|. All is counted with fewer than eight roundings.
+template <class Polynomial>
+estimate ratio(const sum& num, const sum& den) {
+    constexpr double factor = detail::error_factor<Polynomial> + u;
+    constexpr double lost = 0x1p-600;
+    const double num_error = factor * num.magnitude + lost;
+    const double den_error = factor * den.magnitude + lost;
+    const double gap = std::abs(den.value) - den_error;
+    if (!(gap > 0.0)) return {0.0, infinity};
+    const double value = num.value / den.value;
+    const double error = (num_error + std::abs(value) * den_error) / gap + 2 * u * std::abs(value);
+    return {value, count_factor * error};
+}
+
+/// t d for a difference d as computed: it is off by u |d|, the product by u |t d| once more.
+estimate scaled(const estimate& t, double d) {
+    const double value = t.value * d;
+    return {value, count_factor * (t.error * std::abs(d) + 3 * u * std::abs(value))};
+}
+
+/// The point base + (x, y, z), in a ball that is small for what it is computed from; otherwise
+/// an infinite one.
+///
+/// The sum rounds by u times the coordinate. Before, operations that lose less than 2^-1020 each
+/// were multiplied by at most 2^200: 2^-800 is more.
+///
+/// Small is a radius below 2^-30 of `size`, the size of what meets there, or not far above the
+/// rounding of the coordinates. A larger one would leave open what an exact construction, that
+/// costs as much as one undecided predicate, makes easy.
+ball displaced(const point3& base, const estimate& x, const estimate& y, const estimate& z,
+               double size) {
+    const point3 centre{base.x + x.value, base.y + y.value, base.z + z.value};
+    const double error = std::max({x.error, y.error, z.error});
+    const double reach = std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z)});
+    const double radius = count_factor * (error + u * reach) + 0x1p-800;
+    return {centre, radius <= std::max(0x1p-30 * size, 0x1p-46 * reach) ? radius : infinity};
+}
+
+template <class Vector, std::size_t Count>
+auto terms_of(const std::array<Vector, Count>& differences) {
+    return detail::transform(differences, [](double x) { return term{x}; });
+}
+
+double size_of(const vector3<double>& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// a + t (b - a).
+ball on_line(const point3& a, const point3& b, const estimate& t) {
+    const auto d = vector_of(b) - vector_of(a);
+    return displaced(a, scaled(t, d.x), scaled(t, d.y), scaled(t, d.z), size_of(d));
+}
+
+constexpr ball nowhere{{}, infinity};
+
+ball lines_ball(const point3& a, const point3& b, const point3& c, const point3& d) {
+    using polynomial = detail::lines_polynomial;
+    std::optional<detail::vector2<sum>> steepest;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto differences = polynomial::differences(
+            std::array{detail::projection(axis, a), detail::projection(axis, b),
+                       detail::projection(axis, c), detail::projection(axis, d)});
+        if (!(detail::largest_magnitude(differences) <= detail::largest_difference<3>))
+            return nowhere;
+        const auto t = polynomial::value(terms_of(differences));
+        if (!steepest || std::abs(t.y.value) > std::abs(steepest->y.value)) steepest = t;
+    }
+    return on_line(a, b, ratio<polynomial>(steepest->x, steepest->y));
+}
+
+ball line_plane_ball(const point3& a, const point3& b, const plane_points& p) {
+    using polynomial = detail::line_plane_polynomial;
+    const auto differences = polynomial::differences(
+        std::array{vector_of(a), vector_of(b), vector_of(p.a), vector_of(p.b), vector_of(p.c)});
+    if (!(detail::largest_magnitude(differences) <= detail::largest_difference<polynomial::degree>))
+        return nowhere;
+    const auto t = polynomial::value(terms_of(differences));
+    return on_line(a, b, ratio<polynomial>(t.x, t.y));
+}
+
+ball planes_ball(const plane_points& p, const plane_points& q, const plane_points& r) {
+    using polynomial = detail::planes_polynomial;
+    const auto d = polynomial::differences(
+        std::array{vector_of(p.a), vector_of(p.b), vector_of(p.c), vector_of(q.a), vector_of(q.b),
+                   vector_of(q.c), vector_of(r.a), vector_of(r.b), vector_of(r.c)});
+    if (!(detail::largest_magnitude(d) <= detail::largest_difference<polynomial::degree>))
+        return nowhere;
+    const auto way = polynomial::value(terms_of(d));
+    const double size =
+        std::min({std::max(size_of(d[0]), size_of(d[1])), std::max(size_of(d[2]), size_of(d[3])),
+                  std::max(size_of(d[4]), size_of(d[5]))});
+    return displaced(p.a, ratio<polynomial>(way.over.x, way.under),
+                     ratio<polynomial>(way.over.y, way.under),
+                     ratio<polynomial>(way.over.z, way.under), size);
+}
+
+// ---- where it is, exactly
+
+using exact_vector = vector3<dyadic>;
+/// A point in homogeneous coordinates, in units of the lattice.
+using exact_place = detail::vector_over<dyadic>;
+
+/// Whether the point is its centre, by whatever it is defined.
+bool is_centre(const constructed_point& p) { return p.radius() == 0.0; }
+
+void add(lattice& grid, const point3& p) {
+    for (std::size_t axis = 0; axis < 3; ++axis) grid.add(detail::odd_part_of(p[axis]));
+}
+
+void add(lattice& grid, const constructed_point& p) {
+    constexpr std::array<std::size_t, 4> given = {0, 4, 5, 9};
+    if (is_centre(p)) return add(grid, p.centre());
+    for (std::size_t i = 0; i < given[static_cast<std::size_t>(p.kind())]; ++i)
+        add(grid, p.definition()[i]);
+}
+
+template <class... Things>
+lattice lattice_of(const Things&... things) {
+    lattice grid;
+    (add(grid, things), ...);
+    return grid;
+}
+
+dyadic number_on(const lattice& grid, double x) {
+    const detail::odd_part p = detail::odd_part_of(x);
+    return p.odd == 0 ? dyadic() : dyadic(p.odd, p.negative != 0, p.lowest - grid.lowest);
+}
+
+/// The first points of a definition.
+template <std::size_t Count>
+std::array<exact_vector, Count> exact_points(const lattice& grid, const constructed_point& p) {
+    std::array<vector3<double>, Count> given;
+    for (std::size_t i = 0; i < Count; ++i) given[i] = vector_of(p.definition()[i]);
+    return detail::transform(given, [&](double x) { return number_on(grid, x); });
+}
+
+exact_vector exact_on(const lattice& grid, const point3& p) {
+    return detail::transform(vector_of(p), [&](double x) { return number_on(grid, x); });
+}
+
+/// (a w + d t) / w.
+exact_place exact_sum(const exact_vector& a, const dyadic& w, const exact_vector& d,
+                      const dyadic& t) {
+    return {{a.x * w + d.x * t, a.y * w + d.y * t, a.z * w + d.z * t}, w};
+}
+
+exact_place exact_lines(const lattice& grid, const constructed_point& p) {
+    const auto [a, b, c, d] = exact_points<4>(grid, p);
+    const exact_vector along = b - a;
+    const exact_vector other = d - c;
+    // In a projection where they are not parallel.
+    const exact_vector under = cross(along, other);
+    const exact_vector over = cross(c - a, other);
+    if (sign_of(under.x) != 0) return exact_sum(a, under.x, along, over.x);
+    if (sign_of(under.y) != 0) return exact_sum(a, under.y, along, over.y);
+    return exact_sum(a, under.z, along, over.z);
+}
+
+exact_place exact_line_plane(const lattice& grid, const constructed_point& p) {
+    using polynomial = detail::line_plane_polynomial;
+    const auto given = exact_points<polynomial::points>(grid, p);
+    const auto differences = polynomial::differences(given);
+    const auto t = polynomial::value(differences);
+    return exact_sum(given[0], t.y, differences[0], t.x);
+}
+
+exact_place exact_planes(const lattice& grid, const constructed_point& p) {
+    using polynomial = detail::planes_polynomial;
+    const auto given = exact_points<polynomial::points>(grid, p);
+    const exact_place way = polynomial::value(polynomial::differences(given));
+    return exact_sum(given[0], way.under, way.over, dyadic(1, false, 0));
+}
+
+exact_place exactly(const lattice& grid, const constructed_point& p) {
+    if (is_centre(p)) return {exact_on(grid, p.centre()), dyadic(1, false, 0)};
+    switch (p.kind()) {
+        case constructed_point::origin::lines:
+            return exact_lines(grid, p);
+        case constructed_point::origin::line_plane:
+            return exact_line_plane(grid, p);
+        default:
+            return exact_planes(grid, p);
+    }
+}
+
+/// The coordinates, each rounded to the format.
+std::array<detail::rounded_quotient, 3> exact_rounding(const constructed_point& p,
+                                                       const detail::float_format& format) {
+    const lattice grid = lattice_of(p);
+    const exact_place at = exactly(grid, p);
+    if (sign_of(at.under) == 0)
+        throw std::invalid_argument("constructed_point: there is no single point in common");
+    const auto round = [&](const dyadic& x) {
+        return detail::quotient(x, at.under, grid.lowest - 1075, format);
+    };
+    return {round(at.over.x), round(at.over.y), round(at.over.z)};
+}
+
+/// The smallest ball about rounded coordinates, to a factor of two.
+///
+/// Rounding to nearest moves by half a unit in the last place, at most 2^-53 of the magnitude where
+/// that is normal. A denormal radius might be read as zero: 2^-1022 instead.
+ball exact_ball(const constructed_point& p) {
+    ball result{};
+    const auto coordinates = exact_rounding(p, detail::double_format);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double value = coordinates[axis].value;
+        if (std::isinf(value)) {
+            value = std::copysign(std::numeric_limits<double>::max(), value);
+            result.radius = infinity;
+        } else if (!coordinates[axis].exact) {
+            result.radius = std::max({result.radius, 0x1p-53 * std::abs(value), 0x1p-1022});
+        }
+        result.centre[axis] = value;
+    }
+    return result;
+}
+
+/// Sign of a / a_under - b / b_under.
+int compare_fractions(const dyadic& a, const dyadic& a_under, const dyadic& b,
+                      const dyadic& b_under) {
+    return sign_of(a * b_under - b * a_under) * sign_of(a_under) * sign_of(b_under);
+}
+
+const dyadic& component(const exact_vector& v, int axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+/// (p - o) times both denominators, without component `axis`, in cyclic order.
+detail::vector2<dyadic> exact_difference(int axis, const exact_place& p, const exact_place& o) {
+    const auto difference = [&](int i) {
+        return component(p.over, i) * o.under - component(o.over, i) * p.under;
+    };
+    return {difference((axis + 1) % 3), difference((axis + 2) % 3)};
+}
+
+// ---- bits
+
+/// Order of two finite doubles by their bits; -0 is 0.
+int compare_bits(double a, double b) {
+    const auto ordered = [](double x) {
+        const auto bits = std::bit_cast<std::int64_t>(x);
+        return bits < 0 ? std::numeric_limits<std::int64_t>::min() - bits : bits;
+    };
+    return (ordered(a) > ordered(b)) - (ordered(a) < ordered(b));
+}
+
+/// Zero of either sign as +0; bits, since a denormal may compare equal to zero.
+double without_negative_zero(double x) { return compare_bits(x, 0.0) == 0 ? 0.0 : x; }
+
+/// The nearest float, ties to even, in any rounding mode. \pre |x| >= 2^-126
+double nearest_normal_float(double x) {
+    constexpr std::uint64_t dropped = 0x1fffffff;
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const double rounded =
+        std::bit_cast<double>((bits + (dropped >> 1) + (bits >> 29 & 1)) & ~dropped);
+    return std::abs(rounded) < 0x1p128 ? rounded : std::copysign(infinity, rounded);
+}
+
+/// The float nearest to a number within `radius` of `centre`, where that is certain.
+///
+/// The ends are moved outwards by 2 u |centre|, more than the sums that make them round.
+std::optional<double> certain_float(double centre, double radius) {
+    const double magnitude = std::abs(centre);
+    if (radius == 0.0 && compare_bits(centre, 0.0) == 0) return 0.0;
+    if (!(magnitude >= 0x1p-120 && radius <= 0x1p-20 * magnitude)) return {};
+    if (radius == 0.0) return nearest_normal_float(centre);
+    const double off = count_factor * (radius + 2 * u * magnitude);
+    const double low = nearest_normal_float(centre - off);
+    if (low != nearest_normal_float(centre + off)) return {};
+    return low;
+}
+
+point3 turned(int axis, const point3& p) {
+    const detail::vector2<double> others = detail::projection(axis, p);
+    return {others.x, others.y, p[static_cast<std::size_t>(axis)]};
+}
+
+}  // namespace
+
+namespace detail {
+
+int compare_exact(int axis, const constructed_point& a, const constructed_point& b,
+                  predicate_counters* counters) {
+    count_exact(counters);
+    const lattice grid = lattice_of(a, b);
+    const exact_place p = exactly(grid, a);
+    const exact_place q = exactly(grid, b);
+    return compare_fractions(component(p.over, axis), p.under, component(q.over, axis), q.under);
+}
+
+int orient2d_exact(int axis, const constructed_point& a, const constructed_point& b,
+                   const constructed_point& c, predicate_counters* counters) {
+    // From a point of small numbers all differences are small.
+    if (!is_centre(a) && is_centre(b)) return orient2d_exact(axis, b, c, a, counters);
+    if (!is_centre(a) && is_centre(c)) return orient2d_exact(axis, c, a, b, counters);
+    count_exact(counters);
+    const lattice grid = lattice_of(a, b, c);
+    const exact_place o = exactly(grid, a);
+    const exact_place p = exactly(grid, b);
+    const exact_place q = exactly(grid, c);
+    const auto turn = cross(exact_difference(axis, p, o), exact_difference(axis, q, o));
+    return sign_of(turn) * sign_of(p.under) * sign_of(q.under);
+}
+
+int side_exact(const plane_points& p, const constructed_point& d, predicate_counters* counters) {
+    count_exact(counters);
+    const lattice grid = lattice_of(p.a, p.b, p.c, d);
+    const exact_vector a = exact_on(grid, p.a);
+    const exact_vector n = cross(exact_on(grid, p.b) - a, exact_on(grid, p.c) - a);
+    const exact_place at = exactly(grid, d);
+    const exact_vector way{at.over.x - a.x * at.under, at.over.y - a.y * at.under,
+                           at.over.z - a.z * at.under};
+    return sign_of(dot(n, way)) * sign_of(at.under);
+}
+
+}  // namespace detail
+
+constructed_point::constructed_point(origin kind, const std::array<point3, 9>& definition,
+                                     const detail::ball& about)
+    : centre_(about.centre), radius_(about.radius), kind_(kind), definition_(definition) {
+    if (radius_ < infinity) return;
+    const ball exact = exact_ball(*this);
+    centre_ = exact.centre;
+    radius_ = exact.radius;
+}
+
+constructed_point constructed_point::where_lines_cross(const point3& a, const point3& b,
+                                                       const point3& c, const point3& d) {
+    return {origin::lines, {a, b, c, d}, lines_ball(a, b, c, d)};
+}
+
+constructed_point constructed_point::where_line_meets(const point3& a, const point3& b,
+                                                      const plane_points& plane) {
+    return {origin::line_plane, {a, b, plane.a, plane.b, plane.c}, line_plane_ball(a, b, plane)};
+}
+
+constructed_point constructed_point::where_planes_meet(const plane_points& p, const plane_points& q,
+                                                       const plane_points& r) {
+    return {origin::planes, {p.a, p.b, p.c, q.a, q.b, q.c, r.a, r.b, r.c}, planes_ball(p, q, r)};
+}
+
+int compare(int axis, const constructed_point& a, const constructed_point& b,
+            predicate_counters* counters) {
+    const auto i = static_cast<std::size_t>(axis);
+    const bool known = is_centre(a) && is_centre(b);
+    const int sign = known ? compare_bits(a.centre()[i], b.centre()[i])
+                           : detail::compare_filter(axis, ball_of(a), ball_of(b));
+    count(counters, sign == undecided);
+    return sign != undecided ? sign : detail::compare_exact(axis, a, b, counters);
+}
+
+bool equal(const constructed_point& a, const constructed_point& b, predicate_counters* counters) {
+    if (is_centre(a) && is_centre(b)) {
+        count(counters, false);
+        return compare_bits(a.centre().x, b.centre().x) == 0 &&
+               compare_bits(a.centre().y, b.centre().y) == 0 &&
+               compare_bits(a.centre().z, b.centre().z) == 0;
+    }
+    const ball p = ball_of(a);
+    const ball q = ball_of(b);
+    const bool open = detail::compare_filter(0, p, q) == undecided &&
+                      detail::compare_filter(1, p, q) == undecided &&
+                      detail::compare_filter(2, p, q) == undecided;
+    count(counters, open);
+    if (!open) return false;
+    count_exact(counters);
+    const lattice grid = lattice_of(a, b);
+    const exact_place at = exactly(grid, a);
+    const exact_place other = exactly(grid, b);
+    for (int axis = 0; axis < 3; ++axis)
+        if (compare_fractions(component(at.over, axis), at.under, component(other.over, axis),
+                              other.under) != 0)
+            return false;
+    return true;
+}
+
+int orient2d(int axis, const constructed_point& a, const constructed_point& b,
+             const constructed_point& c, predicate_counters* counters) {
+    if (is_centre(a) && is_centre(b) && is_centre(c))
+        return orient2d(axis, a.centre(), b.centre(), c.centre(), counters);
+    const int sign = detail::orient2d_filter(axis, ball_of(a), ball_of(b), ball_of(c));
+    count(counters, sign == undecided);
+    return sign != undecided ? sign : detail::orient2d_exact(axis, a, b, c, counters);
+}
+
+int side(const plane_points& p, const constructed_point& d, predicate_counters* counters) {
+    if (is_centre(d)) return orient3d(p.a, p.b, p.c, d.centre(), counters);
+    const int sign = detail::side_filter(p, ball_of(d));
+    count(counters, sign == undecided);
+    return sign != undecided ? sign : detail::side_exact(p, d, counters);
+}
+
+point3 rounded(const constructed_point& p) {
+    const point3& c = p.centre();
+    // A radius above zero is never below half a unit in the last place of the largest coordinate.
+    if (is_centre(p))
+        return {without_negative_zero(c.x), without_negative_zero(c.y), without_negative_zero(c.z)};
+    const auto exact = exact_rounding(p, detail::double_format);
+    return {exact[0].value, exact[1].value, exact[2].value};
+}
+
+point3 rounded_to_float(const constructed_point& p) {
+    const auto x = certain_float(p.centre().x, p.radius());
+    const auto y = certain_float(p.centre().y, p.radius());
+    const auto z = certain_float(p.centre().z, p.radius());
+    if (x && y && z) return {*x, *y, *z};
+    const auto exact = exact_rounding(p, detail::float_format_32);
+    return {exact[0].value, exact[1].value, exact[2].value};
+}
+
+int normal_cross(int axis, const plane_points& p, const plane_points& q,
+                 predicate_counters* counters) {
+    const std::array points{turned(axis, p.a), turned(axis, p.b), turned(axis, p.c),
+                            turned(axis, q.a), turned(axis, q.b), turned(axis, q.c)};
+    using polynomial = detail::normal_cross_polynomial;
+    const auto& [a, b, c, d, e, f] = points;
+    const int sign = detail::filter_sign<polynomial>(a, b, c, d, e, f);
+    count(counters, sign == undecided);
+    if (sign != undecided) return sign;
+    return detail::exact_sign<polynomial>(
+        {vector_of(a), vector_of(b), vector_of(c), vector_of(d), vector_of(e), vector_of(f)},
+        counters);
+}
+
+}  // namespace tf
