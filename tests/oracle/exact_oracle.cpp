@@ -4,6 +4,7 @@
 /// TREEFORM_STRESS_COUNT sets the calls of each predicate in each family (default 100,000):
 ///     TREEFORM_STRESS_COUNT=10000000 ctest --test-dir build/release -R exact_oracle -V
 
+#include <libmesh/exact/constructed_point.hpp>
 #include <libmesh/exact/predicates.hpp>
 
 #include <doctest/doctest.h>
@@ -82,6 +83,16 @@ struct subject {
 };
 
 template <int Axis>
+int crossed(const std::vector<point3>& p, tf::predicate_counters* counters) {
+    return tf::normal_cross(Axis, plane(p, 0), plane(p, 3), counters);
+}
+
+template <std::size_t Axis>
+int crossed_truth(const std::vector<exact_vector>& p) {
+    return sgn(outer(normal(p, 0), normal(p, 3))[Axis]);
+}
+
+template <int Axis>
 int projected(const std::vector<point3>& p, tf::predicate_counters* counters) {
     return tf::orient2d(Axis, p[0], p[1], p[2], counters);
 }
@@ -138,6 +149,9 @@ const std::array subjects = {
             return tf::normal_dot(plane(p, 0), plane(p, 3), counters);
         },
         [](const std::vector<exact_vector>& p) { return sgn(inner(normal(p, 0), normal(p, 3))); }},
+    subject{"normal_cross x", 6, crossed<0>, crossed_truth<0>},
+    subject{"normal_cross y", 6, crossed<1>, crossed_truth<1>},
+    subject{"normal_cross z", 6, crossed<2>, crossed_truth<2>},
     subject{"normal_turn", 8,
             [](const std::vector<point3>& p, tf::predicate_counters* counters) {
                 return tf::normal_turn(plane(p, 0), plane(p, 3), p[6], p[7], counters);
