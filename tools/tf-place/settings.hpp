@@ -2,6 +2,7 @@
 /// \file
 /// What a user of tf-place asks for.
 
+#include "tools/common/matrix_file.hpp"
 #include "tools/common/parse_value.hpp"
 #include <libmesh/exact/point.hpp>
 #include <libmesh/place/arrange.hpp>
@@ -63,12 +64,5 @@ struct place_settings {
 /// The same direction, exactly: along an axis of length 1, else scaled by a power of two.
 [[nodiscard]] tf::point3 in_range(const tf::point3& direction);
 [[nodiscard]] double length(const tf::point3& v);
-
-/// A 4x4 matrix in a file: 16 numbers by rows, the last row 0 0 0 1.
-/// \throws failure (bad_input)
-[[nodiscard]] tf::transform<3> read_matrix(const std::filesystem::path& path);
-
-/// Four lines of four numbers with 17 digits.
-[[nodiscard]] std::string matrix_text(const tf::transform<3>& matrix);
 
 }  // namespace tools

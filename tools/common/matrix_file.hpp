@@ -1,0 +1,19 @@
+#pragma once
+/// \file
+/// 4x4 matrices as text: row-major, column vectors, new = M * old.
+
+#include <libtree/transform.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace tools {
+
+/// A 4x4 matrix in a file: 16 numbers by rows, the last row 0 0 0 1.
+/// \throws failure (bad_input)
+[[nodiscard]] tf::transform<3> read_matrix(const std::filesystem::path& path);
+
+/// Four lines of four numbers with 17 digits.
+[[nodiscard]] std::string matrix_text(const tf::transform<3>& matrix);
+
+}  // namespace tools
