@@ -1,0 +1,185 @@
+#include <libmesh/boolean/expression.hpp>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace tf {
+namespace {
+
+constexpr std::int32_t add = -1;
+constexpr std::int32_t intersect = -2;
+constexpr std::int32_t subtract = -3;
+constexpr std::int32_t exclude = -4;
+constexpr std::int32_t bracket = -5;  // only while reading
+
+std::int32_t operation_of(char c) {
+    switch (c) {
+        case '+':
+        case '|':
+            return add;
+        case '*':
+        case '&':
+            return intersect;
+        case '-':
+            return subtract;
+        case '^':
+            return exclude;
+        default:
+            return 0;
+    }
+}
+
+bool apply(std::int32_t operation, bool left, bool right) {
+    switch (operation) {
+        case add:
+            return left || right;
+        case intersect:
+            return left && right;
+        case subtract:
+            return left && !right;
+        default:
+            return left != right;
+    }
+}
+
+/// 0 ... 25, or 26 for what is no letter.
+std::size_t letter_of(char c) {
+    if (c >= 'a' && c <= 'z') return static_cast<std::size_t>(c - 'a');
+    if (c >= 'A' && c <= 'Z') return static_cast<std::size_t>(c - 'A');
+    return 26;
+}
+
+/// Operators wait until one that binds no tighter, or a bracket, follows their right side.
+class reader {
+  public:
+    reader(std::string_view text, std::size_t operand_count)
+        : text_(text), operand_count_(operand_count) {}
+
+    std::vector<std::int32_t> read() {
+        for (skip_blanks(); at_ < text_.size(); skip_blanks()) {
+            if (operand_next_)
+                read_operand();
+            else
+                read_operator();
+        }
+        if (operand_next_) refuse(at_, "an operand is missing");
+        while (!waiting_.empty()) {
+            if (waiting_.back().operation == bracket)
+                refuse(waiting_.back().at, "this bracket is not closed");
+            emit_waiting();
+        }
+        return std::move(postfix_);
+    }
+
+  private:
+    struct waiting {
+        std::int32_t operation;
+        std::size_t at;
+    };
+
+    [[noreturn]] void refuse(std::size_t at, const std::string& why) const {
+        throw std::invalid_argument("tf::boolean_expression: position " + std::to_string(at + 1) +
+                                    " of \"" + std::string(text_) + "\": " + why);
+    }
+
+    void skip_blanks() {
+        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+    }
+
+    void emit_waiting() {
+        postfix_.push_back(waiting_.back().operation);
+        waiting_.pop_back();
+    }
+
+    void read_operand() {
+        if (text_[at_] == '(') {
+            waiting_.push_back({bracket, at_++});
+            return;
+        }
+        const std::size_t begin = at_;
+        std::size_t number = 0;  // 1 is a, 27 is aa
+        for (; at_ < text_.size() && letter_of(text_[at_]) < 26; ++at_)
+            if (number <= operand_count_) number = number * 26 + letter_of(text_[at_]) + 1;
+        if (number == 0) refuse(begin, "expected an operand or a bracket");
+        if (number > operand_count_)
+            refuse(begin, "there " +
+                              (operand_count_ == 1
+                                   ? std::string("is 1 operand")
+                                   : "are " + std::to_string(operand_count_) + " operands") +
+                              " only");
+        postfix_.push_back(static_cast<std::int32_t>(number - 1));
+        operand_next_ = false;
+    }
+
+    void read_operator() {
+        if (text_[at_] == ')') {
+            while (!waiting_.empty() && waiting_.back().operation != bracket) emit_waiting();
+            if (waiting_.empty()) refuse(at_, "no bracket is open here");
+            waiting_.pop_back();
+            ++at_;
+            return;
+        }
+        const std::int32_t operation = operation_of(text_[at_]);
+        if (operation == 0) refuse(at_, "expected one of + | * & - ^ )");
+        while (!waiting_.empty() && waiting_.back().operation != bracket &&
+               (operation != intersect || waiting_.back().operation == intersect))
+            emit_waiting();
+        waiting_.push_back({operation, at_++});
+        operand_next_ = true;
+    }
+
+    std::string_view text_;
+    std::size_t operand_count_;
+    std::size_t at_ = 0;
+    bool operand_next_ = true;
+    std::vector<waiting> waiting_{};
+    std::vector<std::int32_t> postfix_{};
+};
+
+}  // namespace
+
+boolean_expression::boolean_expression(std::string_view text, std::size_t operand_count)
+    : operand_count_(operand_count), postfix_(reader(text, operand_count).read()) {}
+
+boolean_expression::boolean_expression(std::size_t operand_count, std::int32_t operation)
+    : operand_count_(operand_count) {
+    if (operand_count > std::size_t{std::numeric_limits<std::int32_t>::max()})
+        throw std::invalid_argument("tf::boolean_expression: more than 2^31 - 1 operands");
+    for (std::size_t i = 0; i < operand_count; ++i) {
+        postfix_.push_back(static_cast<std::int32_t>(i));
+        if (i > 0) postfix_.push_back(operation);
+    }
+}
+
+boolean_expression boolean_expression::union_of(std::size_t operand_count) {
+    return {operand_count, add};
+}
+
+boolean_expression boolean_expression::intersection_of(std::size_t operand_count) {
+    return {operand_count, intersect};
+}
+
+boolean_expression boolean_expression::difference_of(std::size_t operand_count) {
+    return {operand_count, subtract};
+}
+
+boolean_expression boolean_expression::xor_of(std::size_t operand_count) {
+    return {operand_count, exclude};
+}
+
+bool boolean_expression::operator()(std::span<const bool> in_operand) const {
+    std::vector<bool> values;
+    for (const std::int32_t token : postfix_) {
+        if (token >= 0) {
+            values.push_back(in_operand[static_cast<std::size_t>(token)]);
+            continue;
+        }
+        const bool right = values.back();
+        values.pop_back();
+        values.back() = apply(token, values.back(), right);
+    }
+    return !values.empty() && values.back();
+}
+
+}  // namespace tf
