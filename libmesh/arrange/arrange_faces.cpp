@@ -1,6 +1,6 @@
 #include <libmesh/arrange/detail/cluster.hpp>
-#include <libmesh/arrange/detail/meetings.hpp>
-#include <libmesh/arrange/detail/same_points.hpp>
+#include <libmesh/intersect/detail/meetings.hpp>
+#include <libmesh/intersect/detail/same_points.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/detail/stars.hpp>

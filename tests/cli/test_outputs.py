@@ -57,7 +57,9 @@ class Outputs(ToolTest):
         part = write(self.path("part.obj"), OVERLAP)
         self.run_tool(part, "--curves", "c.obj", status=1)
         lines = self.read("c.obj").splitlines()
-        self.assertEqual(sum(line.startswith("l ") for line in lines), 3)
+        [outline] = [line.split()[1:] for line in lines if line.startswith("l ")]
+        self.assertEqual((len(outline), outline[0]), (4, outline[-1]))
+        self.assertEqual(len(set(outline)), 3)
 
     def test_the_marked_mesh_keeps_geometry_and_numbers(self):
         mesh = together(cube((10.0, 10.0, 10.0)), CROSSING)

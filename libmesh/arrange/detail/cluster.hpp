@@ -2,7 +2,7 @@
 /// \file
 /// The common subdivision of input faces that overlap in one plane.
 
-#include <libmesh/arrange/detail/meetings.hpp>
+#include <libmesh/intersect/detail/meetings.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/exact/constructed_point.hpp>
 #include <libmesh/mesh.hpp>

@@ -1,4 +1,4 @@
-#include <libmesh/arrange/detail/meetings.hpp>
+#include <libmesh/intersect/detail/meetings.hpp>
 #include <libmesh/geometry/detail/features.hpp>
 #include <libtree/parallel.hpp>
 

@@ -1,4 +1,4 @@
-#include <libmesh/arrange/detail/same_points.hpp>
+#include <libmesh/intersect/detail/same_points.hpp>
 #include <libtree/build.hpp>
 #include <libtree/search_self.hpp>
 
