@@ -1,0 +1,264 @@
+#include <libmesh/arrange/cells.hpp>
+#include <libmesh/arrange/detail/parts.hpp>
+#include <libmesh/arrange/detail/patches.hpp>
+#include <libmesh/arrange/detail/radial_order.hpp>
+#include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/union_find.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace tf {
+namespace {
+
+using detail::face_side;
+using detail::numbered_sets;
+using detail::surface_patches;
+
+[[noreturn]] void refuse(const std::string& why) {
+    throw std::invalid_argument("tf::find_cells: " + why);
+}
+
+void check(mesh_view mesh, const mesh_arrangement& cut,
+           std::span<const std::uint32_t> operand_of_face, std::size_t operand_count) {
+    if (cut.given_points.size() != mesh.points.size() ||
+        cut.cover_begin.size() != cut.faces.size() + 1)
+        refuse("not an arrangement of this mesh");
+    if (cut.faces.size() > std::numeric_limits<std::uint32_t>::max() / 2)
+        refuse("more than 2^31 - 1 faces");
+    detail::check_faces("find_cells", cut.given_points.size() + cut.constructed.size(), cut.faces);
+    for (std::size_t f = 0; f < cut.faces.size(); ++f)
+        if (cut.cover_begin[f] >= cut.cover_begin[f + 1] ||
+            cut.cover_begin[f + 1] > cut.covers.size())
+            refuse("nothing covers face " + std::to_string(f) + " of the arrangement");
+    for (const covering_face& cover : cut.covers)
+        if (cover.face >= mesh.faces.size())
+            refuse("a cover is no face: " + std::to_string(cover.face));
+    if (operand_of_face.size() != mesh.faces.size()) refuse("not as many operands as faces");
+    for (std::size_t f = 0; f < operand_of_face.size(); ++f)
+        if (operand_of_face[f] >= operand_count)
+            refuse("face " + std::to_string(f) + " is of no operand");
+}
+
+/// What crossing the surface from front to behind adds to the windings.
+class labels {
+  public:
+    labels(const mesh_arrangement& cut, std::span<const std::uint32_t> operand_of_face)
+        : cut_(cut), operand_of_face_(operand_of_face) {}
+
+    template <class Add>
+    void for_each(std::uint32_t face, const Add& add) const {
+        for (const covering_face& cover : cut_.covers_of(face))
+            add(operand_of_face_[cover.face], cover.opposite ? -1 : 1);
+    }
+
+    /// Whether what covers the face cancels out, operand by operand.
+    [[nodiscard]] bool cancel(std::uint32_t face) const {
+        if (cut_.covers_of(face).size() == 1) return false;
+        std::vector<std::pair<std::uint32_t, int>> net;
+        for_each(face, [&](std::uint32_t operand, int sign) { net.emplace_back(operand, sign); });
+        std::sort(net.begin(), net.end());
+        for (std::size_t i = 0; i < net.size();) {
+            const std::uint32_t operand = net[i].first;
+            std::int64_t sum = 0;
+            for (; i < net.size() && net[i].first == operand; ++i) sum += net[i].second;
+            if (sum != 0) return false;
+        }
+        return true;
+    }
+
+  private:
+    const mesh_arrangement& cut_;
+    std::span<const std::uint32_t> operand_of_face_;
+};
+
+/// Sides that look into one region. Element 0 stands for infinity.
+class regions {
+  public:
+    explicit regions(const surface_patches& patches)
+        : patches_(patches), sets_(2 * std::size_t{patches.count()} + 1) {}
+
+    void join(face_side s, face_side t) { sets_.join(element(s), element(t)); }
+    void join_infinity(face_side s) { sets_.join(0, element(s)); }
+
+    /// Cells, 0 being that of infinity, then in the order of the lowest sides.
+    [[nodiscard]] numbered_sets number() { return detail::number_sets(sets_); }
+
+  private:
+    [[nodiscard]] std::uint32_t element(face_side s) const { return patches_.patch_side(s) + 1; }
+
+    const surface_patches& patches_;
+    detail::union_find sets_;
+};
+
+/// Neighbours about an edge look into the region between them.
+void join_about_edges(mesh_view mesh, const mesh_arrangement& cut, const surface_patches& patches,
+                      regions& joined) {
+    std::vector<std::optional<std::array<std::uint32_t, 2>>> broken(patches.junctions.size());
+    for_chunks(patches.junctions.size(), 1, [&](std::size_t, std::size_t, std::size_t c) {
+        const detail::junction_list& list = patches.junctions[c];
+        detail::radial_order radial(mesh, cut);
+        std::vector<face_side> order;
+        for (std::size_t e = 0; e < list.edges.size() && !broken[c]; ++e) {
+            const auto sides = list.sides_of(e);
+            order.assign(sides.begin(), sides.end());
+            if (!radial.sort(list.edges[e].points, order)) broken[c] = list.edges[e].points;
+            for (std::size_t i = 0; i < order.size(); ++i)
+                joined.join(order[i], detail::other_side(order[(i + 1) % order.size()]));
+        }
+    });
+    for (const auto& edge : broken)
+        if (edge)
+            throw std::logic_error(
+                "tf::find_cells: faces lie on each other at the edge between "
+                "points " +
+                std::to_string((*edge)[0]) + " and " + std::to_string((*edge)[1]));
+}
+
+/// The part of each patch: patches are linked by edges.
+numbered_sets find_parts(const surface_patches& patches) {
+    detail::union_find linked(patches.count());
+    for (const detail::junction_list& list : patches.junctions)
+        for (std::size_t e = 0; e < list.edges.size(); ++e) {
+            const auto sides = list.sides_of(e);
+            for (const face_side side : sides)
+                linked.join(patches.patch[detail::face_of(sides[0])],
+                            patches.patch[detail::face_of(side)]);
+        }
+    return detail::number_sets(linked);
+}
+
+/// The cells on both sides of each patch, and windings that spread from cell to cell.
+class winding_flood {
+  public:
+    winding_flood(const surface_patches& patches, const numbered_sets& cells, const labels& labels,
+                  std::size_t operands)
+        : patches_(patches),
+          cells_(cells),
+          labels_(labels),
+          operands_(operands),
+          winding_(cells.count() * operands),
+          seen_(cells.count()),
+          begin_(cells.count() + 1),
+          patches_at_(2 * std::size_t{patches.count()}) {
+        collect_neighbours();
+    }
+
+    /// [C][k] windings, 0 in cell 0.
+    /// \throws std::logic_error where two ways to a cell give two windings
+    [[nodiscard]] std::vector<std::int32_t> run() {
+        std::vector<std::uint32_t> open{0};
+        seen_[0] = 1;
+        while (!open.empty()) {
+            const std::uint32_t cell = open.back();
+            open.pop_back();
+            for (std::size_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
+                const std::uint32_t p = patches_at_[i];
+                const std::uint32_t next = front(p) == cell ? behind(p) : front(p);
+                if (seen_[next] != 0) continue;
+                seen_[next] = 1;
+                cross(p, cell, next);
+                open.push_back(next);
+            }
+        }
+        check();
+        return std::move(winding_);
+    }
+
+  private:
+    [[nodiscard]] std::uint32_t front(std::uint32_t p) const { return cells_[2 * p + 1]; }
+    [[nodiscard]] std::uint32_t behind(std::uint32_t p) const { return cells_[2 * p + 2]; }
+    [[nodiscard]] std::int32_t* row(std::uint32_t cell) {
+        return winding_.data() + cell * operands_;
+    }
+
+    void collect_neighbours() {
+        for (std::uint32_t p = 0; p < patches_.count(); ++p) {
+            ++begin_[front(p)];
+            ++begin_[behind(p)];
+        }
+        std::size_t total = 0;
+        for (std::size_t& begin : begin_) begin = total += begin;
+        for (std::uint32_t p = patches_.count(); p-- > 0;) {
+            patches_at_[--begin_[front(p)]] = p;
+            patches_at_[--begin_[behind(p)]] = p;
+        }
+    }
+
+    /// The windings of `next`, which is beyond patch p from `cell`.
+    void cross(std::uint32_t p, std::uint32_t cell, std::uint32_t next) {
+        std::copy_n(row(cell), operands_, row(next));
+        const int way = front(p) == cell ? 1 : -1;
+        labels_.for_each(patches_.first_face(p), [&](std::uint32_t operand, int sign) {
+            row(next)[operand] += way * sign;
+        });
+    }
+
+    void check() {
+        std::vector<std::int32_t> beyond(operands_);
+        for (std::uint32_t p = 0; p < patches_.count(); ++p) {
+            std::copy_n(row(front(p)), operands_, beyond.data());
+            labels_.for_each(patches_.first_face(p),
+                             [&](std::uint32_t operand, int sign) { beyond[operand] += sign; });
+            if (seen_[front(p)] == 0 || seen_[behind(p)] == 0 ||
+                !std::equal(beyond.begin(), beyond.end(), row(behind(p))))
+                throw std::logic_error("tf::find_cells: windings contradict each other at face " +
+                                       std::to_string(patches_.first_face(p)));
+        }
+    }
+
+    const surface_patches& patches_;
+    const numbered_sets& cells_;
+    const labels& labels_;
+    std::size_t operands_;
+    std::vector<std::int32_t> winding_;
+    std::vector<unsigned char> seen_;
+    std::vector<std::size_t> begin_;         ///< where the patches of each cell begin
+    std::vector<std::uint32_t> patches_at_;  ///< cell by cell
+};
+
+}  // namespace
+
+arrangement_cells find_cells(mesh_view mesh, const mesh_arrangement& cut,
+                             std::span<const std::uint32_t> operand_of_face,
+                             std::size_t operand_count) {
+    check(mesh, cut, operand_of_face, operand_count);
+    surface_patches patches = detail::find_patches(cut, operand_of_face);
+    arrangement_cells result;
+    result.operands = operand_count;
+    if (patches.open_count > 0) {
+        result.open = std::move(patches.open);
+        result.open_count = patches.open_count;
+        return result;
+    }
+    const labels labels(cut, operand_of_face);
+    regions joined(patches);
+    for (std::uint32_t p = 0; p < patches.count(); ++p)
+        if (const std::uint32_t f = patches.first_face(p); labels.cancel(f))
+            joined.join(detail::front_of(f), detail::behind(f));
+    join_about_edges(mesh, cut, patches, joined);
+    for (const auto& [outer, beyond] : detail::place_parts(mesh, cut, patches, find_parts(patches)))
+        if (beyond)
+            joined.join(outer, *beyond);
+        else
+            joined.join_infinity(outer);
+
+    const numbered_sets cells = joined.number();
+    result.winding = winding_flood(patches, cells, labels, operand_count).run();
+    result.cell_of_side.resize(cut.faces.size());
+    constexpr std::size_t grain = std::size_t{1} << 16;
+    for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const std::size_t p = patches.patch[f];
+            result.cell_of_side[f] = {cells[2 * p + 1], cells[2 * p + 2]};
+        }
+    });
+    return result;
+}
+
+}  // namespace tf

@@ -1,0 +1,162 @@
+#include <libmesh/arrange/detail/patches.hpp>
+#include <libmesh/detail/stars.hpp>
+#include <libmesh/detail/union_find.hpp>
+#include <libtree/detail/buffer.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace tf::detail {
+namespace {
+
+constexpr std::size_t star_grain = std::size_t{1} << 12;  // points a chunk
+constexpr std::size_t face_grain = std::size_t{1} << 16;
+constexpr std::size_t ahead = 4;          // stars whose memory is under way
+constexpr std::size_t most_listed = 100;  // open edges
+
+constexpr auto several = std::numeric_limits<std::uint32_t>::max();
+
+/// [F'] the operand of the one input face that covers each face, or `several`.
+buffer<std::uint32_t> sole_operands(const mesh_arrangement& cut,
+                                    std::span<const std::uint32_t> operand_of_face) {
+    buffer<std::uint32_t> sole(cut.faces.size());
+    for_chunks(cut.faces.size(), face_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const auto covers = cut.covers_of(f);
+            sole[f] = covers.size() == 1 ? operand_of_face[covers[0].face] : several;
+        }
+    });
+    return sole;
+}
+
+/// What one chunk of points finds.
+struct chunk_edges {
+    junction_list junctions;
+    std::vector<open_arrangement_edge> open;
+    std::uint64_t open_count = 0;
+};
+
+/// Looks at one star after the other; every edge is read at its lower end.
+class edge_reader {
+  public:
+    edge_reader(const mesh_arrangement& cut, std::span<const std::uint32_t> operand_of_face,
+                const buffer<std::uint32_t>& sole, union_find& patches, chunk_edges& found)
+        : cut_(cut),
+          operand_of_face_(operand_of_face),
+          sole_(sole),
+          patches_(patches),
+          found_(found) {}
+
+    void prefetch(std::span<const std::uint32_t> star) const {
+        for (const std::uint32_t face : star.first(std::min<std::size_t>(star.size(), 16))) {
+            __builtin_prefetch(&cut_.faces[face]);
+            patches_.prefetch(face);
+        }
+    }
+
+    void read(std::uint32_t a, std::span<const std::uint32_t> star) {
+        collect_uses(a, star);
+        for (std::size_t begin = 0, end = 0; begin < uses_.size(); begin = end) {
+            const auto b = static_cast<std::uint32_t>(uses_[begin] >> 32);
+            sides_.clear();
+            for (; end < uses_.size() && uses_[end] >> 32 == b; ++end)
+                sides_.push_back(static_cast<face_side>(uses_[end]));
+            read_edge(a, b);
+        }
+    }
+
+  private:
+    /// The other end of an edge from `a` and the face's side at it, for edges to higher points.
+    void collect_uses(std::uint32_t a, std::span<const std::uint32_t> star) {
+        uses_.clear();
+        for (const std::uint32_t id : star) {
+            const face& f = cut_.faces[id];
+            const std::size_t i = f[0] == a ? 0 : f[1] == a ? 1 : 2;
+            const std::uint64_t next = f[(i + 1) % 3];
+            const std::uint64_t last = f[(i + 2) % 3];
+            if (next > a) uses_.push_back(next << 32 | front_of(id));
+            if (last > a) uses_.push_back(last << 32 | behind(id));
+        }
+        std::sort(uses_.begin(), uses_.end());
+    }
+
+    void read_edge(std::uint32_t a, std::uint32_t b) {
+        const bool plain = sides_.size() == 2 && is_behind(sides_[0]) != is_behind(sides_[1]);
+        if (plain) {
+            const std::uint32_t f = face_of(sides_[0]);
+            const std::uint32_t g = face_of(sides_[1]);
+            patches_.join(f, g);
+            if (sole_[f] == sole_[g] && sole_[f] != several) return;
+        } else {
+            found_.junctions.edges.push_back({{a, b}, found_.junctions.sides.size()});
+            found_.junctions.sides.insert(found_.junctions.sides.end(), sides_.begin(),
+                                          sides_.end());
+        }
+        find_open(a, b);
+    }
+
+    /// What covers the faces at the edge must run from a to b as often as from b to a, operand by
+    /// operand.
+    void find_open(std::uint32_t a, std::uint32_t b) {
+        runs_.clear();
+        for (const face_side side : sides_)
+            for (const auto& [face, opposite] : cut_.covers_of(face_of(side)))
+                runs_.emplace_back(operand_of_face_[face], face,
+                                   is_behind(side) != opposite ? -1 : 1);
+        std::sort(runs_.begin(), runs_.end());
+        for (std::size_t i = 0; i < runs_.size();) {
+            const auto [operand, lowest_face, _] = runs_[i];
+            std::int64_t net = 0;
+            for (; i < runs_.size() && std::get<0>(runs_[i]) == operand; ++i)
+                net += std::get<2>(runs_[i]);
+            if (net == 0) continue;
+            ++found_.open_count;
+            if (found_.open.size() < most_listed)
+                found_.open.push_back({operand, {a, b}, lowest_face});
+        }
+    }
+
+    const mesh_arrangement& cut_;
+    std::span<const std::uint32_t> operand_of_face_;
+    const buffer<std::uint32_t>& sole_;
+    union_find& patches_;
+    chunk_edges& found_;
+    std::vector<std::uint64_t> uses_;
+    std::vector<face_side> sides_;
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, int>> runs_;  ///< operand, face, direction
+};
+
+}  // namespace
+
+surface_patches find_patches(const mesh_arrangement& cut,
+                             std::span<const std::uint32_t> operand_of_face) {
+    const auto sole = sole_operands(cut, operand_of_face);
+    const stars stars(cut.given_points.size() + cut.constructed.size(), cut.faces);
+    union_find patches(cut.faces.size());
+    std::vector<chunk_edges> found(chunk_count(stars.size(), star_grain));
+    for_chunks(stars.size(), star_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        chunk_edges part;
+        edge_reader reader(cut, operand_of_face, sole, patches, part);
+        for (std::size_t v = begin; v < end; ++v) {
+            if (v + ahead < end) reader.prefetch(stars[v + ahead]);
+            reader.read(static_cast<std::uint32_t>(v), stars[v]);
+        }
+        found[c] = std::move(part);
+    });
+
+    surface_patches result;
+    result.patch = number_sets(patches);
+    for (chunk_edges& part : found) {
+        result.junctions.push_back(std::move(part.junctions));
+        result.open_count += part.open_count;
+        const std::size_t room = most_listed - result.open.size();
+        result.open.insert(
+            result.open.end(), part.open.begin(),
+            part.open.begin() + static_cast<std::ptrdiff_t>(std::min(room, part.open.size())));
+    }
+    return result;
+}
+
+}  // namespace tf::detail
