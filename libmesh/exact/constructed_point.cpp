@@ -1,9 +1,8 @@
 #include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/detail/constructed_exact.hpp>
 #include <libmesh/exact/detail/constructed_filter.hpp>
 #include <libmesh/exact/detail/constructed_polynomials.hpp>
-#include <libmesh/exact/detail/dyadic.hpp>
 #include <libmesh/exact/detail/exact_sign.hpp>
-#include <libmesh/exact/detail/lattice.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
 namespace tf {
 namespace {
@@ -19,8 +17,6 @@ namespace {
 using detail::ball;
 using detail::ball_of;
 using detail::count_factor;
-using detail::dyadic;
-using detail::lattice;
 using detail::sum;
 using detail::term;
 using detail::undecided;
@@ -34,10 +30,6 @@ void count(predicate_counters* counters, bool open) {
     if (!counters) return;
     ++counters->calls;
     counters->undecided += open;
-}
-
-void count_exact(predicate_counters* counters) {
-    if (counters) ++counters->by_width.back();
 }
 
 // ---- where a point is, nearly
@@ -150,107 +142,8 @@ ball planes_ball(const plane_points& p, const plane_points& q, const plane_point
                      ratio<polynomial>(way.over.z, way.under), size);
 }
 
-// ---- where it is, exactly
-
-using exact_vector = vector3<dyadic>;
-/// A point in homogeneous coordinates, in units of the lattice.
-using exact_place = detail::vector_over<dyadic>;
-
 /// Whether the point is its centre, by whatever it is defined.
 bool is_centre(const constructed_point& p) { return p.radius() == 0.0; }
-
-void add(lattice& grid, const point3& p) {
-    for (std::size_t axis = 0; axis < 3; ++axis) grid.add(detail::odd_part_of(p[axis]));
-}
-
-void add(lattice& grid, const constructed_point& p) {
-    constexpr std::array<std::size_t, 4> given = {0, 4, 5, 9};
-    if (is_centre(p)) return add(grid, p.centre());
-    for (std::size_t i = 0; i < given[static_cast<std::size_t>(p.kind())]; ++i)
-        add(grid, p.definition()[i]);
-}
-
-template <class... Things>
-lattice lattice_of(const Things&... things) {
-    lattice grid;
-    (add(grid, things), ...);
-    return grid;
-}
-
-dyadic number_on(const lattice& grid, double x) {
-    const detail::odd_part p = detail::odd_part_of(x);
-    return p.odd == 0 ? dyadic() : dyadic(p.odd, p.negative != 0, p.lowest - grid.lowest);
-}
-
-/// The first points of a definition.
-template <std::size_t Count>
-std::array<exact_vector, Count> exact_points(const lattice& grid, const constructed_point& p) {
-    std::array<vector3<double>, Count> given;
-    for (std::size_t i = 0; i < Count; ++i) given[i] = vector_of(p.definition()[i]);
-    return detail::transform(given, [&](double x) { return number_on(grid, x); });
-}
-
-exact_vector exact_on(const lattice& grid, const point3& p) {
-    return detail::transform(vector_of(p), [&](double x) { return number_on(grid, x); });
-}
-
-/// (a w + d t) / w.
-exact_place exact_sum(const exact_vector& a, const dyadic& w, const exact_vector& d,
-                      const dyadic& t) {
-    return {{a.x * w + d.x * t, a.y * w + d.y * t, a.z * w + d.z * t}, w};
-}
-
-exact_place exact_lines(const lattice& grid, const constructed_point& p) {
-    const auto [a, b, c, d] = exact_points<4>(grid, p);
-    const exact_vector along = b - a;
-    const exact_vector other = d - c;
-    // In a projection where they are not parallel.
-    const exact_vector under = cross(along, other);
-    const exact_vector over = cross(c - a, other);
-    if (sign_of(under.x) != 0) return exact_sum(a, under.x, along, over.x);
-    if (sign_of(under.y) != 0) return exact_sum(a, under.y, along, over.y);
-    return exact_sum(a, under.z, along, over.z);
-}
-
-exact_place exact_line_plane(const lattice& grid, const constructed_point& p) {
-    using polynomial = detail::line_plane_polynomial;
-    const auto given = exact_points<polynomial::points>(grid, p);
-    const auto differences = polynomial::differences(given);
-    const auto t = polynomial::value(differences);
-    return exact_sum(given[0], t.y, differences[0], t.x);
-}
-
-exact_place exact_planes(const lattice& grid, const constructed_point& p) {
-    using polynomial = detail::planes_polynomial;
-    const auto given = exact_points<polynomial::points>(grid, p);
-    const exact_place way = polynomial::value(polynomial::differences(given));
-    return exact_sum(given[0], way.under, way.over, dyadic(1, false, 0));
-}
-
-exact_place exactly(const lattice& grid, const constructed_point& p) {
-    if (is_centre(p)) return {exact_on(grid, p.centre()), dyadic(1, false, 0)};
-    switch (p.kind()) {
-        case constructed_point::origin::lines:
-            return exact_lines(grid, p);
-        case constructed_point::origin::line_plane:
-            return exact_line_plane(grid, p);
-        default:
-            return exact_planes(grid, p);
-    }
-}
-
-/// The coordinates, each rounded to the format.
-std::array<detail::rounded_quotient, 3> exact_rounding(const constructed_point& p,
-                                                       const detail::float_format& format) {
-    const lattice grid = lattice_of(p);
-    const exact_place at = exactly(grid, p);
-    if (sign_of(at.under) == 0)
-        throw std::invalid_argument("constructed_point: there is no single point in common");
-    const auto round = [&](const dyadic& x) {
-        return detail::quotient(x, at.under, grid.lowest - 1075, format);
-    };
-    return {round(at.over.x), round(at.over.y), round(at.over.z)};
-}
 
 /// The smallest ball about rounded coordinates, to a factor of two.
 ///
@@ -258,7 +151,7 @@ std::array<detail::rounded_quotient, 3> exact_rounding(const constructed_point& 
 /// that is normal. A denormal radius might be read as zero: 2^-1022 instead.
 ball exact_ball(const constructed_point& p) {
     ball result{};
-    const auto coordinates = exact_rounding(p, detail::double_format);
+    const auto coordinates = detail::rounded_exactly(p, detail::double_format);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double value = coordinates[axis].value;
         if (std::isinf(value)) {
@@ -270,24 +163,6 @@ ball exact_ball(const constructed_point& p) {
         result.centre[axis] = value;
     }
     return result;
-}
-
-/// Sign of a / a_under - b / b_under.
-int compare_fractions(const dyadic& a, const dyadic& a_under, const dyadic& b,
-                      const dyadic& b_under) {
-    return sign_of(a * b_under - b * a_under) * sign_of(a_under) * sign_of(b_under);
-}
-
-const dyadic& component(const exact_vector& v, int axis) {
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
-/// (p - o) times both denominators, without component `axis`, in cyclic order.
-detail::vector2<dyadic> exact_difference(int axis, const exact_place& p, const exact_place& o) {
-    const auto difference = [&](int i) {
-        return component(p.over, i) * o.under - component(o.over, i) * p.under;
-    };
-    return {difference((axis + 1) % 3), difference((axis + 2) % 3)};
 }
 
 // ---- bits
@@ -333,44 +208,6 @@ point3 turned(int axis, const point3& p) {
 }
 
 }  // namespace
-
-namespace detail {
-
-int compare_exact(int axis, const constructed_point& a, const constructed_point& b,
-                  predicate_counters* counters) {
-    count_exact(counters);
-    const lattice grid = lattice_of(a, b);
-    const exact_place p = exactly(grid, a);
-    const exact_place q = exactly(grid, b);
-    return compare_fractions(component(p.over, axis), p.under, component(q.over, axis), q.under);
-}
-
-int orient2d_exact(int axis, const constructed_point& a, const constructed_point& b,
-                   const constructed_point& c, predicate_counters* counters) {
-    // From a point of small numbers all differences are small.
-    if (!is_centre(a) && is_centre(b)) return orient2d_exact(axis, b, c, a, counters);
-    if (!is_centre(a) && is_centre(c)) return orient2d_exact(axis, c, a, b, counters);
-    count_exact(counters);
-    const lattice grid = lattice_of(a, b, c);
-    const exact_place o = exactly(grid, a);
-    const exact_place p = exactly(grid, b);
-    const exact_place q = exactly(grid, c);
-    const auto turn = cross(exact_difference(axis, p, o), exact_difference(axis, q, o));
-    return sign_of(turn) * sign_of(p.under) * sign_of(q.under);
-}
-
-int side_exact(const plane_points& p, const constructed_point& d, predicate_counters* counters) {
-    count_exact(counters);
-    const lattice grid = lattice_of(p.a, p.b, p.c, d);
-    const exact_vector a = exact_on(grid, p.a);
-    const exact_vector n = cross(exact_on(grid, p.b) - a, exact_on(grid, p.c) - a);
-    const exact_place at = exactly(grid, d);
-    const exact_vector way{at.over.x - a.x * at.under, at.over.y - a.y * at.under,
-                           at.over.z - a.z * at.under};
-    return sign_of(dot(n, way)) * sign_of(at.under);
-}
-
-}  // namespace detail
 
 constructed_point::constructed_point(origin kind, const std::array<point3, 9>& definition,
                                      const detail::ball& about)
@@ -420,15 +257,7 @@ bool equal(const constructed_point& a, const constructed_point& b, predicate_cou
                       detail::compare_filter(2, p, q) == undecided;
     count(counters, open);
     if (!open) return false;
-    count_exact(counters);
-    const lattice grid = lattice_of(a, b);
-    const exact_place at = exactly(grid, a);
-    const exact_place other = exactly(grid, b);
-    for (int axis = 0; axis < 3; ++axis)
-        if (compare_fractions(component(at.over, axis), at.under, component(other.over, axis),
-                              other.under) != 0)
-            return false;
-    return true;
+    return detail::equal_exact(a, b, counters);
 }
 
 int orient2d(int axis, const constructed_point& a, const constructed_point& b,
@@ -452,7 +281,7 @@ point3 rounded(const constructed_point& p) {
     // A radius above zero is never below half a unit in the last place of the largest coordinate.
     if (is_centre(p))
         return {without_negative_zero(c.x), without_negative_zero(c.y), without_negative_zero(c.z)};
-    const auto exact = exact_rounding(p, detail::double_format);
+    const auto exact = detail::rounded_exactly(p, detail::double_format);
     return {exact[0].value, exact[1].value, exact[2].value};
 }
 
@@ -461,7 +290,7 @@ point3 rounded_to_float(const constructed_point& p) {
     const auto y = certain_float(p.centre().y, p.radius());
     const auto z = certain_float(p.centre().z, p.radius());
     if (x && y && z) return {*x, *y, *z};
-    const auto exact = exact_rounding(p, detail::float_format_32);
+    const auto exact = detail::rounded_exactly(p, detail::float_format_32);
     return {exact[0].value, exact[1].value, exact[2].value};
 }
 

@@ -64,6 +64,16 @@ dyadic::dyadic(std::uint64_t magnitude, bool negative, int shift) : negative_(ne
     trim();
 }
 
+dyadic::dyadic(std::span<const std::uint64_t> magnitude, bool negative) : negative_(negative) {
+    std::size_t size = magnitude.size();
+    while (size > 0 && magnitude[size - 1] == 0) --size;
+    if (size == 0) return;
+    reserve(size);
+    size_ = size;
+    std::copy_n(magnitude.data(), size, limbs());
+    trim();
+}
+
 dyadic::dyadic(double x) {
     constexpr int unit = 1088;  // whole limbs, and above 1075
     const odd_part p = odd_part_of(x);

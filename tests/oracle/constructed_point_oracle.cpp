@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -221,6 +222,7 @@ struct tally {
 
 struct tallies {
     tally compare, equal, orient2d, side, normal_cross, ball, rounded;
+    long beyond_double = 0;
     tf::predicate_counters counters;
 };
 
@@ -270,13 +272,15 @@ void run(groups& from, tallies& result) {
     const std::vector<known_point> points = points_of(from, t);
     tf::predicate_counters* counters = &result.counters;
     for (const known_point& p : points) {
+        result.beyond_double += std::isinf(p.point.radius());
         result.ball.add(is_held(p) ? 0 : 1, 0);
         result.rounded.add(is_rounded(p) ? 0 : 1, 0);
     }
     for (int axis = 0; axis < 3; ++axis)
-        result.normal_cross.add(
-            tf::normal_cross(axis, t[0], t[1], counters),
-            sgn(outer(normal(t[0]), normal(t[1]))[static_cast<std::size_t>(axis)]));
+        for (std::size_t i = 0; i < t.size(); i += 2)
+            result.normal_cross.add(
+                tf::normal_cross(axis, t[i], t[i + 1], counters),
+                sgn(outer(normal(t[i]), normal(t[i + 1]))[static_cast<std::size_t>(axis)]));
     const std::size_t count = points.size();
     const auto any = [&]() -> const known_point& { return points[from.random().below(count)]; };
     const int axis = static_cast<int>(from.random().below(3));
@@ -328,14 +332,17 @@ TEST_CASE("constructed points are where GMP's rationals are, and so are all sign
         groups from(f, 300 + f);
         tallies t;
         while (t.side.calls < calls || t.normal_cross.calls < calls) run(from, t);
+        // calls / zeros (or equal, or right) / wrong
         std::printf("%-16s", std::string(name_of(f)).c_str());
         for (const tally* one :
              {&t.compare, &t.equal, &t.orient2d, &t.side, &t.normal_cross, &t.ball, &t.rounded}) {
             std::printf(" %ld/%ld/%ld", one->calls, one->zeros, one->wrong);
             CHECK(one->wrong == 0);
         }
-        std::printf(" open %.1f %%\n", 100.0 * static_cast<double>(t.counters.undecided) /
-                                           static_cast<double>(t.counters.calls));
+        std::printf(" open %.1f %%, %ld beyond double\n",
+                    100.0 * static_cast<double>(t.counters.undecided) /
+                        static_cast<double>(t.counters.calls),
+                    t.beyond_double);
     }
 }
 

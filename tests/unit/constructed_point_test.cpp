@@ -388,7 +388,7 @@ TEST_CASE("constructed from given points that are known, signs are those of give
     }
 }
 
-TEST_CASE("counters tell calls, undecided ones, and that numbers of any size decided") {
+TEST_CASE("counters tell calls, undecided ones, and the width that decided") {
     tf::predicate_counters counters;
     const auto points = thirds();
     CHECK(tf::orient2d(2, points[0], point3{1, 0, 0}, point3{1, 1, 0}, &counters) == 1);
@@ -403,7 +403,7 @@ TEST_CASE("counters tell calls, undecided ones, and that numbers of any size dec
     CHECK(tf::equal(points[0], points[1], &counters));
     CHECK(counters.calls == 8);
     CHECK(counters.undecided == 4);
-    CHECK(counters.by_width.back() == 4);
+    CHECK(counters.by_width[1] == 4);
     // Given points are decided as given points are.
     CHECK(tf::orient2d(2, point3{}, point3{1, 3, 0}, point3{2, 6, 0}, &counters) == 0);
     CHECK(tf::side(diagonal, point3{1, 1, 1}, &counters) == 1);
@@ -411,7 +411,13 @@ TEST_CASE("counters tell calls, undecided ones, and that numbers of any size dec
     CHECK(tf::equal(point3{0.0, 1, 1}, point3{-0.0, 1, 1}, &counters));
     CHECK(tf::normal_cross(0, at_x(0), diagonal, &counters) == 0);
     CHECK(counters.calls == 13);
-    CHECK(counters.by_width.back() == 4);
+    CHECK(counters.by_width[1] == 4);
+    // As wide as the coordinates that a call is about.
+    CHECK(tf::orient2d(2, points[0], point3{}, point3{0x1p80, 0x1p80, 0}, &counters) == 0);
+    CHECK(counters.by_width[2] == 1);
+    CHECK(tf::orient2d(2, points[0], point3{}, point3{0x1p130, 0x1p130, 0}, &counters) == 0);
+    CHECK(counters.by_width.back() == 1);
+    CHECK(counters.calls == 15);
 }
 
 TEST_CASE("no rounding mode changes a sign or a rounded coordinate") {

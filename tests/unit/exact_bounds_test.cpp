@@ -2,6 +2,7 @@
 /// The constants that the filter and the widths rest on, recomputed from the polynomials.
 
 #include <libmesh/exact/detail/constructed_polynomials.hpp>
+#include <libmesh/exact/detail/exact_place.hpp>
 #include <libmesh/exact/detail/exact_sign.hpp>
 #include <libmesh/exact/detail/filter.hpp>
 #include <libmesh/exact/detail/ray_polynomials.hpp>
@@ -54,7 +55,7 @@ int factors_of(const detail::vector3<rounding_count>& v) {
 int factors_of(const detail::vector2<rounding_count>& v) {
     return std::max(v.x.factors, v.y.factors);
 }
-int factors_of(const detail::vector_over<rounding_count>& v) {
+int factors_of(const detail::place<rounding_count, rounding_count>& v) {
     return std::max(factors_of(v.over), v.under.factors);
 }
 int operations_of(operation_count c) { return c.operations; }
@@ -64,7 +65,7 @@ int operations_of(const detail::vector3<operation_count>& v) {
 int operations_of(const detail::vector2<operation_count>& v) {
     return std::max(v.x.operations, v.y.operations);
 }
-int operations_of(const detail::vector_over<operation_count>& v) {
+int operations_of(const detail::place<operation_count, operation_count>& v) {
     return std::max(operations_of(v.over), v.under.operations);
 }
 
@@ -114,6 +115,62 @@ TEST_CASE("the guards keep what underflow loses below the slack, and products fi
     check.operator()<7>();
     // 2^400 of further factors, 2^-1020 lost an operation, 2^7 operations, coefficients below 2^6
     CHECK(400 - 1020 + 7 + 6 < std::log2(detail::least_permanent) - 52 - 1);
+}
+
+/// Bounds a value of some degree in coordinates of m bits: its magnitude is below
+/// 2^(degree m + sums). Where it says so, it is kept in `degree` times the limbs of a coordinate.
+struct bit_count {
+    int degree;
+    int sums;
+};
+/// What a value of `degree` limbs of 3 bits to spare must hold.
+bit_count kept(bit_count a) {
+    CHECK(a.sums < 3 * a.degree);
+    return a;
+}
+bit_count operator*(bit_count a, bit_count b) {
+    return kept({a.degree + b.degree, a.sums + b.sums});
+}
+bit_count operator+(bit_count a, bit_count b) {
+    CHECK(a.degree == b.degree);
+    return kept({a.degree, std::max(a.sums, b.sums) + 1});
+}
+bit_count operator-(bit_count a, bit_count b) { return a + b; }
+int sign_of(bit_count) { return 1; }
+
+}  // namespace
+
+template <>
+struct tf::detail::one_of<bit_count> {
+    static bit_count value() { return {0, 1}; }
+};
+
+namespace {
+
+TEST_CASE("no value of a constructed point outgrows the limbs of its degree") {
+    using tf::constructed_point;
+    using place = detail::places_of<bit_count>::large;
+    using origin = constructed_point::origin;
+    const bit_count coordinate{1, 0};
+    std::array<detail::vector3<bit_count>, 9> points;
+    points.fill({coordinate, coordinate, coordinate});
+    const auto at = [&](origin kind) { return detail::place_of<place>(kind, points.data()); };
+    const std::array places{at(origin::given), at(origin::lines), at(origin::line_plane),
+                            at(origin::planes)};
+    for (const place& p : places) {
+        CHECK(p.over.x.degree == p.under.degree + 1);
+        CHECK(detail::side_of_place(points.data(), p) == 1);
+        for (const place& q : places) {
+            CHECK(detail::compare_places(0, p, q) == 1);
+            for (const place& r : places) CHECK(detail::orient2d_of_places(0, p, q, r) == 1);
+        }
+    }
+    using small = detail::places_of<detail::integer<2>>::small;
+    using large = detail::places_of<detail::integer<2>>::large;
+    CHECK(places[2].over.x.degree * 2 == sizeof(small{}.over.x) / 8);
+    CHECK(places[3].over.x.degree * 2 == sizeof(large{}.over.x) / 8);
+    CHECK(places[2].under.degree * 2 == sizeof(small{}.under) / 8);
+    CHECK(places[3].under.degree * 2 == sizeof(large{}.under) / 8);
 }
 
 /// A small whole number that remembers nothing.

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Stage 1 of the predicates of constructed points, to be inlined, and their exact stage by itself.
+/// Stage 1 of the predicates of constructed points, to be inlined.
 ///
 /// What is added here to filter.hpp, whose u = 2^-52 and guards are meant below: the centre of a
 /// ball is given, the point is off it by at most the radius r in each coordinate. Products of what
@@ -86,18 +86,5 @@ inline constexpr double count_factor = 1.0 + 16 * 0x1p-52;
         return (det.value > 0.0) - (det.value < 0.0);
     return undecided;
 }
-
-// The exact stages count the width it took; calls and undecided ones are counted by who ran the
-// filter.
-
-[[nodiscard]] TREEFORM_API int compare_exact(int axis, const constructed_point& a,
-                                             const constructed_point& b,
-                                             predicate_counters* counters);
-[[nodiscard]] TREEFORM_API int orient2d_exact(int axis, const constructed_point& a,
-                                              const constructed_point& b,
-                                              const constructed_point& c,
-                                              predicate_counters* counters);
-[[nodiscard]] TREEFORM_API int side_exact(const plane_points& p, const constructed_point& d,
-                                          predicate_counters* counters);
 
 }  // namespace tf::detail

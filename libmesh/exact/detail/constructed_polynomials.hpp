@@ -49,10 +49,10 @@ struct line_plane_polynomial {
 };
 
 /// A vector over a common denominator.
-template <class Number>
-struct vector_over {
-    vector3<Number> over;
-    Number under;
+template <class Over, class Under>
+struct place {
+    vector3<Over> over;
+    Under under;
 };
 
 /// What leads from a to the point that the planes (a, b, c), (d, e, f) and (g, h, i) have in
@@ -79,8 +79,8 @@ struct planes_polynomial {
         const auto q = dot(k, d[7]);
         const auto kn = cross(k, n);
         const auto nm = cross(n, m);
-        return vector_over<decltype(p * kn.x + q * nm.x)>{
-            {p * kn.x + q * nm.x, p * kn.y + q * nm.y, p * kn.z + q * nm.z}, dot(n, cross(m, k))};
+        return place<decltype(p * kn.x + q * nm.x), decltype(dot(cross(m, k), n))>{
+            {p * kn.x + q * nm.x, p * kn.y + q * nm.y, p * kn.z + q * nm.z}, dot(cross(m, k), n)};
     }
 };
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 namespace tf::detail {
 
@@ -19,6 +20,8 @@ class TREEFORM_API dyadic {
     dyadic() = default;
     /// `magnitude` 2^shift, or its negative.
     dyadic(std::uint64_t magnitude, bool negative, int shift);
+    /// The whole number of these limbs, lowest first, or its negative.
+    dyadic(std::span<const std::uint64_t> magnitude, bool negative);
     /// The value of a finite double, denormals included. Bits only.
     explicit dyadic(double x);
 

@@ -104,6 +104,9 @@ class word_scale {
         return {value};
     }
 
+    /// A word counts 2^unit().
+    [[nodiscard]] int unit() const { return field_ - 1023 - bits + 1; }
+
   private:
     static double power(int biased) {
         return std::bit_cast<double>(static_cast<std::uint64_t>(biased) << 52);
