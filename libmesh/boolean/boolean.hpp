@@ -1,0 +1,120 @@
+#pragma once
+/// \file
+/// Set operations on solids bounded by triangle meshes.
+
+#include <libmesh/boolean/expression.hpp>
+#include <libmesh/mesh.hpp>
+#include <libtree/export.hpp>
+#include <libtree/progress.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace tf {
+
+/// What of an operand is solid: the points its surface winds around how often?
+enum class inside_rule : std::uint8_t {
+    nonzero,  ///< not 0 times
+    odd,      ///< an odd number of times
+    positive  ///< once or more
+};
+
+/// A corner or face of the input: `index` counts within operand `operand`.
+struct operand_element {
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t operand = none;
+    std::uint32_t index = none;
+    friend bool operator==(const operand_element&, const operand_element&) = default;
+};
+
+/// A place where an operand's surface ends.
+struct open_operand_edge {
+    operand_element face{};        ///< at the edge
+    std::array<point3, 2> ends{};  ///< of the open part of the edge; rounded where it is cut
+};
+
+struct boolean_options {
+    inside_rule inside = inside_rule::nonzero;
+    /// The coordinates written: rounded to float (then widened), or to double.
+    bool to_float = false;
+    /// Steps of mending what rounding has broken before it is reported; see `round_surface`.
+    int rounding_steps = 4;
+    progress_callback progress{};
+};
+
+/// A solid's surface in rounded coordinates, and what is certain about it.
+struct solid_result {
+    /// Faces counter-clockwise from outside, in the order of the operands' faces they lie in;
+    /// points of operands in their order, then those that were cut.
+    mesh surface;
+    std::vector<operand_element> source_face;   ///< [F] the lowest face that each lies in
+    std::vector<operand_element> source_point;  ///< [V] the lowest point that each is, or none
+    double max_move = 0.0;  ///< bound of how far rounding moved a point, in each coordinate
+    /// Checked on the coordinates above: two faces have a common corner, a common edge or nothing
+    /// in common, no face is degenerate, every edge runs as often one way as the other.
+    bool certified = false;
+    /// Where it is not: pairs of faces, at most 100; twice the same face where it is degenerate.
+    std::vector<std::array<std::uint32_t, 2>> meeting_faces{};
+    std::uint64_t meeting_count = 0;  ///< of all such pairs
+    int rounding_steps = 0;           ///< of mending that were taken
+    /// Operands that bound no solid: the first open edges, at most 100. Then the rest is empty.
+    std::vector<open_operand_edge> open{};
+    std::uint64_t open_count = 0;
+    std::uint64_t pairs = 0;       ///< of input faces that meet beyond their shared corners
+    std::uint64_t cut_faces = 0;   ///< input faces that were cut or covered by others
+    std::uint64_t degenerate = 0;  ///< input faces without an area, which bound nothing
+    std::uint64_t cells = 0;       ///< parts of space that the operands' surfaces separate
+    bool cancelled = false;
+};
+
+/// The solid that `expression` makes of the operands, in one arrangement of all of them.
+///
+/// The surface is decided exactly on the coordinates as given; only then its constructed points are
+/// rounded, and the rounded surface is checked. Where rounding makes faces meet, it is cut along
+/// itself again, and points go to a coarser lattice, step by step (`round_surface`). Given points
+/// stay bit for bit unless floats are asked for or a second step is needed.
+///
+/// Operands may overlap themselves, touch, be nested, be equal, consist of parts, be inside out or
+/// empty; their corners with equal coordinates are one. Each has to bound a solid: along every
+/// edge, after cutting, its faces run as often one way as the other. Where parts of the result
+/// touch in an edge or a point, they share it; an edge then has four faces or more.
+///
+/// \throws std::invalid_argument when the expression has another number of operands, or naming a
+///         face with a corner that is no point, or a point with a coordinate that is not finite or
+///         beyond 2^1000, numbered through all operands
+/// \cost   as `arrange_faces`, `find_cells` and `round_surface`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API solid_result boolean(std::span<const mesh_view> operands,
+                                                const boolean_expression& expression,
+                                                const boolean_options& options = {});
+
+/// All faces of the operands, cut along each other and along themselves, every piece once: two of
+/// them have a common corner, a common edge or nothing in common. Operands need not bound solids;
+/// `certified` says nothing of edges, and `open` stays empty. Where faces of several operands lie
+/// on each other, one piece stands for all; its source is the lowest of them.
+///
+/// \throws std::invalid_argument as `boolean`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API solid_result split(std::span<const mesh_view> operands,
+                                              const boolean_options& options = {});
+
+/// Whether a mesh bounds a solid, as an operand of `boolean` has to.
+struct solid_check {
+    std::vector<open_operand_edge>
+        open{};  ///< where it does not: the first open edges, at most 100
+    std::uint64_t open_count = 0;
+    bool cancelled = false;
+};
+
+/// Looks for edges at which the surface ends. The mesh is cut along itself only when its edges as
+/// they are leave it open: then its faces may still fit together piece by piece.
+///
+/// \throws std::invalid_argument as `boolean`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API solid_check check_solid(mesh_view mesh,
+                                                   const progress_callback& progress = {});
+
+}  // namespace tf

@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// Several meshes as one, and the way back.
+
+#include <libmesh/boolean/boolean.hpp>
+#include <libmesh/mesh.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tf::detail {
+
+struct joined_operands {
+    mesh all;                                    ///< no two points of it are equal
+    std::vector<std::uint32_t> operand_of_face;  ///< [F] of `all`
+    std::vector<std::uint32_t> first_face;       ///< [k + 1] of each operand
+    std::vector<std::uint32_t> first_point;      ///< [k + 1] of each, before equal ones were one
+    std::vector<std::uint32_t> number_of_point;  ///< [V] of `all`, before: the lowest
+
+    [[nodiscard]] operand_element face_source(std::uint32_t face) const;
+    [[nodiscard]] operand_element point_source(std::uint32_t point) const;
+};
+
+/// \throws std::invalid_argument naming `function` and a face with a corner that is no point, or
+///         for more than 2^32 - 1 points or faces
+[[nodiscard]] joined_operands join_operands(const char* function,
+                                            std::span<const mesh_view> operands);
+
+}  // namespace tf::detail

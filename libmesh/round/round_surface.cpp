@@ -1,0 +1,305 @@
+#include <libmesh/arrange/cells.hpp>
+#include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/detail/stars.hpp>
+#include <libmesh/intersect/point_location.hpp>
+#include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/round/detail/solid_faces.hpp>
+#include <libmesh/round/round_surface.hpp>
+#include <libmesh/validate.hpp>
+#include <libmesh/weld/equal_points.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace tf {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 12;
+constexpr std::size_t listed_pairs = 100;
+
+bool is_finite(const point3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+bool comes_first(const point3& p, const point3& q) {
+    return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+}
+
+point3 to_single(const point3& p) {
+    return {detail::nearest_float(p.x), detail::nearest_float(p.y), detail::nearest_float(p.z)};
+}
+
+double largest_difference(const point3& p, const point3& q) {
+    return std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.z - q.z)});
+}
+
+/// Half a unit in the last place of the largest coordinate: rounding to nearest moves none further.
+double half_unit(const point3& p) {
+    const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return (std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest) / 2;
+}
+
+double largest_coordinate(const std::vector<point3>& points) {
+    double largest = 0.0;
+    for (const point3& p : points)
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return largest;
+}
+
+/// Step k = 1, 2, ... uses this share, a power of two, of the largest coordinate.
+int bits_of_step(int step, bool to_float) {
+    return to_float ? std::max(26 - 2 * step, 12) : std::max(56 - 8 * step, 16);
+}
+
+/// Multiples of a power of two not below 2^-bits of the largest coordinate. All of them in that
+/// range have `bits` bits and are doubles (floats).
+class lattice {
+  public:
+    lattice(const std::vector<point3>& points, int bits) {
+        int exponent = 0;
+        std::frexp(largest_coordinate(points), &exponent);
+        step_ = std::max(std::ldexp(1.0, exponent - bits), std::numeric_limits<double>::min());
+    }
+    [[nodiscard]] point3 nearest(const point3& p) const {
+        return {nearest(p.x), nearest(p.y), nearest(p.z)};
+    }
+
+  private:
+    [[nodiscard]] double nearest(double x) const { return std::nearbyint(x / step_) * step_ + 0.0; }
+
+    double step_;
+};
+
+/// The surface, exact and as rounded so far. Of the exact one, points of the surface that was
+/// rounded before come first.
+class rounding {
+  public:
+    rounding(exact_surface exact, const round_options& options)
+        : options_(options), exact_(std::move(exact)), offending_(exact_.faces.size(), 0) {
+        const std::size_t given = exact_.given.size();
+        point_of_.resize(given + exact_.constructed.size());
+        std::iota(point_of_.begin(), point_of_.end(), 0U);
+        movable_.assign(point_of_.size(), 0);
+        std::fill(movable_.begin() + static_cast<std::ptrdiff_t>(given), movable_.end(), 1);
+        result_.face_of.resize(exact_.faces.size());
+        std::iota(result_.face_of.begin(), result_.face_of.end(), 0U);
+    }
+
+    rounded_surface run() {
+        while (settle()) {
+            result_.certified = check();
+            if (result_.certified || result_.cancelled || result_.steps >= options_.steps) break;
+            ++result_.steps;
+            if (!cut_again()) break;
+        }
+        result_.point_of = std::move(point_of_);
+        return std::move(result_);
+    }
+
+  private:
+    /// Each phase has half of the work that was left; nobody knows how many there will be.
+    progress_callback next_phase() {
+        if (!options_.progress) return {};
+        const double begin = done_;
+        const double share = (1.0 - done_) / 2.0;
+        done_ += share;
+        return [this, begin, share](double d) { return options_.progress(begin + share * d); };
+    }
+
+    [[nodiscard]] point3 rounded_point(std::uint32_t p) const {
+        const std::size_t given = exact_.given.size();
+        if (p < given) return options_.to_float ? to_single(exact_.given[p]) : exact_.given[p];
+        const constructed_point& made = exact_.constructed[p - given];
+        return options_.to_float ? rounded_to_float(made) : rounded(made);
+    }
+
+    /// The numbers of the points that faces use, ascending.
+    [[nodiscard]] std::vector<std::uint32_t> used_points() const {
+        std::vector<std::uint8_t> used(exact_.given.size() + exact_.constructed.size(), 0);
+        for (const face& f : exact_.faces)
+            for (const std::uint32_t corner : f) used[corner] = 1;
+        std::vector<std::uint32_t> points;
+        for (std::uint32_t p = 0; p < used.size(); ++p)
+            if (used[p] != 0) points.push_back(p);
+        return points;
+    }
+
+    /// The exact surface becomes the rounded one; false when a coordinate is too large for it.
+    bool settle() {
+        const std::vector<std::uint32_t> points = used_points();
+        std::vector<point3> at(points.size());
+        std::vector<double> moves(chunk_count(points.size(), grain), 0.0);
+        for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            for (std::size_t i = begin; i < end; ++i) {
+                at[i] = rounded_point(points[i]);
+                moves[c] = std::max(moves[c], move_of(points[i], at[i]));
+            }
+        });
+        if (!moves.empty()) result_.max_move += *std::max_element(moves.begin(), moves.end());
+        const bool finite = std::all_of(at.begin(), at.end(), is_finite);
+        if (finite && result_.steps > 0) snap(points, at);
+        join(points, at);
+        return finite;
+    }
+
+    /// Puts points of offending faces, and what shares their lattice point, onto the lattice.
+    void snap(const std::vector<std::uint32_t>& points, std::vector<point3>& at) {
+        const lattice to(at, bits_of_step(result_.steps, options_.to_float));
+        const auto snapped = [&](std::size_t i) {
+            const point3 p = to.nearest(at[i]);
+            return options_.to_float ? to_single(p) : p;
+        };
+        const auto may_move = [&](std::size_t i) {
+            return result_.steps > 1 || movable_[points[i]] != 0;
+        };
+        std::vector<std::uint8_t> loose(point_of_.size(), 0);
+        for (std::size_t f = 0; f < exact_.faces.size(); ++f)
+            if (offending_[f] != 0)
+                for (const std::uint32_t corner : exact_.faces[f]) loose[corner] = 1;
+        std::vector<point3> targets;
+        for (std::size_t i = 0; i < at.size(); ++i)
+            if (loose[points[i]] != 0 && may_move(i)) targets.push_back(snapped(i));
+        std::sort(targets.begin(), targets.end(), comes_first);
+        double largest = 0.0;
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            if (!may_move(i)) continue;
+            const point3 target = snapped(i);
+            if (!std::binary_search(targets.begin(), targets.end(), target, comes_first)) continue;
+            largest = std::max(largest, largest_difference(at[i], target));
+            at[i] = target;
+        }
+        result_.max_move += largest;
+    }
+
+    /// Bound of how far rounding has moved a point, in each coordinate.
+    [[nodiscard]] double move_of(std::uint32_t p, const point3& to) const {
+        const std::size_t given = exact_.given.size();
+        if (p < given) return largest_difference(exact_.given[p], to);
+        const constructed_point& made = exact_.constructed[p - given];
+        const double most = largest_difference(made.centre(), to) + made.radius();
+        if (!(most < std::numeric_limits<double>::infinity()) || equal(made, to))
+            return most < std::numeric_limits<double>::infinity() ? 0.0 : most;
+        return options_.to_float ? most : std::min(most, half_unit(to));
+    }
+
+    /// Equal points become one, under the number of the lowest of them; faces that repeat a corner
+    /// then go: what is left of them runs back and forth.
+    void join(const std::vector<std::uint32_t>& points, const std::vector<point3>& at) {
+        const equal_points equal = find_equal_points(at);
+        const std::size_t count = equal.first_of_new.size();
+        mesh& now = result_.surface;
+        now.points.resize(count);
+        std::vector<std::uint32_t> point_of(count);
+        std::vector<std::uint8_t> movable(count);
+        for (std::size_t p = 0; p < count; ++p) {
+            const std::uint32_t first = equal.first_of_new[p];
+            now.points[p] = at[first];
+            point_of[p] = point_of_[points[first]];
+            movable[p] = movable_[points[first]];
+        }
+        std::vector<std::uint32_t> new_of_old(point_of_.size(), 0);
+        for (std::size_t i = 0; i < points.size(); ++i) new_of_old[points[i]] = equal.new_of_old[i];
+        now.faces.clear();
+        std::vector<std::uint32_t> face_of;
+        for (std::size_t f = 0; f < exact_.faces.size(); ++f) {
+            const auto [a, b, c] = exact_.faces[f];
+            const face joined{new_of_old[a], new_of_old[b], new_of_old[c]};
+            if (!detail::has_three_corners(joined)) continue;
+            now.faces.push_back(joined);
+            face_of.push_back(result_.face_of[f]);
+        }
+        point_of_ = std::move(point_of);
+        movable_ = std::move(movable);
+        result_.face_of = std::move(face_of);
+    }
+
+    /// Whether the rounded surface is as promised; else which faces are not.
+    bool check() {
+        const mesh& now = result_.surface;
+        result_.meeting.clear();
+        result_.meeting_count = 0;
+        offending_.assign(now.faces.size(), 0);
+        const auto found = self_intersections(now, {.progress = next_phase()});
+        if (found.cancelled) {
+            result_.cancelled = true;
+            return false;
+        }
+        for (const std::uint32_t f : find_defects(now).degenerate_faces) complain(f, f);
+        for (const face_pair& pair : found.pairs) complain(pair.a, pair.b);
+        if (result_.meeting_count > 0) return false;
+        return !options_.solid || !find_open_edge(now);
+    }
+
+    void complain(std::uint32_t f, std::uint32_t g) {
+        offending_[f] = offending_[g] = 1;
+        ++result_.meeting_count;
+        if (result_.meeting.size() < listed_pairs) result_.meeting.push_back({f, g});
+    }
+
+    /// The rounded surface, cut along itself, becomes the exact one; false when that fails.
+    bool cut_again() {
+        const mesh& now = result_.surface;
+        arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
+        result_.cancelled = arranged.cancelled;
+        if (arranged.cancelled) return false;
+        mesh_arrangement& cut = arranged.cut;
+        std::vector<std::uint32_t> face_of_cut(cut.faces.size());
+        if (options_.solid) {
+            const std::vector<std::uint32_t> same_operand(now.faces.size(), 0);
+            const arrangement_cells cells = find_cells(now, cut, same_operand, 1);
+            if (!cells.open.empty()) return false;
+            // Where the surface passes itself, it winds twice around what was outside between two
+            // of its sheets, and -1 times around what was inside.
+            std::vector<std::uint8_t> inside(cells.winding.size());
+            for (std::size_t c = 0; c < inside.size(); ++c) inside[c] = cells.winding[c] > 0;
+            detail::solid_faces kept = detail::faces_around(cut, cells, inside);
+            exact_.faces = std::move(kept.faces);
+            face_of_cut = std::move(kept.face_of);
+        } else {
+            std::iota(face_of_cut.begin(), face_of_cut.end(), 0U);
+            exact_.faces = std::move(cut.faces);
+        }
+        take_sources(cut, face_of_cut);
+        exact_.given = std::move(cut.given_points);
+        exact_.constructed = std::move(cut.constructed);
+        point_of_.resize(exact_.given.size() + exact_.constructed.size(), rounded_surface::none);
+        movable_.resize(point_of_.size(), 1);
+        return true;
+    }
+
+    void take_sources(const mesh_arrangement& cut, const std::vector<std::uint32_t>& face_of_cut) {
+        std::vector<std::uint8_t> offending(face_of_cut.size(), 0);
+        std::vector<std::uint32_t> face_of(face_of_cut.size());
+        for (std::size_t f = 0; f < face_of.size(); ++f) {
+            const auto covers = cut.covers_of(face_of_cut[f]);
+            face_of[f] = result_.face_of[covers.front().face];
+            for (const covering_face& cover : covers)
+                if (offending_[cover.face] != 0) offending[f] = 1;
+        }
+        offending_ = std::move(offending);
+        result_.face_of = std::move(face_of);
+    }
+
+    const round_options& options_;
+    exact_surface exact_;
+    std::vector<std::uint32_t> point_of_;  ///< by point, of the original surface
+    std::vector<std::uint8_t> movable_;    ///< by point: it was constructed
+    std::vector<std::uint8_t> offending_;  ///< by face
+    double done_ = 0.0;
+    rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between
+};
+
+}  // namespace
+
+rounded_surface round_surface(exact_surface exact, const round_options& options) {
+    return rounding(std::move(exact), options).run();
+}
+
+}  // namespace tf

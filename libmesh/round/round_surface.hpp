@@ -1,0 +1,81 @@
+#pragma once
+/// \file
+/// From points that are known exactly to coordinates that can be written, with proof that nothing
+/// broke on the way.
+
+#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/mesh.hpp>
+#include <libtree/export.hpp>
+#include <libtree/progress.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace tf {
+
+/// Faces between exact points: corners below `given.size()` are given points, those from there on
+/// constructed ones.
+struct exact_surface {
+    std::vector<point3> given;
+    std::vector<constructed_point> constructed;
+    std::vector<face> faces;
+};
+
+struct round_options {
+    /// To the nearest float (then widened) rather than the nearest double.
+    bool to_float = false;
+    /// The faces bound a solid, which is behind them, and are to do so when rounded. Otherwise they
+    /// are a complex of which every piece stays.
+    bool solid = true;
+    /// Steps of mending before what rounding has broken is reported; see `round_surface`.
+    int steps = 4;
+    progress_callback progress{};
+};
+
+struct rounded_surface {
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    mesh surface;                         ///< points and faces in the order of the exact ones
+    std::vector<std::uint32_t> face_of;   ///< [F] exact face that each one is, or is cut from
+    std::vector<std::uint32_t> point_of;  ///< [V] exact point that each one is, or `none`: where
+                                          ///< rounded faces were cut
+    /// Bound of how far rounding and mending moved a point, in each coordinate.
+    double max_move = 0.0;
+    /// Checked on the coordinates above: two faces have a common corner, a common edge or nothing
+    /// in common, none is degenerate, and, of a solid, they run along every edge as often one way
+    /// as the other.
+    bool certified = false;
+    std::vector<std::array<std::uint32_t, 2>> meeting{};  ///< pairs of faces that break it, at
+                                                          ///< most 100; twice the same: degenerate
+    std::uint64_t meeting_count = 0;                      ///< of all such pairs
+    int steps = 0;                                        ///< of mending that were taken
+    bool cancelled = false;
+};
+
+/// `exact` in rounded coordinates, without the points that no face uses.
+///
+/// Every point is rounded once, to nearest; given points stay bit for bit unless floats are asked
+/// for. Then the surface is checked with the exact predicates. Where it is broken, it is mended,
+/// step by step: it is cut along itself (`arrange_faces`), of a solid what winds around nothing
+/// any more is left out, and the points of the faces that met, with points that are next to
+/// them, go to a lattice of 2^-48 of the size of the largest coordinate, then 2^-40, 2^-32 and
+/// 2^-24 (2^-24 to 2^-18 for floats). In the first step only constructed points are moved so.
+/// Points that rounding makes equal become one; faces that lose their area or cover each other in
+/// opposite directions vanish.
+///
+/// No number of steps is sure to suffice: `certified` tells. It is false, with nothing in
+/// `meeting`, when a coordinate is too large to be rounded.
+///
+/// \pre    faces have three different corners and, as exact ones, meet in common corners and edges
+///         only; of a solid, they run along every edge as often one way as the other
+/// \cost   as `self_intersections` for the check; as `arrange_faces` and `find_cells` for each
+///         step, if any
+/// \same   on any number of threads
+/// \source iterated snap rounding: Valque, Lazard, Arrighi and Loriot, as in CGAL 6.1; here what is
+///         inside decides what stays
+[[nodiscard]] TREEFORM_API rounded_surface round_surface(exact_surface exact,
+                                                         const round_options& options = {});
+
+}  // namespace tf
