@@ -1,38 +1,29 @@
 #pragma once
 /// \file
-/// The searches of libtree over a `dynamic_tree`: the same names, the same answers as over a tree
-/// that has just been built. What the functions take and promise is said where they are declared
-/// for `tree`; here stands what differs.
+/// The searches by a box or a check, and for pairs, over a `dynamic_tree`: the same names, the same
+/// answers as over a tree that has just been built. What the functions take and promise is said
+/// where they are declared for `tree`; here stands what differs. What is near is sought by
+/// dynamic_nearness.hpp, along rays by dynamic_ray.hpp.
 ///
 /// Primitives are ids of the dynamic tree. Where a search hands out in an order of its own, it
 /// goes through the trees one by one, each in its leaf order. No search may run during an update.
 
 #include <libtree/dynamic_tree.hpp>
-#include <libtree/nearness_batch.hpp>
-#include <libtree/nearness_pair.hpp>
-#include <libtree/ray.hpp>
 #include <libtree/search.hpp>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
-#include <limits>
-#include <optional>
-#include <ranges>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 namespace tf {
 
-// By a box or a check.
+// By a box or a check; with `search` come `search_any` and `search_all`.
 
 template <std::size_t D, tree_query<D> Query, class Apply>
 search_statistics search(const dynamic_tree<D>& trees, const Query& query, const Apply& apply) {
@@ -65,31 +56,6 @@ search_statistics search_broad(const dynamic_tree<D>& trees, const Query& query,
         });
     }
     return seen;
-}
-
-template <std::size_t D, tree_query<D> Query, class Accept>
-[[nodiscard]] bool search_any(const dynamic_tree<D>& trees, const Query& query,
-                              const Accept& accept) {
-    bool found = false;
-    search(trees, query, [&](std::uint32_t id) { return found = accept(id); });
-    return found;
-}
-
-template <std::size_t D, tree_query<D> Query, class Accept>
-[[nodiscard]] std::vector<std::uint32_t> search_all(const dynamic_tree<D>& trees,
-                                                    const Query& query, const Accept& accept) {
-    std::vector<std::uint32_t> found;
-    search(trees, query, [&](std::uint32_t id) {
-        if (accept(id)) found.push_back(id);
-    });
-    std::sort(found.begin(), found.end());
-    return found;
-}
-
-template <std::size_t D, tree_query<D> Query>
-[[nodiscard]] std::vector<std::uint32_t> search_all(const dynamic_tree<D>& trees,
-                                                    const Query& query) {
-    return search_all(trees, query, [](std::uint32_t) { return true; });
 }
 
 // Pairs.
@@ -277,227 +243,6 @@ template <class A, class B>
 requires detail::with_parts<A, B>
 [[nodiscard]] std::vector<id_pair> search_all(const A& a, const B& b) {
     return search_all(a, b, detail::every_pair);
-}
-
-// What is near.
-
-template <std::size_t D, nearness_query<D> Query, class Visit>
-requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
-void visit_near(const dynamic_tree<D>& trees, const Query& query, const Visit& visit,
-                const nearness_options& options = {}) {
-    // A query is refused even when there are no trees: here by one that is empty.
-    double bound = detail::squared_radius("tf::visit_near", options.radius);
-    const aabb<double, D> box = detail::box_of_query<D>(query);
-    detail::approach<D>(tree<D>{}, box, bound, {}, [&](std::uint32_t) { return bound; });
-    for (const tree<D>* one : trees.trees())
-        detail::approach<D>(*one, box, bound, options.strategy, [&](std::uint32_t id) {
-            if (id != detail::no_primitive) bound = visit(id);
-            return bound;
-        });
-}
-
-template <std::size_t D, nearness_query<D> Query, class DistanceOf>
-[[nodiscard]] auto nearest(const dynamic_tree<D>& trees, const Query& query,
-                           const DistanceOf& distance_of, const nearness_options& options = {}) {
-    using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
-    detail::nearest_one<answer> one(detail::squared_radius("tf::nearest", options.radius));
-    visit_near(
-        trees, query,
-        [&](std::uint32_t id) {
-            one.offer(id, distance_of);
-            return one.bound();
-        },
-        options);
-    return one.best;
-}
-
-template <std::size_t D, nearness_query<D> Query, class DistanceOf>
-[[nodiscard]] auto k_nearest(const dynamic_tree<D>& trees, const Query& query, std::size_t k,
-                             const DistanceOf& distance_of, const nearness_options& options = {}) {
-    using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
-    detail::nearest_k<neighbor<answer>> found(
-        std::min(k, trees.size()), detail::squared_radius("tf::k_nearest", options.radius));
-    visit_near(
-        trees, query,
-        [&](std::uint32_t id) {
-            found.offer({id, distance_of(id)});
-            return found.bound();
-        },
-        options);
-    return std::move(found.sorted());
-}
-
-template <std::size_t D, nearness_query<D> Query, class DistanceOf>
-[[nodiscard]] auto all_within(const dynamic_tree<D>& trees, const Query& query, double radius,
-                              const DistanceOf& distance_of,
-                              const nearness_strategy& strategy = {}) {
-    using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
-    const double bound = detail::squared_radius("tf::all_within", radius);
-    std::vector<neighbor<answer>> found;
-    visit_near(trees, query,
-               [&](std::uint32_t id) {
-                   neighbor<answer> one{id, distance_of(id)};
-                   if (one.squared_distance() <= bound) found.push_back(std::move(one));
-                   return bound;
-               },
-               {radius, strategy});
-    std::sort(found.begin(), found.end(),
-              [](const auto& a, const auto& b) { return nearer(a, b); });
-    return found;
-}
-
-template <std::size_t D, std::ranges::random_access_range Queries, class DistanceOf>
-[[nodiscard]] auto nearest_batch(const dynamic_tree<D>& trees, const Queries& queries,
-                                 const DistanceOf& distance_of,
-                                 const nearness_options& options = {}) {
-    using answer =
-        std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::size_t, std::uint32_t>>;
-    const std::vector<std::uint32_t> order = detail::order_of_queries<D>(queries);
-    std::vector<std::optional<neighbor<answer>>> found(order.size());
-    for_chunks(order.size(), detail::queries_per_chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t i = begin; i < end; ++i)
-                       found[order[i]] = nearest(
-                           trees, detail::element(queries, order[i]),
-                           [&](std::uint32_t id) { return distance_of(order[i], id); }, options);
-               });
-    return found;
-}
-
-template <std::size_t D, std::ranges::random_access_range Queries, class DistanceOf>
-[[nodiscard]] auto k_nearest_batch(const dynamic_tree<D>& trees, const Queries& queries,
-                                   std::size_t k, const DistanceOf& distance_of,
-                                   const nearness_options& options = {}) {
-    return detail::lists_of<D>(queries, [&](std::size_t query) {
-        return k_nearest(
-            trees, detail::element(queries, query), k,
-            [&](std::uint32_t id) { return distance_of(query, id); }, options);
-    });
-}
-
-template <std::size_t D, std::ranges::random_access_range Queries, class DistanceOf>
-[[nodiscard]] auto all_within_batch(const dynamic_tree<D>& trees, const Queries& queries,
-                                    double radius, const DistanceOf& distance_of) {
-    return detail::lists_of<D>(queries, [&](std::size_t query) {
-        return all_within(trees, detail::element(queries, query), radius,
-                          [&](std::uint32_t id) { return distance_of(query, id); });
-    });
-}
-
-namespace detail {
-
-/// What was said about a pair of primitives; a pair with an empty slot is at no distance.
-template <class Answer>
-struct said_of_pair {
-    double squared_distance = std::numeric_limits<double>::quiet_NaN();
-    std::optional<Answer> answer{};
-};
-
-}  // namespace detail
-
-template <class A, class B, class DistanceOf>
-requires detail::with_parts<A, B>
-[[nodiscard]] auto k_nearest_pairs(const A& a, const B& b, std::size_t k,
-                                   const DistanceOf& distance_of,
-                                   double radius = std::numeric_limits<double>::infinity()) {
-    using answer =
-        std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t, std::uint32_t>>;
-    constexpr std::size_t D = A::dimensions;
-    detail::nearest_k<near_pair<answer>> found(
-        k, detail::squared_radius("tf::k_nearest_pairs", radius));
-    const auto of_present = [&](std::uint32_t x, std::uint32_t y) {
-        detail::said_of_pair<answer> said;
-        if (x == detail::no_primitive || y == detail::no_primitive) return said;
-        said.answer = distance_of(x, y);
-        said.squared_distance = squared_distance_of(*said.answer);
-        return said;
-    };
-    const tree_parts<D> first(a), second(b);
-    for (const transformed<D>& x : first.parts())
-        for (const transformed<D>& y : second.parts()) {
-            if (found.done()) break;
-            const double enough = std::sqrt(found.bound()) * (1.0 + 0x1p-50) + 1e-300;
-            for (auto& one : k_nearest_pairs(x, y, k, of_present, std::min(radius, enough)))
-                found.offer({one.a, one.b, std::move(*one.answer.answer)});
-        }
-    return std::move(found.sorted());
-}
-
-template <class A, class B, class DistanceOf>
-requires detail::with_parts<A, B>
-[[nodiscard]] auto nearest_pair(const A& a, const B& b, const DistanceOf& distance_of,
-                                double radius = std::numeric_limits<double>::infinity()) {
-    auto pairs = k_nearest_pairs(a, b, 1, distance_of, radius);
-    return pairs.empty() ? std::nullopt : std::optional(std::move(pairs[0]));
-}
-
-// Rays.
-
-namespace detail {
-
-/// Throws as every search along `ray` does, also where there are no trees to search.
-template <std::size_t D>
-void refuse_unsound(const ray<double, D>& ray) {
-    trace<D>(tree<D>{}, ray, [&](std::uint32_t) { return ray.t_max; });
-}
-
-}  // namespace detail
-
-template <std::floating_point T, std::size_t D, class Visit>
-requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
-void visit_along(const dynamic_tree<D>& trees, const ray<T, D>& ray, const Visit& visit) {
-    auto rest = detail::in_double(ray);
-    detail::refuse_unsound(rest);
-    for (const tree<D>* one : trees.trees()) {
-        if (rest.t_max == -std::numeric_limits<double>::infinity()) break;
-        detail::trace<D>(*one, rest, [&](std::uint32_t id) {
-            if (id != detail::no_primitive) rest.t_max = visit(id);
-            return rest.t_max;
-        });
-    }
-}
-
-template <std::floating_point T, std::size_t D, class HitOf>
-[[nodiscard]] auto first_hit(const dynamic_tree<D>& trees, const ray<T, D>& ray,
-                             const HitOf& hit_of) {
-    std::optional<ray_hit<detail::hit_type<HitOf>>> best;
-    auto rest = detail::in_double(ray);
-    detail::refuse_unsound(rest);
-    for (const tree<D>* one : trees.trees()) {
-        auto hit = first_hit(*one, rest, hit_of);
-        if (!hit) continue;
-        const double t = detail::parameter_of(hit->hit);
-        if (best && t == rest.t_max && best->id < hit->id) continue;
-        rest.t_max = t;
-        best = std::move(hit);
-    }
-    return best;
-}
-
-template <std::floating_point T, std::size_t D, class HitOf>
-[[nodiscard]] auto all_hits(const dynamic_tree<D>& trees, const ray<T, D>& ray,
-                            const HitOf& hit_of) {
-    detail::refuse_unsound(detail::in_double(ray));
-    std::vector<ray_hit<detail::hit_type<HitOf>>> hits;
-    for (const tree<D>* one : trees.trees()) {
-        auto more = all_hits(*one, ray, hit_of);
-        hits.insert(hits.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
-    }
-    std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) {
-        const double of_a = detail::parameter_of(a.hit);
-        const double of_b = detail::parameter_of(b.hit);
-        return of_a != of_b ? of_a < of_b : a.id < b.id;
-    });
-    return hits;
-}
-
-template <std::floating_point T, std::size_t D, class HitOf>
-[[nodiscard]] bool any_hit(const dynamic_tree<D>& trees, const ray<T, D>& ray,
-                           const HitOf& hit_of) {
-    detail::refuse_unsound(detail::in_double(ray));
-    for (const tree<D>* one : trees.trees())
-        if (any_hit(*one, ray, hit_of)) return true;
-    return false;
 }
 
 }  // namespace tf

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Boxes that come, go and move, searched as if a tree had just been built over them. The searches
-/// are in dynamic_search.hpp.
+/// are in dynamic_search.hpp, dynamic_nearness.hpp and dynamic_ray.hpp.
 
 #include <libtree/aabb.hpp>
 #include <libtree/detail/buffer.hpp>
@@ -27,7 +27,7 @@ struct update_statistics {
 };
 
 /// A tree over a set of primitives that changes: batches of them are inserted, removed and moved.
-/// Every search (dynamic_search.hpp) answers as on a tree built over what there is.
+/// Every search answers as on a tree built over what there is.
 ///
 /// A primitive is known by its id, which it keeps as long as it is there; ids of removed ones are
 /// given out again, the last removed first. The tree keeps a copy of the boxes.

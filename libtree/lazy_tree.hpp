@@ -165,7 +165,8 @@ class lazy_tree {
 template <std::ranges::random_access_range Range, class MakeBox>
 lazy_tree(const Range&, const MakeBox&) -> lazy_tree<detail::box_made<Range, MakeBox>::dimensions>;
 
-/// As the searches of a `tree` of the same name, block by block.
+/// As the searches of a `tree` of the same name, block by block; with this one come `search_any`
+/// and `search_all`.
 template <std::size_t D, tree_query<D> Query, class Apply>
 search_statistics search(const lazy_tree<D>& tree, const Query& query, const Apply& apply) {
     search_statistics below;
@@ -178,24 +179,6 @@ search_statistics search(const lazy_tree<D>& tree, const Query& query, const App
     });
     seen.candidates = 0;  // blocks
     return seen += below;
-}
-
-template <std::size_t D, tree_query<D> Query, class Accept>
-[[nodiscard]] bool search_any(const lazy_tree<D>& tree, const Query& query, const Accept& accept) {
-    bool found = false;
-    search(tree, query, [&](std::uint32_t id) { return found = accept(id); });
-    return found;
-}
-
-template <std::size_t D, tree_query<D> Query, class Accept>
-[[nodiscard]] std::vector<std::uint32_t> search_all(const lazy_tree<D>& tree, const Query& query,
-                                                    const Accept& accept) {
-    std::vector<std::uint32_t> found;
-    search(tree, query, [&](std::uint32_t id) {
-        if (accept(id)) found.push_back(id);
-    });
-    std::sort(found.begin(), found.end());
-    return found;
 }
 
 /// Whether `accept(a, b)` is true for some pair of elements whose boxes overlap; it is called from

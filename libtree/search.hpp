@@ -145,17 +145,19 @@ search_statistics search_broad(const tree<D>& tree, const Query& query, const Ap
     });
 }
 
-/// Whether `accept(id)` is true for a primitive that `query` may want; see `search`.
-template <std::size_t D, tree_query<D> Query, class Accept>
-[[nodiscard]] bool search_any(const tree<D>& tree, const Query& query, const Accept& accept) {
+/// Whether `accept(id)` is true for a primitive that `query` may want. Of any tree that there is a
+/// `search` of one query for: a `tree`, a `lazy_tree`, a `dynamic_tree`.
+template <class Tree, tree_query<Tree::dimensions> Query, class Accept>
+[[nodiscard]] bool search_any(const Tree& tree, const Query& query, const Accept& accept) {
     bool found = false;
     search(tree, query, [&](std::uint32_t id) { return found = accept(id); });
     return found;
 }
 
-/// The primitives that `query` may want and for which `accept(id)` is true, ascending.
-template <std::size_t D, tree_query<D> Query, class Accept>
-[[nodiscard]] std::vector<std::uint32_t> search_all(const tree<D>& tree, const Query& query,
+/// The primitives that `query` may want and for which `accept(id)` is true, ascending; of any tree,
+/// as `search_any`.
+template <class Tree, tree_query<Tree::dimensions> Query, class Accept>
+[[nodiscard]] std::vector<std::uint32_t> search_all(const Tree& tree, const Query& query,
                                                     const Accept& accept) {
     std::vector<std::uint32_t> found;
     search(tree, query, [&](std::uint32_t id) {
@@ -166,8 +168,8 @@ template <std::size_t D, tree_query<D> Query, class Accept>
 }
 
 /// The primitives that `query` may want, ascending.
-template <std::size_t D, tree_query<D> Query>
-[[nodiscard]] std::vector<std::uint32_t> search_all(const tree<D>& tree, const Query& query) {
+template <class Tree, tree_query<Tree::dimensions> Query>
+[[nodiscard]] std::vector<std::uint32_t> search_all(const Tree& tree, const Query& query) {
     return search_all(tree, query, [](std::uint32_t) { return true; });
 }
 
