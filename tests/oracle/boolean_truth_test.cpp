@@ -1,0 +1,106 @@
+/// \file
+/// Booleans of pairs of real files against what an exact kernel found: the volumes of
+/// TRUTH_PAIRS.csv. Without TREEFORM_MODELS_DIR nothing is checked.
+
+#include <libmesh/boolean/boolean.hpp>
+#include <libmesh/io/read.hpp>
+#include <libmesh/volume.hpp>
+#include <libtree/transform.hpp>
+
+#include <doctest/doctest.h>
+#include <support/solid_checks.hpp>
+#include <support/truth.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace {
+
+double number(const std::string& text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    REQUIRE(error == std::errc());
+    REQUIRE(end == text.data() + text.size());
+    return value;
+}
+
+/// Sixteen numbers, or "identity".
+tf::transform<3> matrix(std::string text) {
+    tf::transform<3> map;
+    if (text == "identity") return map;
+    for (std::size_t i = 0; i < 12; ++i) {
+        const std::size_t end = text.find(' ');
+        map.rows[i / 4][i % 4] = number(text.substr(0, end));
+        text.erase(0, end + 1);
+    }
+    return map;
+}
+
+tf::mesh read(const std::filesystem::path& path, const tf::transform<3>& by) {
+    tf::mesh mesh = tf::read_mesh(path).mesh;
+    for (tf::point3& p : mesh.points) p = by(p);
+    return mesh;
+}
+
+double area(const tf::mesh& mesh) {
+    double sum = 0.0;
+    for (const auto& [a, b, c] : mesh.faces) {
+        const auto& p = mesh.points;
+        const tf::point3 u{p[b].x - p[a].x, p[b].y - p[a].y, p[b].z - p[a].z};
+        const tf::point3 v{p[c].x - p[a].x, p[c].y - p[a].y, p[c].z - p[a].z};
+        sum += std::hypot(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x) / 2;
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("truth: every boolean of every pair of files has the volume of the exact kernel") {
+    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
+    if (folder.empty()) {
+        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
+        return;
+    }
+    struct question {
+        const char* column;
+        const char* formula;
+    };
+    constexpr std::array<question, 4> questions{{{"volume_union", "a+b"},
+                                                 {"volume_intersection", "a*b"},
+                                                 {"volume_a_minus_b", "a-b"},
+                                                 {"volume_b_minus_a", "b-a"}}};
+    int checked = 0, mended = 0;
+    for (const test::truth_row& row : test::read_truth(folder / "TRUTH_PAIRS.csv")) {
+        if (row.text("transform") == "exact") continue;  // of points that are no doubles
+        if (row.text("volume_intersection").empty()) continue;
+        CAPTURE(row.text("pair"));
+        const tf::mesh a = read(folder / row.text("file_a"), matrix(row.text("matrix_a")));
+        const tf::mesh b = read(folder / row.text("file_b"), matrix(row.text("matrix_b")));
+        const std::vector<tf::mesh_view> operands{a, b};
+        for (const question& q : questions) {
+            CAPTURE(q.formula);
+            const tf::solid_result result = tf::boolean(operands, {q.formula, 2});
+            CHECK(result.certified);
+            CHECK(result.open_count == 0);
+            CHECK(test::is_clean_solid(result.surface));
+            ++checked;
+            mended += result.rounding_steps > 0;
+            const std::string truth = row.text(q.column);
+            if (truth.empty() || truth == "nonmanifold") continue;
+            // Moving the surface by m in each coordinate changes the volume by its area times
+            // sqrt(3) m at most, but for terms of m^2; the truth itself is cut to double.
+            const double volume = number(truth);
+            const double most =
+                2.0 * result.max_move * area(result.surface) + 0x1p-50 * std::abs(volume);
+            CHECK(std::abs(tf::signed_volume(result.surface) - volume) <= most);
+        }
+    }
+    CHECK(checked > 0);
+    MESSAGE(checked << " booleans checked, " << mended << " of them mended after rounding");
+}
