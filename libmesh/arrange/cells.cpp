@@ -1,4 +1,5 @@
 #include <libmesh/arrange/cells.hpp>
+#include <libmesh/arrange/detail/operand_sums.hpp>
 #include <libmesh/arrange/detail/parts.hpp>
 #include <libmesh/arrange/detail/patches.hpp>
 #include <libmesh/arrange/detail/radial_order.hpp>
@@ -60,16 +61,11 @@ class labels {
     /// Whether what covers the face cancels out, operand by operand.
     [[nodiscard]] bool cancel(std::uint32_t face) const {
         if (cut_.covers_of(face).size() == 1) return false;
-        std::vector<std::pair<std::uint32_t, int>> net;
-        for_each(face, [&](std::uint32_t operand, int sign) { net.emplace_back(operand, sign); });
-        std::sort(net.begin(), net.end());
-        for (std::size_t i = 0; i < net.size();) {
-            const std::uint32_t operand = net[i].first;
-            std::int64_t sum = 0;
-            for (; i < net.size() && net[i].first == operand; ++i) sum += net[i].second;
-            if (sum != 0) return false;
-        }
-        return true;
+        std::vector<detail::counted_face> counted;
+        for_each(face, [&](std::uint32_t operand, int sign) {
+            counted.push_back({operand, 0, sign});
+        });
+        return detail::cancel_out(counted);
     }
 
   private:

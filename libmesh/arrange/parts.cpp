@@ -72,39 +72,31 @@ class pieces {
     std::vector<std::uint32_t> faces_;
 };
 
-/// Follows rays to the first face of another part.
+/// Follows rays to the first face they meet.
 class ray_follower {
   public:
-    ray_follower(mesh_view mesh, const mesh_arrangement& cut, const surface_patches& patches,
-                 const numbered_sets& parts, const box3& reach)
-        : mesh_(mesh),
-          cut_(cut),
-          patches_(patches),
-          parts_(parts),
-          pieces_(mesh.faces.size(), cut) {
+    ray_follower(mesh_view mesh, const mesh_arrangement& cut, const box3& reach)
+        : mesh_(mesh), cut_(cut), pieces_(mesh.faces.size(), cut) {
         for (std::uint32_t g = 0; g < mesh.faces.size(); ++g)
             if (!pieces_[g].empty() && overlaps(box_of(g), reach)) ids_.push_back(g);
         tree_ = build(ids_, [this](std::uint32_t g) { return box_of(g); });
     }
 
-    /// The side on which the moved ray from `edge` first meets a face not of `part`.
-    [[nodiscard]] std::optional<face_side> follow(const outer_edge& edge,
-                                                  std::uint32_t part) const {
+    /// The side on which the moved ray from `edge` first meets a face. The edge's own part is
+    /// behind it.
+    [[nodiscard]] std::optional<face_side> follow(const outer_edge& edge) const {
         const moved_ray ray(edge.from, edge.towards);
         std::optional<crossing> first;
         std::uint32_t first_face = 0;
         double distance = infinite;
         visit_along(tree_, along_x(edge.from), [&](std::uint32_t id) {
             const std::uint32_t g = ids_[id];
-            if (part_of(pieces_[g][0]) == part) return distance;
             const auto met = ray.meet(corners(g));
             if (!met) return distance;
-            const int order = first ? ray.compare(*met, *first) : -1;
-            if (order < 0 || (order == 0 && g < first_face)) {
-                first = met;
-                first_face = g;
-                distance = ray.distance(*met);
-            }
+            if (first && ray.compare(*met, *first) >= 0) return distance;
+            first = met;
+            first_face = g;
+            distance = ray.distance(*met);
             return distance;
         });
         if (!first) return std::nullopt;
@@ -122,8 +114,6 @@ class ray_follower {
         for (const point3& p : corners(g)) box.include(p);
         return box;
     }
-
-    [[nodiscard]] std::uint32_t part_of(std::uint32_t f) const { return parts_[patches_.patch[f]]; }
 
     /// Of the pieces of an input face that the ray passes through, that with the crossing.
     [[nodiscard]] face_side met_side(const moved_ray& ray, std::uint32_t g) const {
@@ -145,8 +135,6 @@ class ray_follower {
 
     mesh_view mesh_;
     const mesh_arrangement& cut_;
-    const surface_patches& patches_;
-    const numbered_sets& parts_;
     pieces pieces_;
     std::vector<std::uint32_t> ids_;  ///< input faces of the tree
     tree<3> tree_;
@@ -167,10 +155,10 @@ std::vector<part_place> place_parts(mesh_view mesh, const mesh_arrangement& cut,
     box3 reach;
     for (const std::uint32_t i : asking) reach.include(edges[i].from);
     reach.max[0] = infinite;
-    const ray_follower follower(mesh, cut, patches, parts, reach);
+    const ray_follower follower(mesh, cut, reach);
     for_chunks(asking.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
-            places[asking[i]].beyond = follower.follow(edges[asking[i]], asking[i]);
+            places[asking[i]].beyond = follower.follow(edges[asking[i]]);
     });
     return places;
 }

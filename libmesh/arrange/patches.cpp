@@ -1,3 +1,4 @@
+#include <libmesh/arrange/detail/operand_sums.hpp>
 #include <libmesh/arrange/detail/patches.hpp>
 #include <libmesh/detail/stars.hpp>
 #include <libmesh/detail/union_find.hpp>
@@ -6,7 +7,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
+#include <utility>
 
 namespace tf::detail {
 namespace {
@@ -88,34 +89,40 @@ class edge_reader {
             const std::uint32_t f = face_of(sides_[0]);
             const std::uint32_t g = face_of(sides_[1]);
             patches_.join(f, g);
-            if (sole_[f] == sole_[g] && sole_[f] != several) return;
+            if (sole_[f] == sole_[g] && sole_[f] != several) return;  // by far the most
         } else {
             found_.junctions.edges.push_back({{a, b}, found_.junctions.sides.size()});
             found_.junctions.sides.insert(found_.junctions.sides.end(), sides_.begin(),
                                           sides_.end());
         }
-        find_open(a, b);
+        if (!is_plainly_closed()) find_open(a, b);
+    }
+
+    /// Whether one input face covers each of the faces, and these cancel out; decided without
+    /// looking at covers, which lie elsewhere in memory.
+    bool is_plainly_closed() {
+        counted_.clear();
+        for (const face_side side : sides_) {
+            const std::uint32_t operand = sole_[face_of(side)];
+            if (operand == several) return false;
+            counted_.push_back({operand, 0, is_behind(side) ? -1 : 1});
+        }
+        return cancel_out(counted_);
     }
 
     /// What covers the faces at the edge must run from a to b as often as from b to a, operand by
     /// operand.
     void find_open(std::uint32_t a, std::uint32_t b) {
-        runs_.clear();
+        counted_.clear();
         for (const face_side side : sides_)
             for (const auto& [face, opposite] : cut_.covers_of(face_of(side)))
-                runs_.emplace_back(operand_of_face_[face], face,
-                                   is_behind(side) != opposite ? -1 : 1);
-        std::sort(runs_.begin(), runs_.end());
-        for (std::size_t i = 0; i < runs_.size();) {
-            const auto [operand, lowest_face, _] = runs_[i];
-            std::int64_t net = 0;
-            for (; i < runs_.size() && std::get<0>(runs_[i]) == operand; ++i)
-                net += std::get<2>(runs_[i]);
-            if (net == 0) continue;
+                counted_.push_back(
+                    {operand_of_face_[face], face, is_behind(side) != opposite ? -1 : 1});
+        for_each_remaining(counted_, [&](const counted_face& lowest) {
             ++found_.open_count;
             if (found_.open.size() < most_listed)
-                found_.open.push_back({operand, {a, b}, lowest_face});
-        }
+                found_.open.push_back({lowest.operand, {a, b}, lowest.face});
+        });
     }
 
     const mesh_arrangement& cut_;
@@ -125,7 +132,7 @@ class edge_reader {
     chunk_edges& found_;
     std::vector<std::uint64_t> uses_;
     std::vector<face_side> sides_;
-    std::vector<std::tuple<std::uint32_t, std::uint32_t, int>> runs_;  ///< operand, face, direction
+    std::vector<counted_face> counted_;
 };
 
 }  // namespace

@@ -28,8 +28,8 @@ class moved_ray {
 
     [[nodiscard]] const point3& from() const { return from_; }
 
-    /// How it passes through the triangle, if it does, ahead of where it starts.
-    /// \pre a triangle that the edge begins to run in does not count: there is no such
+    /// How it passes through the triangle, if it does, ahead of where it starts. Triangles that the
+    /// edge runs in are not ahead.
     [[nodiscard]] std::optional<crossing> meet(const triangle3& t) const;
 
     /// The parameter of a crossing, 2^-40 of itself wrong at most: how far it is from v.
