@@ -167,10 +167,10 @@ outer_edge find_outer_edge(mesh_view mesh, const mesh_arrangement& cut, const pa
     const point3& v = mesh.points[part.top];
     if (const auto b = finder.find()) {
         const auto sides = finder.sides_towards(*b);
-        outer_edge edge{v, mesh.points[*b], 0};
-        if (sides.empty() || !radial.last_before_x(v, edge.towards, sides, edge.side))
-            refuse(part.top);
-        return edge;
+        if (sides.empty()) refuse(part.top);
+        const auto last = radial.last_before_x(v, mesh.points[*b], sides);
+        if (!last) refuse(part.top);
+        return {v, mesh.points[*b], *last};
     }
     // All faces at v are in one plane; being extreme there they bound nothing, and the same region
     // is on both sides of all of them.

@@ -7,9 +7,10 @@
 #include <libtree/ray.hpp>
 #include <libtree/tree.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 

@@ -72,8 +72,8 @@ bool radial_order::sort(const std::array<std::uint32_t, 2>& points, std::span<fa
 // The half-plane's normal is e x (1, 0, 0). For a normal m of a face, perpendicular to e,
 // (m x (e x (1, 0, 0))) . e = m.x |e|^2: faces with m.x > 0 are less than half a turn before the
 // half-plane, those with m.x < 0 more, and 0 is just half a turn.
-bool radial_order::last_before_x(const point3& from, const point3& towards,
-                                 std::span<const face_side> sides, face_side& last) {
+std::optional<face_side> radial_order::last_before_x(const point3& from, const point3& towards,
+                                                     std::span<const face_side> sides) {
     collect(sides);
     const member* best = nullptr;
     for (member& m : members_) {
@@ -85,11 +85,10 @@ bool radial_order::last_before_x(const point3& from, const point3& towards,
         if (m.half > best->half) continue;
         const int ahead =
             normal_turn(best->plane, m.plane, from, towards) * best->sense() * m.sense();
-        if (ahead == 0) return false;
+        if (ahead == 0) return std::nullopt;
         if (ahead > 0) best = &m;
     }
-    last = best->side;
-    return true;
+    return best->side;
 }
 
 }  // namespace tf::detail

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,18 +33,18 @@ class radial_order {
     [[nodiscard]] bool sort(const std::array<std::uint32_t, 2>& points, std::span<face_side> sides);
 
     /// Of `sides`, faces at the edge from `from` towards `towards`, the one that comes last before
-    /// the half-plane from the edge in direction +x. False as above.
+    /// the half-plane from the edge in direction +x. None when two lie on top of each other.
     /// \pre  there is one, none is in that half-plane, and the edge is not parallel to x
     /// \cost O(d) predicates
-    [[nodiscard]] bool last_before_x(const point3& from, const point3& towards,
-                                     std::span<const face_side> sides, face_side& last);
+    [[nodiscard]] std::optional<face_side> last_before_x(const point3& from, const point3& towards,
+                                                         std::span<const face_side> sides);
 
   private:
     struct member {
         plane_points plane;
         std::uint32_t cover;  ///< input face that lies in it
         face_side side;
-        int half;  ///< about the first: 0 itself, 1 less than half a turn, 2 half a turn, 3 more
+        int half;  ///< how far from where one begins: 1 less than half a turn, 2 half, 3 more
 
         /// +1 when its normal is that of the plane, -1 when it is the opposite.
         [[nodiscard]] int sense() const { return is_behind(side) ? -1 : 1; }
