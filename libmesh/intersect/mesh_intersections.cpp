@@ -1,7 +1,9 @@
 #include <libmesh/face_tree.hpp>
+#include <libmesh/intersect/detail/block_pair_sieve.hpp>
 #include <libmesh/intersect/detail/join_outputs.hpp>
 #include <libmesh/intersect/detail/mesh_pair_sieve.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/nearness/distance_model.hpp>
 #include <libtree/parallel.hpp>
 #include <libtree/search_pair.hpp>
 #include <libtree/transformed.hpp>
@@ -38,17 +40,10 @@ void add(const detail::bad_faces& more, detail::bad_faces& bad) {
     bad.in_b = std::min(bad.in_b, more.in_b);
 }
 
-}  // namespace
-
-mesh_intersection_result mesh_intersections(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                            const tree<3>& tree_b,
-                                            const mesh_intersection_options& options) {
-    check_tree("tf::mesh_intersections", "first", a, tree_a);
-    check_tree("tf::mesh_intersections", "second", b, tree_b);
-    const pair_search<3> search(transformed(tree_a, options.move_a),
-                                transformed(tree_b, options.move_b));
-    const detail::mesh_pair_input input{
-        {a, tree_a, options.move_a}, {b, tree_b, options.move_b}, options.kinds};
+/// What the chunks of a search give, each looked at through a sieve of its own.
+template <class Sieve, class Input>
+mesh_intersection_result sieved(const pair_search<3>& search, const Input& input,
+                                const mesh_intersection_options& options) {
     const std::size_t chunks = search.chunks();
     std::vector<detail::sieve_output> found(chunks);
     std::vector<detail::bad_faces> bad(chunks);
@@ -59,7 +54,7 @@ mesh_intersection_result mesh_intersections(mesh_view a, const tree<3>& tree_a, 
         const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
         detail::sieve_output mine;  // outputs of neighbours share cache lines
         const auto satisfied = [&] { return options.first_only && !mine.pairs.empty(); };
-        detail::mesh_pair_sieve sieve(input, mine, bad[chunk]);
+        Sieve sieve(input, mine, bad[chunk]);
         searched[chunk] = search.visit(chunk, [&](const candidate_block& block) {
             if (not_needed()) return false;
             sieve.add(block);
@@ -80,6 +75,30 @@ mesh_intersection_result mesh_intersections(mesh_view a, const tree<3>& tree_a, 
     detail::join_outputs(found, options.limit, result);
     result.cancelled = progress.cancelled();
     return result;
+}
+
+}  // namespace
+
+mesh_intersection_result mesh_intersections(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                            const tree<3>& tree_b,
+                                            const mesh_intersection_options& options) {
+    check_tree("tf::mesh_intersections", "first", a, tree_a);
+    check_tree("tf::mesh_intersections", "second", b, tree_b);
+    const pair_search<3> search(transformed(tree_a, options.move_a),
+                                transformed(tree_b, options.move_b));
+    const detail::mesh_pair_input input{
+        {a, tree_a, options.move_a}, {b, tree_b, options.move_b}, options.kinds};
+    return sieved<detail::mesh_pair_sieve>(search, input, options);
+}
+
+mesh_intersection_result mesh_intersections(const distance_model& a, const distance_model& b,
+                                            const mesh_intersection_options& options) {
+    const pair_search<3> search(transformed(a.tree_, options.move_a),
+                                transformed(b.tree_, options.move_b));
+    const detail::block_pair_input input{{a.triangles_, a.tree_, options.move_a},
+                                         {b.triangles_, b.tree_, options.move_b},
+                                         options.kinds};
+    return sieved<detail::block_pair_sieve>(search, input, options);
 }
 
 mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,

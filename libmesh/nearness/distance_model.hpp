@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// A mesh made ready to be measured from others, many times and wherever it is moved.
+/// A mesh made ready to be asked about with others, many times and wherever it is moved: how far
+/// they are apart, and with `mesh_intersections` which of their faces meet.
 
 #include <libmesh/mesh.hpp>
 #include <libmesh/nearness/detail/node_discs.hpp>
@@ -18,6 +19,8 @@
 namespace tf {
 
 class distance_model;
+struct mesh_intersection_options;  // libmesh/intersect/mesh_intersections.hpp
+struct mesh_intersection_result;
 
 /// Where each of two meshes is, and how far apart they may be.
 struct mesh_distance_options {
@@ -58,6 +61,9 @@ class TREEFORM_API distance_model {
   private:
     friend std::optional<mesh_pair> mesh_distance(const distance_model& a, const distance_model& b,
                                                   const mesh_distance_options& options);
+    friend mesh_intersection_result mesh_intersections(const distance_model& a,
+                                                       const distance_model& b,
+                                                       const mesh_intersection_options& options);
     tree<3> tree_;
     detail::buffer<detail::eight_triangles> triangles_;
     detail::node_discs discs_;

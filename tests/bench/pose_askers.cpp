@@ -165,10 +165,10 @@ ask_pose own_collide(const scene& scene) {
 }
 
 ask_pose own_intersect(const scene& scene) {
-    return [trees = own_trees_of(scene)](const transform<3>& pose) {
-        const auto& [a, b, tree_a, tree_b] = *trees;
-        return static_cast<double>(
-            mesh_intersections(*a, tree_a, *b, tree_b, {.move_b = pose}).pairs.size());
+    const auto a = std::make_shared<const distance_model>(*scene.a);
+    const auto b = std::make_shared<const distance_model>(*scene.b);
+    return [a, b](const transform<3>& pose) {
+        return static_cast<double>(mesh_intersections(*a, *b, {.move_b = pose}).pairs.size());
     };
 }
 

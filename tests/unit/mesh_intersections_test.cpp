@@ -3,6 +3,7 @@
 
 #include <libmesh/face_tree.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/nearness/distance_model.hpp>
 #include <libtree/parallel.hpp>
 
 #include <doctest/doctest.h>
@@ -38,7 +39,8 @@ pairs by_brute_force(const tf::mesh& a, const tf::mesh& b, const Common& common)
     return found;
 }
 
-/// The pairs, after the counts and the short answer have been compared with them.
+/// The pairs, after the counts and the short answer have been compared with them, and the answer of
+/// the same meshes as models.
 pairs found_in(const tf::mesh& a, const tf::mesh& b,
                const tf::mesh_intersection_options& options = {}) {
     const tf::mesh_intersection_result result = tf::mesh_intersections(a, b, options);
@@ -48,6 +50,12 @@ pairs found_in(const tf::mesh& a, const tf::mesh& b,
     CHECK(result.box_pairs >= result.pairs.size());
     CHECK(result.searched.candidates == result.box_pairs);
     CHECK(tf::intersects(a, b, {options.move_a, options.move_b}) == !result.pairs.empty());
+    const auto of_models =
+        tf::mesh_intersections(tf::distance_model(a), tf::distance_model(b), options);
+    CHECK(of_models.pairs == result.pairs);
+    CHECK(of_models.counts == result.counts);
+    CHECK(of_models.box_pairs == result.box_pairs);
+    CHECK(of_models.searched == result.searched);
     return result.pairs;
 }
 
@@ -61,6 +69,40 @@ tf::transform<3> random_map(test::random& source) {
     for (auto& row : map.rows)
         for (double& entry : row) entry = source.in(-1, 1);
     return map;
+}
+
+/// A turn about two axes, then a move.
+tf::transform<3> turned(test::random& source, double reach) {
+    const double a = source.in(0.0, 7.0), b = source.in(0.0, 7.0);
+    tf::transform<3> first, second;
+    first.rows = {
+        {{std::cos(a), -std::sin(a), 0, 0}, {std::sin(a), std::cos(a), 0, 0}, {0, 0, 1, 0}}};
+    second.rows = {{{1, 0, 0, source.in(-reach, reach)},
+                    {0, std::cos(b), -std::sin(b), source.in(-reach, reach)},
+                    {0, std::sin(b), std::cos(b), source.in(-reach, reach)}}};
+    return tf::after(second, first);
+}
+
+/// Triangles whose first corner is about where a face of `mesh` has a point, the others anywhere
+/// near.
+tf::mesh stands_on(const tf::mesh& mesh, test::random& source, std::size_t count, double size) {
+    tf::mesh result;
+    for (std::size_t i = 0; i < count; ++i) {
+        const tf::face& f = mesh.faces[source.below(mesh.faces.size())];
+        const double x = source.in(0, 1), y = source.in(0, 1 - x);
+        const auto at = static_cast<std::uint32_t>(result.points.size());
+        for (int corner = 0; corner < 3; ++corner) {
+            tf::point3 p;
+            for (std::size_t k = 0; k < 3; ++k) {
+                p[k] = mesh.points[f[0]][k] * (1 - x - y) + mesh.points[f[1]][k] * x +
+                       mesh.points[f[2]][k] * y;
+                if (corner != 0) p[k] += source.in(-size, size);
+            }
+            result.points.push_back(p);
+        }
+        result.faces.push_back({at, at + 1, at + 2});
+    }
+    return result;
 }
 
 /// A closed ball of 8 * 4^n triangles.
@@ -183,6 +225,58 @@ TEST_CASE("mesh_intersections: a move gives the pairs of the moved mesh, with th
     CHECK(met >= 6);
 }
 
+TEST_CASE("mesh_intersections: turned meshes as all pairs of their images one by one") {
+    std::size_t met = 0;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        const double scale = std::array{1.0, 1e-30, 1e30, 0x1p-250, 0x1p+250}[seed % 5];
+        const double fineness = 1.0 / static_cast<double>(2 + 3 * (seed % 3));
+        const tf::mesh a = test::scaled(ball(2), scale);
+        const tf::mesh b = test::scaled(test::random_soup(source, 120, fineness), scale);
+        tf::mesh_intersection_options options;
+        if (seed % 2 == 0) options.move_a = turned(source, scale);
+        options.move_b = turned(source, scale);
+        const pairs found = found_in(a, b, options);
+        CHECK(found == by_brute_force(image(a, options.move_a), image(b, options.move_b),
+                                      test::common_by_library));
+        met += found.size();
+    }
+    CHECK(met > 100);
+}
+
+TEST_CASE(
+    "mesh_intersections: corners that come to lie on a face but for rounding are told apart") {
+    std::size_t met = 0, missed = 0;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        const tf::point3 far{seed % 2 == 0 ? 0.0 : 1e6, 0, 0};
+        const tf::mesh a = test::moved(ball(1), far);
+        const tf::mesh b = stands_on(a, source, 300, 0.1);
+        const pairs found = found_in(a, b);
+        CHECK(found == by_brute_force(a, b, test::common_by_library));
+        met += found.size();
+        missed += b.faces.size() - std::min(b.faces.size(), found.size());
+    }
+    CHECK(met > 500);
+    CHECK(missed > 100);
+}
+
+TEST_CASE("mesh_intersections: flat meshes in one plane, and seen from the side") {
+    const tf::mesh sheet = test::grid(6);
+    CHECK(!found_in(sheet, test::moved(sheet, {0.25, 0.5, 0})).empty());
+    CHECK(
+        found_in(sheet, test::moved(sheet, {0.25, 0.5, std::numeric_limits<double>::denorm_min()}))
+            .empty());
+    tf::mesh_intersection_options upright;
+    upright.move_b.rows = {{{0, 0, 1, 2.5}, {0, 1, 0, 0.25}, {1, 0, 0, -2}}};
+    CHECK(!found_in(sheet, sheet, upright).empty());
+    tf::mesh line = sheet;  // no face has an area
+    for (tf::point3& p : line.points) p.y = p.x;
+    CHECK(!found_in(sheet, line).empty());
+}
+
 TEST_CASE("intersects: balls that touch in one corner do, a hair apart they do not") {
     const tf::mesh one = ball(3);
     const auto move_by = [](double x) {
@@ -214,6 +308,10 @@ TEST_CASE("mesh_intersections: threads change nothing, not even the first pair o
         CHECK(on(threads, false).pairs == all.pairs);
         CHECK(on(threads, false).searched == all.searched);
         CHECK(on(threads, true).pairs == first.pairs);
+        const tf::thread_scope scope(threads);
+        const tf::distance_model model_a(a), model_b(b);
+        CHECK(tf::mesh_intersections(model_a, model_b).pairs == all.pairs);
+        CHECK(tf::mesh_intersections(model_a, model_b, {.first_only = true}).pairs == first.pairs);
     }
 }
 
@@ -256,6 +354,10 @@ TEST_CASE("mesh_intersections: refuses what it cannot compute with and says what
     options.move_b.rows[0][0] = 1e308;
     CHECK_THROWS_AS((void)tf::mesh_intersections(sheet, tree, sheet, tree, options),
                     std::invalid_argument);
+    const tf::distance_model model(sheet);
+    CHECK_THROWS_AS((void)tf::mesh_intersections(model, model, options), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)tf::mesh_intersections(model, model, {{{{{nan}}}}, {}}),
+                         doctest::Contains("not finite"), std::invalid_argument);
 }
 
 TEST_CASE("mesh_intersections: a caller that says stop is heard, and told so") {

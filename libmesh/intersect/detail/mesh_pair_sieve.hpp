@@ -3,17 +3,14 @@
 /// From candidate pairs of two meshes to classified pairs, for the candidates of one chunk.
 
 #include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/detail/pair_filter.hpp>
-#include <libmesh/intersect/detail/pair_sieve.hpp>
+#include <libmesh/intersect/detail/pair_decider.hpp>
 #include <libmesh/mesh.hpp>
 #include <libtree/candidates.hpp>
 #include <libtree/transform.hpp>
 #include <libtree/tree.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 namespace tf::detail {
@@ -54,34 +51,20 @@ class mesh_side {
 struct mesh_pair_input {
     mesh_side a;
     mesh_side b;
-    std::array<bool, pair_kind_count> kinds;
+    wanted_kinds kinds;
 };
 
-/// The lowest faces that cannot be computed with, of those that were met.
-struct bad_faces {
-    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-    std::uint32_t in_a = none;
-    std::uint32_t in_b = none;
-};
-
-/// Filters candidates in batches, and has the exact stage decide the rest. 10 kB.
+/// Gathers the corners of candidates from the meshes and has them decided. 10 kB.
 class mesh_pair_sieve {
   public:
     mesh_pair_sieve(const mesh_pair_input& input, sieve_output& output, bad_faces& bad)
-        : input_(input), output_(output), bad_(bad) {}
+        : input_(input), output_(output), bad_(bad), decider_(input.kinds, output, bad) {}
 
     void add(const candidate_block& block);
 
   private:
-    struct face_numbers {
-        std::uint32_t a, b;
-    };
     void prefetch(const candidate_block& block, std::size_t i) const;
     void add_pair(const face_numbers& pair);
-    void filter();
-    void decide(const face_numbers& pair, const triangle3& a, const triangle3& b);
-    void record(const face_numbers& pair, pair_kind kind);
-    [[nodiscard]] triangle3 batched(std::size_t i, std::size_t first_corner) const;
 
     const mesh_pair_input& input_;
     sieve_output& output_;
@@ -90,9 +73,7 @@ class mesh_pair_sieve {
     std::uint32_t last_a_ = bad_faces::none;
     bool has_a_ = false;
     triangle3 corners_of_a_;
-    std::size_t count_ = 0;  ///< pairs in the batch
-    std::array<face_numbers, pair_batch<6>::capacity> pairs_;
-    pair_batch<6> batch_;
+    pair_decider decider_;
 };
 
 }  // namespace tf::detail
