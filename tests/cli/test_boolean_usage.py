@@ -1,0 +1,126 @@
+"""The command line of tf-boolean: help, refusals; its report; the same on any number of threads."""
+
+from boolean_support import *
+
+NUMBER = (int, float)
+NULL = type(None)
+FILE = {"input": (str, NULL), "error": NULL, "operation": (str, NULL), "inside": str,
+        "check": bool, "inputs": list, "pairs": (int, NULL), "cut_faces": (int, NULL),
+        "cells": (int, NULL), "skipped": dict, "max_move": dict, "output": (dict, NULL),
+        "warnings": list, "exit": int}
+INPUT = {"file": str, "format": str, "sha256": str, "precision_in": str, "matrix": (str, NULL),
+         "faces": int, "triangles": int, "volume": NUMBER, "closed": (bool, NULL),
+         "reason": (str, NULL), "open": dict, "skipped": dict}
+OUTPUT = {"file": (str, NULL), "format": (str, NULL), "precision_out": str, "vertices": int,
+          "cut_vertices": int, "faces": int, "components": int, "nonmanifold_edges": int,
+          "volume": (*NUMBER, NULL), "closed": bool, "oriented": (bool, NULL),
+          "self_intersections": int, "meeting": list, "certified": bool, "max_move": NUMBER,
+          "rounding_steps": int}
+
+
+class Usage(BooleanTest):
+    def refused(self, *arguments):
+        run = self.run_tool(*arguments, status=2)
+        self.assertEqual(run.text, "")
+        self.assertTrue(run.err.startswith("tf-boolean: error: "), msg=run.err)
+        self.assertEqual([name for name in self.listing() if name.startswith("out")], [])
+        return run.err
+
+    def test_help_fits_80_columns_and_names_what_is_accepted(self):
+        run = self.run_tool("--help", status=0)
+        self.assertTrue(run.text.startswith("Usage: tf-boolean OP [OPTIONS] INPUT..."))
+        self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
+        for word in ("union", "intersection", "difference", "xor", "split", "--expr", "--matrix",
+                     "--inside", "--check", "--max-move", "--source", "--no-attributes",
+                     "Common options:", "Examples:", "Exit status:"):
+            self.assertIn(word, run.text)
+
+    def test_words_and_values_are_checked(self):
+        self.refused()
+        self.assertIn("no operation", self.refused("unite", "a.obj"))
+        self.assertIn("expected an INPUT", self.refused("union"))
+        both = ("a.obj", "b.obj")
+        self.assertIn("position 3", self.refused("--expr", "a-c", *both))
+        self.assertIn("position 2", self.refused("--expr", "a)", *both))
+        for options in (["--inside", "even"], ["--max-move", "-1"], ["--matrix", "m.txt"],
+                        ["--matrix", "3:m.txt"], ["--matrix", "0:m.txt"], ["--matrix", "1:"],
+                        ["--matrix", "1:m.txt", "--matrix", "1:n.txt"]):
+            self.refused("union", *both, "-o", "out.obj", *options)
+
+    def test_what_is_not_there_is_refused_plainly(self):
+        for option in ("--accept-open", "--simplify"):
+            self.assertIn("not built yet", self.refused("union", "a.obj", option))
+        self.refused("union", "a.obj", "--html", "out.html")
+
+    def test_what_would_do_nothing_is_refused(self):
+        self.refused("--check", "a.obj", "-o", "out.obj")
+        self.refused("--check", "a.obj", "--max-move", "1")
+        self.refused("split", "a.obj", "--inside", "odd")
+        self.refused("union", "a.obj", "--ascii")
+        self.refused("union", "a.obj", "-o", "out.obj", "--source", "from")
+        self.refused("union", "a.obj", "-o", "out.xyz")
+        self.refused("union", "a.obj", "--in-place")
+        self.refused("union", "a.obj", "b.obj", "--output-dir", "out")
+
+    def test_no_output_replaces_a_file_that_is_read(self):
+        before = self.read_bytes("b.obj")
+        self.assertIn("is an input", self.refused("union", "a.obj", "b.obj", "-o", "b.obj", "-f"))
+        self.assertEqual(self.read_bytes("b.obj"), before)
+        with open(self.path("m.txt"), "w") as file:
+            file.write("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")
+        self.refused("union", "a.obj", "--matrix", "1:m.txt", "-o", "m.txt", "--output-format",
+                     "obj", "-f")
+
+    def test_an_output_that_exists_needs_force(self):
+        self.mesh("there.obj", cube())
+        before = self.read_bytes("there.obj")
+        self.run_tool("union", "a.obj", "b.obj", "-o", "there.obj", status=4)
+        self.assertEqual(self.read_bytes("there.obj"), before)
+        self.run_tool("union", "a.obj", "b.obj", "-o", "there.obj", "-f", status=0)
+        self.assertNotEqual(self.read_bytes("there.obj"), before)
+
+    def test_bad_files_are_named(self):
+        self.assertIn("none.obj", self.run_tool("union", "a.obj", "none.obj", status=3).err)
+        self.mesh("empty.obj", ([(0, 0, 0)], []))
+        self.assertIn("empty.obj", self.run_tool("union", "a.obj", "empty.obj", status=3).err)
+        with open(self.path("m.txt"), "w") as file:
+            file.write("1 0 0")
+        self.assertIn("m.txt", self.run_tool("union", "a.obj", "--matrix", "1:m.txt",
+                                             status=3).err)
+
+    def check_types(self, entry, types):
+        self.assertEqual(list(entry), list(types))
+        for key, kind in types.items():
+            self.assertIsInstance(entry[key], kind, msg=key)
+
+    def test_the_report_has_its_keys_in_any_case(self):
+        report = self.report("difference", "a.obj", "b.obj", status=0)
+        self.assertEqual(report["schema"], "tf-boolean-report/1")
+        self.assertEqual(list(report["seconds"]), ["read", "prepare", "cut", "check", "write"])
+        entry, = report["files"]
+        self.check_types(entry, FILE)
+        self.check_types(entry["output"], OUTPUT)
+        for one in entry["inputs"]:
+            self.check_types(one, INPUT)
+        self.check_types(self.entry("--check", "a.obj", status=0), FILE)
+        points, faces = cube()
+        self.mesh("open.obj", (points, faces[1:]))
+        self.check_types(self.entry("union", "open.obj", status=1), FILE)
+
+    def test_standard_input_and_output(self):
+        data = self.read_bytes("b.obj")
+        run = self.run_tool("union", "a.obj", "-", "-o", "-", "--output-format", "obj", stdin=data,
+                            status=0)
+        self.assertEqual(volume(*obj_mesh(run.text)), 15)
+
+    def test_threads_do_not_show(self):
+        written = set()
+        for threads in (1, 2, 8):
+            self.run_tool("xor", "a.obj", "b.obj", "c.obj", "-o", "out.ply", "-f", "-j", threads,
+                          status=0)
+            written.add(self.read_bytes("out.ply"))
+        self.assertEqual(len(written), 1)
+
+
+if __name__ == "__main__":
+    main()

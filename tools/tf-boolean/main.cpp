@@ -1,0 +1,175 @@
+/// \file
+/// tf-boolean: set operations on solids.
+
+#include "tools/common/command_line.hpp"
+#include "tools/common/common_options.hpp"
+#include "tools/common/run.hpp"
+#include "tools/tf-boolean/outputs.hpp"
+#include "tools/tf-boolean/settings.hpp"
+#include "tools/tf-boolean/solids.hpp"
+#include "tools/tf-boolean/words.hpp"
+#include <libmesh/boolean/boolean.hpp>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using tools::boolean_settings;
+using tools::command_line;
+using tools::common_options;
+using tools::exit_status;
+
+void add_operations(command_line& line) {
+    line.group("OP");
+    line.mention({.names = "union", .text = "what is in any; of one INPUT, its own overlaps"});
+    line.mention({.names = "intersection", .text = "what is in all"});
+    line.mention({.names = "difference", .text = "the first minus all the others"});
+    line.mention({.names = "xor", .text = "what is in an odd number of them"});
+    line.mention({.names = "split", .text = "cut all along each other, keep every piece"});
+}
+
+void add_options(command_line& line, boolean_settings& s) {
+    line.group("Options");
+    line.option(s.expression, {"--expr", "EXPR",
+                               "instead of OP, such as \"(a-b)*(c+d)\"; a is INPUT 1;\n"
+                               "+ | union, * & intersection, -, ^ exclusive or"});
+    line.repeatable_option(s.matrix_texts,
+                           {"--matrix", "N:FILE", "4x4 matrix for INPUT N (repeatable)"});
+    line.option({"--inside", "RULE", "what is solid: nonzero | odd | positive", "nonzero"},
+                [&s](std::string_view text) { s.inside = tools::parse_inside(text); });
+    line.flag(s.check, {"--check", "", "only check that the inputs bound solids"});
+    line.refuse("--accept-open", false, "is not built yet");
+    line.refuse("--simplify", false, "is not built yet");
+    line.option(
+        {"--max-move", "DIST", "fail (exit 1) if rounding moves a point further"},
+        [&s](std::string_view text) { s.max_move = tools::parse_distance("--max-move", text); });
+}
+
+void add_what_to_give_back(command_line& line, boolean_settings& s, common_options& options) {
+    line.group("What to give back");
+    line.output(options.output, {"-o, --output", "FILE", "the solid"});
+    line.option({"--source", "P",
+                 "write source mesh and face of each face to\n"
+                 "properties P_mesh, P_face of a PLY",
+                 "source"},
+                [&s](std::string_view text) {
+                    s.source = text;
+                    s.source_given = true;
+                });
+    line.flag(s.no_attributes, {"--no-attributes", "", "do not interpolate colours, uv, others"});
+}
+
+const char* const epilogue =
+    "DIST is in the unit of the files; \"0.01%\" is that share of the diagonal of the\n"
+    "box of all INPUTs. What is inside is decided exactly on the coordinates as read\n"
+    "(with --matrix, as moved in double). Inputs may overlap themselves, touch, and\n"
+    "share faces; corners with equal coordinates are one. Only the result is rounded:\n"
+    "it is checked in the coordinates that are written, and mended where rounding has\n"
+    "made faces meet. What cannot be certified is not written. Points that were not\n"
+    "cut stay bit for bit. Meshes and faces are numbered from 0, faces as in the\n"
+    "files.\n"
+    "\n"
+    "Examples:\n"
+    "  tf-boolean difference body.stl hole1.stl hole2.stl -o out.ply --source from\n"
+    "  tf-boolean union part.stl -o solid.stl\n"
+    "  tf-boolean --expr \"(a-b)*c\" a.obj b.obj c.obj --matrix 2:m.txt -o out.obj\n"
+    "  tf-boolean --check *.stl\n"
+    "\n"
+    "Exit status: 0 done, output is closed, consistently oriented and free of\n"
+    "  self-intersections in the precision written; 1 an input is not a solid (the\n"
+    "  report says where) or the result could not be written so; 2 usage; 3 input;\n"
+    "  4 output; 5 stopped (memory, timeout, signal); 70 bug.\n";
+
+tf::solid_result compute(tools::job& work, const boolean_settings& s,
+                         const std::vector<tools::solid>& solids, bool to_single) {
+    const auto timing = work.time("cut");
+    const std::vector<tf::mesh_view> views = tools::views_of(solids);
+    tf::boolean_options options;
+    options.inside = s.inside;
+    options.to_float = to_single;
+    options.progress = work.progress(s.name());
+    tf::solid_result result = s.splits()
+                                  ? tf::split(views, options)
+                                  : tf::boolean(views, tools::formula_of(s, views.size()), options);
+    work.out.end_progress();
+    work.keeper.check();
+    if (result.cancelled) throw tools::failure(tools::stopped, "stopped", work.name + ": stopped");
+    return result;
+}
+
+exit_status check_only(tools::job& work, const std::vector<tools::solid>& solids) {
+    const std::size_t open = tools::check_solids(work, solids);
+    const std::string all = tools::counted(solids.size(), "input", "inputs");
+    work.out.result(work.name + ": " +
+                    (open == 0 ? all + (solids.size() == 1 ? " bounds a solid" : " bound solids")
+                               : tools::grouped(open) + " of " + all + " bound no solid"));
+    return open == 0 ? tools::done : tools::found;
+}
+
+/// Whether rounding stays within --max-move.
+bool moves_too_far(tools::job& work, const boolean_settings& s,
+                   const std::vector<tools::solid>& solids, const tf::solid_result& result) {
+    if (!s.max_move) return false;
+    const double allowed = s.max_move->used(tools::diagonal_of(solids));
+    work.entry["max_move"]["used"] = allowed;
+    if (result.max_move <= allowed) return false;
+    work.warn("max-move", "rounding moves a point by up to " + tools::shortest(result.max_move) +
+                              ", more than " + tools::shortest(allowed) + "; nothing written");
+    return true;
+}
+
+exit_status operate(tools::job& work, const boolean_settings& s) {
+    tools::enter_blank_report(work, s);
+    tools::check_output_places(work);
+    const std::vector<tools::solid> solids = tools::read_solids(work, s);
+    if (s.check) return check_only(work, solids);
+    const bool to_single = tools::writes_single(work, solids);
+    tf::solid_result result = compute(work, s, solids, to_single);
+    if (!result.open.empty()) {
+        const std::size_t open = tools::check_solids(work, solids);
+        work.out.result(work.name + ": " + tools::grouped(open) + " of " +
+                        tools::counted(solids.size(), "input", "inputs") +
+                        " bound no solid; nothing written");
+        return tools::found;
+    }
+    for (tools::json& input : work.entry["inputs"])
+        input["closed"] = s.splits() ? tools::json(nullptr) : tools::json(true);
+    tools::enter_result(work, s, result, to_single);
+    work.out.result(work.name + ": " + tools::verdict(work, s, result));
+    tools::say_details(work, result);
+    tools::warn_of_surprises(work, s, solids, result);
+    if (!result.certified) {
+        work.warn("not-certified",
+                  to_single ? "nothing written; --precision double, in a format that has it, may do"
+                            : "nothing written");
+        return tools::found;
+    }
+    if (moves_too_far(work, s, solids, result)) return tools::found;
+    tools::write_surface(work, s, solids, result, to_single);
+    return tools::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    command_line line("tf-boolean", "OP [OPTIONS] INPUT...",
+                      "Exact set operations on solids bounded by triangle meshes.");
+    boolean_settings s;
+    common_options options;
+    options.suffix = "-boolean";
+    options.joined = true;
+    line.inputs(options.inputs, "STL OBJ PLY OFF GLB/glTF 3MF files; \"-\" = stdin");
+    add_operations(line);
+    add_options(line, s);
+    add_what_to_give_back(line, s, options);
+    line.group("Common options");
+    tools::add_common_options(line, options,
+                              {.output_formats = {"ply", "obj", "stl", "off", "glb"}});
+    line.refuse("--html", true, "makes no sense here");
+    line.epilogue(epilogue);
+    return tools::run(
+        line, options, {"read", "prepare", "cut", "check", "write"}, argc, argv,
+        [&] { tools::settle_words(s, options); },
+        [&](tools::job& work) { return operate(work, s); });
+}

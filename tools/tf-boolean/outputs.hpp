@@ -1,0 +1,28 @@
+#pragma once
+/// \file
+/// What a set operation is written to: the report and the mesh.
+
+#include "tools/tf-boolean/settings.hpp"
+#include "tools/tf-boolean/solids.hpp"
+
+namespace tools {
+
+/// Looks at the output before the work, so that it is not lost in the end. \throws failure
+void check_output_places(const job& work);
+
+/// The keys of the report's file, each with nothing in it.
+void enter_blank_report(job& work, const boolean_settings& settings);
+
+/// Whether the result will be written as float32.
+[[nodiscard]] bool writes_single(const job& work, const std::vector<solid>& solids);
+
+/// The facts of the result.
+void enter_result(job& work, const boolean_settings& settings, const tf::solid_result& result,
+                  bool to_single);
+
+/// Writes the surface, reads it again, and puts it in its place only if it is what was certified.
+/// \throws failure (bad_output)
+void write_surface(job& work, const boolean_settings& settings, const std::vector<solid>& solids,
+                   tf::solid_result& result, bool to_single);
+
+}  // namespace tools

@@ -1,0 +1,109 @@
+#include "tools/tf-boolean/settings.hpp"
+
+#include "tools/common/exit_status.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace tools {
+namespace {
+
+constexpr std::array<const char*, 5> operations{"union", "intersection", "difference", "xor",
+                                                "split"};
+constexpr std::array<const char*, 3> rules{"nonzero", "odd", "positive"};
+
+[[noreturn]] void refuse(const std::string& text) { throw failure(bad_usage, "usage", text); }
+
+bool is_operation(const std::string& word) {
+    return std::find(operations.begin(), operations.end(), word) != operations.end();
+}
+
+template <std::size_t N>
+std::string listed(const std::array<const char*, N>& words) {
+    std::string list;
+    for (const char* word : words) list += (list.empty() ? "" : ", ") + std::string(word);
+    return list;
+}
+
+void take_operation(boolean_settings& s, common_options& o) {
+    if (!s.expression.empty()) return;
+    const std::string& first = o.inputs.front();
+    if (is_operation(first)) {
+        s.operation = first;
+        o.inputs.erase(o.inputs.begin());
+    } else if (!s.check) {
+        refuse(first + ": no operation; expected one of " + listed(operations) + ", or --expr");
+    }
+    if (o.inputs.empty()) refuse(s.operation + ": expected an INPUT");
+}
+
+/// "2:m.txt"
+void take_matrices(boolean_settings& s, common_options& o) {
+    s.matrix_files.resize(o.inputs.size());
+    for (const std::string& text : s.matrix_texts) {
+        const std::size_t colon = text.find(':');
+        if (colon == std::string::npos || colon + 1 == text.size())
+            refuse("--matrix " + text + ": expected N:FILE");
+        const std::uint64_t number = parse_count("--matrix", text.substr(0, colon));
+        if (number < 1 || number > o.inputs.size())
+            refuse("--matrix " + text + ": there " +
+                   (o.inputs.size() == 1 ? std::string("is one INPUT")
+                                         : "are INPUTs 1 to " + std::to_string(o.inputs.size())));
+        std::filesystem::path& file = s.matrix_files[number - 1];
+        if (!file.empty()) refuse("--matrix: INPUT " + std::to_string(number) + " has two");
+        file = text.substr(colon + 1);
+        std::error_code error;
+        if (!o.output.empty() && std::filesystem::equivalent(o.output, file, error))
+            refuse(o.output.string() + " is an input; no output may replace it");
+    }
+}
+
+void refuse_what_does_nothing(const boolean_settings& s, const common_options& o) {
+    const bool mesh = wants_mesh(o);
+    if (s.check && mesh) refuse("--check writes no mesh");
+    if (s.check && s.max_move) refuse("--max-move: --check moves nothing");
+    if (!mesh && (o.ascii || o.binary || !o.output_format.empty()))
+        refuse("--output-format, --ascii and --binary need -o");
+    if (s.check && o.precision != "keep") refuse("--precision: --check writes no mesh");
+    if (s.splits() && s.inside != tf::inside_rule::nonzero)
+        refuse("--inside: split keeps every piece");
+    if (s.source.empty() || s.source.find_first_of(" \t\r\n") != std::string::npos)
+        refuse("--source: expected a name without blanks");
+    if (s.source_given && (!mesh || mesh_format(o, o.output) != "ply"))
+        refuse("--source needs an output with properties: ply");
+}
+
+}  // namespace
+
+tf::inside_rule parse_inside(std::string_view text) {
+    for (std::size_t i = 0; i < rules.size(); ++i)
+        if (text == rules[i]) return static_cast<tf::inside_rule>(i);
+    refuse("--inside " + std::string(text) + ": expected one of " + listed(rules));
+}
+
+const char* name_of(tf::inside_rule rule) { return rules[static_cast<std::size_t>(rule)]; }
+
+void settle_words(boolean_settings& settings, common_options& options) {
+    take_operation(settings, options);
+    take_matrices(settings, options);
+    refuse_what_does_nothing(settings, options);
+    if (!settings.splits() && !settings.name().empty())
+        static_cast<void>(formula_of(settings, options.inputs.size()));
+}
+
+tf::boolean_expression formula_of(const boolean_settings& settings, std::size_t operands) {
+    using tf::boolean_expression;
+    if (settings.operation == "union") return boolean_expression::union_of(operands);
+    if (settings.operation == "intersection") return boolean_expression::intersection_of(operands);
+    if (settings.operation == "difference") return boolean_expression::difference_of(operands);
+    if (settings.operation == "xor") return boolean_expression::xor_of(operands);
+    try {
+        return {settings.expression, operands};
+    } catch (const std::invalid_argument& error) {
+        const std::string text = error.what();
+        refuse("--expr: " + text.substr(text.find(": ") + 2));
+    }
+}
+
+}  // namespace tools

@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// What a user of tf-boolean asks for.
+
+#include "tools/common/common_options.hpp"
+#include "tools/common/parse_value.hpp"
+#include <libmesh/boolean/boolean.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tools {
+
+struct boolean_settings {
+    std::string operation{};                  ///< the word, as typed; empty where there is none
+    std::string expression{};                 ///< of --expr
+    std::vector<std::string> matrix_texts{};  ///< of --matrix, "N:FILE"
+    std::vector<std::filesystem::path> matrix_files{};  ///< by input; empty: it is not moved
+    tf::inside_rule inside = tf::inside_rule::nonzero;
+    bool check = false;
+    std::optional<distance> max_move{};
+    std::string source = "source";  ///< properties SOURCE_mesh, SOURCE_face
+    bool source_given = false;
+    bool no_attributes = false;
+
+    [[nodiscard]] bool splits() const { return operation == "split"; }
+    /// The operation as reports have it: the word, or the formula.
+    [[nodiscard]] const std::string& name() const {
+        return expression.empty() ? operation : expression;
+    }
+};
+
+/// \throws failure (bad_usage)
+[[nodiscard]] tf::inside_rule parse_inside(std::string_view text);
+[[nodiscard]] const char* name_of(tf::inside_rule rule);
+
+/// Takes the operation from the words of the command line, the first of which it is unless --expr
+/// or --check makes do without, and refuses what makes no sense. \throws failure (bad_usage)
+void settle_words(boolean_settings& settings, common_options& options);
+
+/// \throws failure (bad_usage) when the formula cannot be read
+[[nodiscard]] tf::boolean_expression formula_of(const boolean_settings& settings,
+                                                std::size_t operands);
+
+}  // namespace tools

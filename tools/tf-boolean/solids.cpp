@@ -1,0 +1,139 @@
+#include "tools/tf-boolean/solids.hpp"
+
+#include "tools/common/console.hpp"
+#include "tools/common/matrix_file.hpp"
+#include <libmesh/bounding_box.hpp>
+#include <libmesh/validate.hpp>
+#include <libmesh/volume.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace tools {
+namespace {
+
+json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
+
+std::string in_words(const tf::point3& p) {
+    return "(" + shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z) + ")";
+}
+
+/// Leaves out the faces that cannot be computed with.
+void keep_usable(job& work, solid& s) {
+    const tf::mesh_defects defects = tf::find_defects(s.file.mesh);
+    std::vector<std::uint32_t> unusable;
+    std::merge(defects.nonfinite_faces.begin(), defects.nonfinite_faces.end(),
+               defects.out_of_range_faces.begin(), defects.out_of_range_faces.end(),
+               std::back_inserter(unusable));
+    s.non_finite = unusable.size();
+    if (unusable.empty()) return;
+    std::vector<tf::face> usable;
+    auto next = unusable.begin();
+    for (std::uint32_t f = 0; f < s.file.mesh.faces.size(); ++f) {
+        if (next != unusable.end() && *next == f) {
+            ++next;
+            continue;
+        }
+        usable.push_back(s.file.mesh.faces[f]);
+        s.triangle_of_face.push_back(f);
+    }
+    s.file.mesh.faces = std::move(usable);
+    work.warn("non-finite", s.path + ": " + counted(s.non_finite, "face", "faces") +
+                                " with a NaN or infinite coordinate left out");
+}
+
+solid read_solid(job& work, const std::string& path, const std::filesystem::path& matrix_file,
+                 json& about) {
+    solid s;
+    s.path = path;
+    s.file = work.read(path, about);
+    for (const tf::io_warning& w : s.file.warnings) work.warn(w.code, path + ": " + w.text);
+    const auto timing = work.time("prepare");
+    s.triangles = s.file.mesh.faces.size();
+    if (!matrix_file.empty()) {
+        const tf::transform<3> matrix = read_matrix(matrix_file);
+        for (tf::point3& p : s.file.mesh.points) p = matrix(p);
+        about["matrix"] = matrix_file.string();
+    }
+    keep_usable(work, s);
+    if (s.file.mesh.faces.empty())
+        throw failure(bad_input, "no-triangles", path + ": no triangle with finite coordinates");
+    about["faces"] = s.file.stored_faces;
+    about["triangles"] = s.triangles;
+    about["volume"] = tf::signed_volume(s.file.mesh);
+    about["skipped"]["non_finite"] = s.non_finite;
+    return s;
+}
+
+json edge_entry(const tf::open_operand_edge& edge, const solid& s) {
+    return {{"face", s.stored_face(edge.face.index)},
+            {"from", triple(edge.ends[0])},
+            {"to", triple(edge.ends[1])}};
+}
+
+std::string reason_of(const tf::solid_check& found, const solid& s) {
+    const tf::open_operand_edge& first = found.open.front();
+    return "its surface ends at " + counted(found.open_count, "edge", "edges") +
+           ", the first from " + in_words(first.ends[0]) + " to " + in_words(first.ends[1]) +
+           " at face " + std::to_string(s.stored_face(first.face.index));
+}
+
+}  // namespace
+
+std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
+    std::vector<solid> solids;
+    for (std::size_t i = 0; i < work.options.inputs.size(); ++i) {
+        const std::string& path = work.options.inputs[i];
+        work.entry["inputs"].push_back({{"file", path}});
+        json& about = work.entry["inputs"].back();
+        for (const char* key : {"format", "sha256", "precision_in", "matrix", "faces", "triangles",
+                                "volume", "closed", "reason"})
+            about[key] = nullptr;
+        about["open"] = {{"count", nullptr}, {"list", json::array()}};
+        about["skipped"] = {{"non_finite", nullptr}};
+        solids.push_back(read_solid(work, path, settings.matrix_files[i], about));
+    }
+    return solids;
+}
+
+std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids) {
+    std::vector<tf::mesh_view> views;
+    for (const solid& s : solids) views.push_back(s.file.mesh);
+    return views;
+}
+
+double diagonal_of(const std::vector<solid>& solids) {
+    std::vector<tf::point3> corners;
+    for (const solid& s : solids)
+        if (const auto box = tf::bounding_box(s.file.mesh.points)) {
+            corners.push_back(box->min);
+            corners.push_back(box->max);
+        }
+    const auto box = tf::bounding_box(corners);
+    return box ? tf::diagonal(*box) : 0.0;
+}
+
+std::size_t check_solids(job& work, const std::vector<solid>& solids) {
+    const auto timing = work.time("check");
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+        const tf::solid_check found = tf::check_solid(solids[i].file.mesh, work.progress("check"));
+        work.out.end_progress();
+        work.keeper.check();
+        if (found.cancelled) throw failure(stopped, "stopped", work.name + ": stopped");
+        json& about = work.entry["inputs"][i];
+        about["closed"] = found.open.empty();
+        about["open"]["count"] = found.open_count;
+        if (found.open.empty()) continue;
+        ++open;
+        for (const tf::open_operand_edge& edge : found.open)
+            about["open"]["list"].push_back(edge_entry(edge, solids[i]));
+        const std::string reason = reason_of(found, solids[i]);
+        about["reason"] = reason;
+        work.warn("open", solids[i].path + ": no solid: " + reason);
+    }
+    return open;
+}
+
+}  // namespace tools

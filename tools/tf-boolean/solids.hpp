@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// The operands: files read, moved, and looked at.
+
+#include "tools/common/run.hpp"
+#include "tools/tf-boolean/settings.hpp"
+#include <libmesh/boolean/boolean.hpp>
+#include <libmesh/io/mesh_file.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+/// `file.mesh` is as moved, and has the finite triangles only.
+struct solid {
+    std::string path{};
+    tf::mesh_file file{};
+    std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
+    std::uint64_t triangles = 0;                    ///< in the file
+    std::uint64_t non_finite = 0;                   ///< triangles left out
+
+    /// The number in the file.
+    [[nodiscard]] std::uint32_t stored_face(std::uint32_t face) const {
+        const std::uint32_t t = triangle_of_face.empty() ? face : triangle_of_face[face];
+        return file.stored_face.empty() ? t : file.stored_face[t];
+    }
+};
+
+/// Reads and moves all inputs, and enters them in the report. \throws failure
+[[nodiscard]] std::vector<solid> read_solids(job& work, const boolean_settings& settings);
+
+[[nodiscard]] std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids);
+
+/// Length of the diagonal of the box of all solids.
+[[nodiscard]] double diagonal_of(const std::vector<solid>& solids);
+
+/// Looks for open edges of each one, and says in the report where they are; how many are open.
+[[nodiscard]] std::size_t check_solids(job& work, const std::vector<solid>& solids);
+
+}  // namespace tools

@@ -1,0 +1,49 @@
+#include "tools/tf-boolean/words.hpp"
+
+#include "tools/common/console.hpp"
+#include "tools/tf-boolean/properties.hpp"
+
+namespace tools {
+
+std::string verdict(const job& work, const boolean_settings& settings,
+                    const tf::solid_result& result) {
+    const json& output = work.entry["output"];
+    std::string text =
+        settings.name() + ": " + counted(result.surface.faces.size(), "face", "faces");
+    if (result.surface.faces.empty()) return text + ", nothing is left";
+    if (!settings.splits()) text += ", volume " + shortest(output["volume"].get<double>());
+    if (!result.certified)
+        return text + ", but " +
+               (result.meeting_count > 0
+                    ? counted(result.meeting_count, "pair", "pairs") + " of faces meet"
+                    : "coordinates are too large") +
+               " when rounded to " + output["precision_out"].get<std::string>();
+    if (result.max_move > 0.0)
+        text += ", rounding moved points by " + shortest(result.max_move) + " at most";
+    return text;
+}
+
+void warn_of_surprises(job& work, const boolean_settings& settings,
+                       const std::vector<solid>& solids, const tf::solid_result& result) {
+    if (result.degenerate > 0)
+        work.warn("degenerate", counted(result.degenerate, "face", "faces") +
+                                    " without an area left out; nothing changes by that");
+    const auto nonmanifold = work.entry["output"]["nonmanifold_edges"].get<std::uint64_t>();
+    if (!settings.splits() && nonmanifold > 0)
+        work.warn("nonmanifold", counted(nonmanifold, "edge", "edges") +
+                                     " of more than two faces, where parts of the result touch");
+    if (!settings.no_attributes && leaves_out_properties(solids))
+        work.warn("attributes",
+                  "normals of points, lists and properties of other elements are not carried over");
+}
+
+void say_details(job& work, const tf::solid_result& result) {
+    if (!work.out.shows(level::info)) return;
+    work.out.info(work.name + ": " + counted(result.pairs, "pair", "pairs") + " of faces meet, " +
+                  counted(result.cut_faces, "face", "faces") + " cut");
+    if (result.rounding_steps > 0)
+        work.out.info(work.name + ": rounding made faces meet; mended in " +
+                      counted(static_cast<std::uint64_t>(result.rounding_steps), "step", "steps"));
+}
+
+}  // namespace tools

@@ -1,0 +1,23 @@
+#pragma once
+/// \file
+/// The outcome in words.
+
+#include "tools/tf-boolean/settings.hpp"
+#include "tools/tf-boolean/solids.hpp"
+
+#include <string>
+
+namespace tools {
+
+/// "union: 1,234 faces, volume 1.875, moved by 1.1e-16 at most"
+[[nodiscard]] std::string verdict(const job& work, const boolean_settings& settings,
+                                  const tf::solid_result& result);
+
+/// What users may trip over.
+void warn_of_surprises(job& work, const boolean_settings& settings,
+                       const std::vector<solid>& solids, const tf::solid_result& result);
+
+/// What -v adds.
+void say_details(job& work, const tf::solid_result& result);
+
+}  // namespace tools
