@@ -104,12 +104,13 @@ enum class family : std::uint8_t {
     nearly_one,       ///< four such
     far_away,         ///< small and far from the origin
     far_and_parallel,
-    wide,    ///< exponents of -1000 to 1000
-    stream,  ///< point_stream's families follow
+    wide,     ///< exponents of -1000 to 1000
+    largest,  ///< up to the end of the range: points beyond it
+    stream,   ///< point_stream's families follow
 };
-constexpr std::array<std::string_view, 7> family_names = {
+constexpr std::array<std::string_view, 8> family_names = {
     "random",           "small_grid", "nearly_parallel", "nearly_one", "far_away",
-    "far_and_parallel", "wide"};
+    "far_and_parallel", "wide",       "largest"};
 constexpr std::size_t families = family_names.size() + tf::test::point_family_names.size();
 
 std::string_view name_of(std::size_t f) {
@@ -179,6 +180,8 @@ class groups {
                 return 0x1.234567p20 + x;
             case family::wide:
                 return std::ldexp(x, static_cast<int>(random_.below(2000)) - 1000);
+            case family::largest:
+                return std::ldexp(x, 1024);
             default:
                 return x;
         }
@@ -248,6 +251,18 @@ bool is_rounded(const known_point& p) {
     return true;
 }
 
+/// A given point that is off by few radii, or few units in the last place.
+known_point beside(const known_point& p, random_source& random) {
+    point3 near = tf::rounded(p.point);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!std::isfinite(near[i])) return given({});
+        if (random.one_in(2)) near[i] = std::nextafter(near[i], random.one_in(2) ? 1e308 : -1e308);
+        const double moved = near[i] + p.point.radius() * random.whole(-8, 8) / 4.0;
+        if (random.one_in(2) && std::isfinite(moved)) near[i] = moved;
+    }
+    return given(near);
+}
+
 /// Points of all kinds; the first three on a line, the next two nearly always one point.
 std::vector<known_point> points_of(groups& from, const std::vector<plane_points>& t) {
     std::vector<known_point> points;
@@ -294,6 +309,12 @@ void run(groups& from, tallies& result) {
         result.equal.add(tf::equal(p.point, q.point, counters) ? 0 : 1, p.at == q.at ? 0 : 1);
         result.orient2d.add(tf::orient2d(axis, p.point, q.point, r.point, counters),
                             sgn(outer(minus(q.at, p.at), minus(r.at, p.at))[component]));
+        const known_point near = beside(p, from.random());
+        result.compare.add(tf::compare(axis, p.point, near.point, counters),
+                           cmp(p.at[component], near.at[component]));
+        result.equal.add(tf::equal(near.point, p.point, counters) ? 0 : 1, near.at == p.at ? 0 : 1);
+        result.orient2d.add(tf::orient2d(axis, p.point, q.point, near.point, counters),
+                            sgn(outer(minus(q.at, p.at), minus(near.at, p.at))[component]));
         const plane_points& plane = t[from.random().below(t.size())];
         result.side.add(tf::side(plane, p.point, counters),
                         sgn(inner(normal(plane), minus(p.at, rational(plane.a)))));

@@ -142,6 +142,8 @@ TEST_CASE("coordinates round to nearest, ties to even") {
     CHECK(tf::rounded_to_float(middle(1, 1 + float_ulp)).x == 1.0);
     CHECK(tf::rounded_to_float(middle(1, 1 + float_ulp + ulp)).x == 1.0 + float_ulp);
     CHECK(tf::rounded_to_float(middle(1, 1 + float_ulp - ulp)).x == 1.0);
+    CHECK(tf::rounded_to_float(point3{1 + 0x1p-24, 1 + 0x3p-24, -1 - 0x1.0000001p-24}) ==
+          point3{1, 1 + 2 * float_ulp, -1 - float_ulp});
     // The nearest double is a tie of floats, the point is not.
     const auto beside = constructed_point::where_lines_cross(
         {1, 0, 0}, {1 + float_ulp, 1, 0}, {0, 0.5 + 0x1p-53, 0}, {2, 0.5 + 0x1p-53, 0});
