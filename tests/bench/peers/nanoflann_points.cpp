@@ -1,8 +1,7 @@
 #include "bench/peers/nanoflann_points.hpp"
 
+#include "bench/peers/nanoflann_cloud.hpp"
 #include "bench/peers/versions.hpp"
-
-#include <nanoflann.hpp>
 
 #include <array>
 #include <utility>
@@ -10,27 +9,13 @@
 namespace tf::bench {
 namespace {
 
-struct cloud {
-    const std::vector<point3>& points;
-
-    [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-    [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t k) const { return points[i][k]; }
-    template <class Box>
-    bool kdtree_get_bbox(Box&) const {
-        return false;
-    }
-};
-
-using kd_tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, cloud>,
-                                                    cloud, 3, std::uint32_t>;
-
 std::array<double, 3> flat(const point3& p) { return {p.x, p.y, p.z}; }
 
 }  // namespace
 
 struct nanoflann_tree::state {
-    cloud given;
-    kd_tree tree;
+    nanoflann_cloud given;
+    nanoflann_index tree;
 
     explicit state(const std::vector<point3>& points)
         : given{points}, tree(3, given, nanoflann::KDTreeSingleIndexAdaptorParams(10)) {}

@@ -1,6 +1,6 @@
 #include "bench/peers/nanoflann_weld.hpp"
 
-#include <nanoflann.hpp>
+#include "bench/peers/nanoflann_cloud.hpp"
 
 #include <array>
 #include <cstddef>
@@ -9,27 +9,9 @@
 #include <utility>
 
 namespace tf::bench {
-namespace {
-
-struct cloud {
-    const std::vector<point3>& points;
-
-    [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-    [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t k) const { return points[i][k]; }
-    template <class Box>
-    bool kdtree_get_bbox(Box&) const {
-        return false;
-    }
-};
-
-using kd_tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, cloud>,
-                                                    cloud, 3, std::uint32_t>;
-
-}  // namespace
-
 std::vector<std::uint32_t> nanoflann_weld(const std::vector<point3>& points, double tolerance) {
-    const cloud given{points};
-    kd_tree tree(3, given, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+    const nanoflann_cloud given{points};
+    nanoflann_index tree(3, given, nanoflann::KDTreeSingleIndexAdaptorParams(10));
     tree.buildIndex();
     nanoflann::SearchParams options;
     options.sorted = false;
