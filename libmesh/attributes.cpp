@@ -78,6 +78,15 @@ const column* find_column(const element& e, std::string_view name) {
     return at == e.columns.end() ? nullptr : &*at;
 }
 
+bool set_column(element& e, column c) {
+    if (const column* found = find_column(e, c.name)) {
+        const_cast<column&>(*found) = std::move(c);
+        return true;
+    }
+    e.columns.push_back(std::move(c));
+    return false;
+}
+
 const element* find_element(const attributes& a, std::string_view name) {
     const auto at = std::find_if(a.elements.begin(), a.elements.end(),
                                  [&](const element& e) { return e.name == name; });

@@ -141,6 +141,12 @@ struct element {
 /// The column of that name; null when there is none.
 [[nodiscard]] TREEFORM_API const column* find_column(const element& e, std::string_view name);
 
+/// Puts `c` in the place of the column of its name, at the end when there is none. Returns whether
+/// there was one.
+///
+/// \pre `c` has a value for each row of `e`
+TREEFORM_API bool set_column(element& e, column c);
+
 /// A run of faces that a file puts under one name; it ends where the next one starts.
 struct part {
     std::string object{};          ///< OBJ `o`, the name of an STL solid or of a scene's node

@@ -1,3 +1,4 @@
+#include "tools/common/class_colors.hpp"
 #include "tools/common/console.hpp"
 #include "tools/tf-selfintersect/marks.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
@@ -6,36 +7,13 @@
 #include <libmesh/io/write.hpp>
 #include <libmesh/weld/equal_points.hpp>
 
-#include <algorithm>
-#include <string_view>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 namespace tools {
 namespace {
-
-std::uint8_t channel(std::size_t mark, std::size_t which) {
-    const std::string_view color = mark_colors[mark];
-    return static_cast<std::uint8_t>(
-        std::stoi(std::string(color.substr(1 + 2 * which, 2)), nullptr, 16));
-}
-
-/// Puts `column` in the place of one of the same name, or at the end.
-void set_column(tf::element& element, tf::column column) {
-    const auto at = std::find_if(element.columns.begin(), element.columns.end(),
-                                 [&](const tf::column& c) { return c.name == column.name; });
-    if (at == element.columns.end())
-        element.columns.push_back(std::move(column));
-    else
-        *at = std::move(column);
-}
-
-void set_colors(tf::element& element, const std::vector<std::uint8_t>& marks) {
-    constexpr const char* names[] = {"red", "green", "blue"};
-    std::vector<std::uint8_t> values(marks.size());
-    for (std::size_t which = 0; which < 3; ++which) {
-        for (std::size_t i = 0; i < marks.size(); ++i) values[i] = channel(marks[i], which);
-        set_column(element, tf::make_column<std::uint8_t>(names[which], values));
-    }
-}
 
 /// The marks of the faces searched, for all triangles of the file.
 face_marks marks_of_file(const findings& result, std::size_t triangles) {
@@ -61,12 +39,12 @@ std::vector<std::uint8_t> marks_of_vertices(const tf::mesh& mesh,
 
 void add_marks(tf::mesh_file& file, const face_marks& marks) {
     tf::element& vertices = tf::obtain_element(file.attributes, "vertex", file.mesh.points.size());
-    set_colors(vertices, marks_of_vertices(file.mesh, marks.kind));
+    set_colors(vertices, marks_of_vertices(file.mesh, marks.kind), mark_colors);
     tf::element& faces = tf::obtain_element(file.attributes, "face", file.mesh.faces.size());
-    set_colors(faces, marks.kind);
+    set_colors(faces, marks.kind, mark_colors);
     const std::vector<std::int32_t> classes(marks.kind.begin(), marks.kind.end());
-    set_column(faces, tf::make_column<std::int32_t>("tf_class", classes));
-    set_column(faces, tf::make_column<std::int32_t>("tf_region", marks.region));
+    tf::set_column(faces, tf::make_column<std::int32_t>("tf_class", classes));
+    tf::set_column(faces, tf::make_column<std::int32_t>("tf_region", marks.region));
 }
 
 void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written) {

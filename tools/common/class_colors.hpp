@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// Faces and vertices in the colours of their classes.
+
+#include <libmesh/attributes.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace tools {
+
+/// Gives each row of `element` the colour of its class, as the columns red, green and blue.
+///
+/// \pre `classes` has one for each row, each of which has a color, "#rrggbb"
+void set_colors(tf::element& element, std::span<const std::uint8_t> classes,
+                std::span<const char* const> colors);
+
+}  // namespace tools
