@@ -2,6 +2,7 @@
 #include <libmesh/weld/detail/moves.hpp>
 #include <libmesh/weld/detail/near_cells.hpp>
 #include <libmesh/weld/detail/reach.hpp>
+#include <libmesh/weld/detail/settle_in_chain.hpp>
 #include <libmesh/weld/tile_weld.hpp>
 
 #include <algorithm>
@@ -190,28 +191,35 @@ class chain_in_tile {
         }
     }
 
-    void finish(tile_result& out) {
-        const point_groups groups =
-            weld_points(points_, {.tolerance = tolerance_, .rule = weld_rule::chain});
-        points_ = {};
-        for (std::size_t i = 0; i < tags_.size(); ++i) {
-            const tile_point p{tags_[i], {}};
-            const std::uint64_t lowest =
-                tags_[groups.first_of_group[groups.group_of_point[i]]] >> 2;
-            if (p.role() != tile_role::halo && lowest != p.id())
-                out.dropped.push_back({p.id(), lowest});
-            if (p.role() == tile_role::own) continue;
-            border_point link = border_point::make(p.id(), border_kind::link);
-            link.leader = lowest;
-            out.border.push_back(link);
+    /// Returns whether there is more.
+    [[nodiscard]] bool finish(tile_result& out) {
+        constexpr std::size_t piece = std::size_t{1} << 16;
+        if (next_ == 0) group();
+        const std::size_t end = std::min(tags_.size(), next_ + piece);
+        for (; next_ < end; ++next_) {
+            const std::uint32_t group = groups_.group_of_point[next_];
+            const std::uint32_t lowest = groups_.first_of_group[group];
+            detail::settle_in_chain({tags_[next_], points_[next_]},
+                                    {tags_[lowest] >> 2, points_[lowest], elsewhere_[group]}, out);
         }
-        tags_ = {};
+        return next_ < tags_.size();
     }
 
   private:
+    void group() {
+        groups_ = weld_points(points_, {.tolerance = tolerance_, .rule = weld_rule::chain});
+        elsewhere_.assign(groups_.first_of_group.size(), false);
+        for (std::size_t i = 0; i < tags_.size(); ++i)
+            if (tile_point{tags_[i], {}}.role() != tile_role::own)
+                elsewhere_[groups_.group_of_point[i]] = true;
+    }
+
     double tolerance_;
     std::vector<point3> points_{};
     std::vector<std::uint64_t> tags_{};
+    point_groups groups_{};
+    std::vector<bool> elsewhere_{};  ///< [G] some of the group's points are in other tiles, too
+    std::size_t next_ = 0;
 };
 
 /// Sets of numbers; each is known by its lowest.
@@ -360,9 +368,7 @@ void tile_weld::add(std::span<const tile_point> points, tile_result& out) {
     if (state_->chain) state_->chain->add(points);
 }
 
-void tile_weld::finish(tile_result& out) {
-    if (state_->chain) state_->chain->finish(out);
-}
+bool tile_weld::finish(tile_result& out) { return state_->chain && state_->chain->finish(out); }
 
 struct border_weld::state {
     explicit state(double tolerance) : within(tolerance), kept(tolerance) {}
@@ -420,6 +426,18 @@ std::uint64_t border_weld::leader_of(std::uint64_t leader) const {
     return state_->sets.lowest(leader);
 }
 
+tile_member border_weld::settled(const tile_member& member) const {
+    const std::uint64_t lowest = leader_of(member.lowest());
+    return tile_member::make(lowest, member.is_lowest() && lowest == member.lowest(), member.at);
+}
+
 const longest_move& border_weld::move() const { return state_->move; }
+
+void chain_moves::add(const tile_member& member) {
+    if (member.is_lowest())
+        lowest_ = member.at;
+    else
+        move_.consider(member.at, lowest_);
+}
 
 }  // namespace tf

@@ -29,7 +29,9 @@
 ///
 /// Rule `chain`. The points that are linked inside a tile are one component there. A component of
 /// the cloud is one of tiles' components that share points, and shared are points of a slab that
-/// are in the halo of another: the border pass joins what they name.
+/// are in the halo of another: the border pass joins what they name. How far its points are from
+/// the lowest is known to no tile before; a tile names the points of components that may be larger,
+/// each with the lowest it knows of, and `chain_moves` measures when all are brought together.
 
 #include <libmesh/points.hpp>
 #include <libmesh/weld/weld_points.hpp>
@@ -119,6 +121,18 @@ struct border_point {
     [[nodiscard]] border_kind kind() const { return static_cast<border_kind>(tag & 3); }
 };
 
+/// A point of a component that is in several tiles, with the rule chain.
+struct tile_member {
+    std::uint64_t tag = 0;  ///< number of the component's lowest point * 2 + 1; * 2 when it is that
+    point3 at{};
+
+    [[nodiscard]] static tile_member make(std::uint64_t lowest, bool is_lowest, const point3& at) {
+        return {lowest << 1 | (is_lowest ? 0U : 1U), at};
+    }
+    [[nodiscard]] std::uint64_t lowest() const { return tag >> 1; }
+    [[nodiscard]] bool is_lowest() const { return (tag & 1) == 0; }
+};
+
 /// The longest way from a dropped point to its leader.
 class TREEFORM_API longest_move {
   public:
@@ -139,7 +153,9 @@ class TREEFORM_API longest_move {
 struct tile_result {
     std::vector<tile_drop> dropped{};    ///< by ascending numbers; for good with the rule first
     std::vector<border_point> border{};  ///< by ascending numbers
-    longest_move move{};                 ///< of `dropped`, with the rule first
+    std::vector<tile_member> members{};  ///< with the rule chain
+    /// Of `dropped`, with the rule chain but for the `members`.
+    longest_move move{};
 };
 
 /// One tile.
@@ -156,16 +172,16 @@ class TREEFORM_API tile_weld {
 
     /// Takes the next points, whose numbers ascend over all calls, and appends what they lead to.
     /// With the rule first only points that are kept or open take memory from then on, some 60
-    /// bytes each; with the rule chain all do, some 100 each.
+    /// bytes each; with the rule chain all do, some 100 each, and `crowded_chain` is for more.
     ///
     /// \pre all coordinates are finite
     /// \cost O(1) a point with the rule first, expected, where those kept or open are not crowded
     void add(std::span<const tile_point> points, tile_result& out);
 
-    /// The end of the tile; call it once. \throws std::invalid_argument for the rule chain and more
-    /// than 2^32 - 2 points
+    /// The end of the tile, a piece of the result at a time: call it until it returns false.
+    /// \throws std::invalid_argument for the rule chain and more than 2^32 - 2 points
     /// \cost as `weld_points` with the rule chain
-    void finish(tile_result& out);
+    [[nodiscard]] bool finish(tile_result& out);
 
   private:
     struct state;
@@ -192,6 +208,8 @@ class TREEFORM_API border_weld {
 
     /// The kept point that the leader named by a tile belongs to; itself with the rule first.
     [[nodiscard]] std::uint64_t leader_of(std::uint64_t leader) const;
+    /// What a tile says of a point, with the lowest of the whole component.
+    [[nodiscard]] tile_member settled(const tile_member& member) const;
 
     /// Of the points dropped here, with the rule first.
     [[nodiscard]] const longest_move& move() const;
@@ -199,6 +217,17 @@ class TREEFORM_API border_weld {
   private:
     struct state;
     std::unique_ptr<state> state_;
+};
+
+/// The longest move of settled members, whose tags ascend over all calls.
+class TREEFORM_API chain_moves {
+  public:
+    void add(const tile_member& member);
+    [[nodiscard]] const longest_move& move() const { return move_; }
+
+  private:
+    point3 lowest_{};
+    longest_move move_{};
 };
 
 }  // namespace tf

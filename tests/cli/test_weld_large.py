@@ -95,11 +95,16 @@ class Large(WeldTest):
     def test_the_report_says_the_same(self):
         points = cloud(1500) + [(float("nan"), 0.0, 0.0), (0.0, float("inf"), 0.0)]
         self.write("in.ply", ply(points, ascii=False))
-        reports = []
-        for tiled in ([], ["--tile-points", 200]):
-            report = self.report("in.ply", "-t", "0.03", "-o", "out.ply", "-f", *tiled, status=0)
-            reports.append(report["files"])
-        self.assertEqual(*reports)
+        for rule in ("first", "chain"):
+            reports, moves = [], []
+            for tiled in ([], ["--tile-points", 200]):
+                command = ["in.ply", "-t", "0.03", "--rule", rule, "-o", "out.ply", "-f", *tiled]
+                reports.append(self.report(*command, status=0)["files"])
+                said = self.run_tool(*command, "-v", status=0).err
+                moves.append(said[said.index("largest move"):].split("\n")[0])
+            self.assertEqual(*reports)
+            self.assertEqual(*moves)
+            self.assertGreater(reports[0][0]["displacement"]["max"], 0.0)
 
     def test_points_that_are_not_finite_are_kept(self):
         points = cloud(500) + 3 * [(float("nan"), 1.0, 2.0), (float("inf"), 0.0, 0.0)]
@@ -130,8 +135,8 @@ class Large(WeldTest):
         for rule in ("first", "chain"):
             self.run_tool("in.ply", "-t", "0.02", "--rule", rule, "-o", "memory.ply", "-f",
                           status=0)
-            command = ["in.ply", "-t", "0.02", "--rule", rule, "-o", "out.ply",
-                       "--tile-points", 250, "-j1"]
+            command = ["in.ply", "-t", "0.02", "--rule", rule, "-o", "out.ply", "--map",
+                       "map.csv", "--removed", "gone.ply", "--tile-points", 250, "-j1"]
             killed = 0
             for step in range(1, 200):
                 run = self.run_tool(*command, "--stop-at", step)
@@ -151,10 +156,12 @@ class Large(WeldTest):
                         os.stat(self.path("out.ply.tf-weld-tiles/" + n)).st_mtime_ns, time)
                 run = self.run_tool(*command, "-f", status=0)
                 self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
-                os.remove(self.path("out.ply"))
+                for name in ("out.ply", "map.csv", "gone.ply"):
+                    os.remove(self.path(name))
                 self.assertEqual(sorted(os.listdir(self.folder)), ["in.ply", "memory.ply"])
             self.assertGreater(killed, 5)
-            os.remove(self.path("out.ply"))
+            for name in ("out.ply", "map.csv", "gone.ply"):
+                os.remove(self.path(name))
 
     def test_a_damaged_tile_is_noticed(self):
         self.write("in.ply", ply(cloud(1500), ascii=False))
@@ -202,21 +209,62 @@ class Large(WeldTest):
         self.assertIn("mine", run.err)
         self.assertEqual(os.listdir(self.path("mine")), ["letter.txt"])
 
+    def binary(self, name, points):
+        head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
+                "property double x\nproperty double y\nproperty double z\nend_header\n")
+        return self.write(name, head.encode() + b"".join(struct.pack("<ddd", *p) for p in points))
+
+    def check_beyond_the_limit(self, points, tolerance, rules=("first", "chain"), memory="48M"):
+        """Whether memory and tiles within the limit give the same."""
+        self.binary("in.ply", points)
+        for rule in rules:
+            with self.subTest(rule=rule):
+                command = ["in.ply", "-t", tolerance, "--rule", rule, "-f"]
+                whole = self.entry(*command, "-o", "memory.ply", status=0)
+                run = self.run_tool(*command, "-o", "out.ply", "--memory", memory, "-v", "-j2",
+                                    "-r", "report.json", status=0)
+                self.assertRegex(run.err, " points in [0-9]+ tile")
+                self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+                tiles = json.loads(self.read("report.json"))["files"][0]
+                for key in ("points", "displacement"):
+                    self.assertEqual(whole[key], tiles[key])
+
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_a_cloud_beyond_the_memory_limit_is_welded_all_the_same(self):
         rng = random.Random(5)
         some = [(rng.random(), rng.random(), rng.random()) for _ in range(200000)]
-        near = some + [(x + 1e-7, y, z) for x, y, z in some]
-        heap = [p if i % 2 else (0.5, 0.5, 0.5) for i, p in enumerate(near)]
-        for points in (near, heap):
-            head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
-                    "property double x\nproperty double y\nproperty double z\nend_header\n")
-            self.write("in.ply", head.encode() + b"".join(struct.pack("<ddd", *p) for p in points))
-            self.run_tool("in.ply", "-t", "2e-7", "-o", "memory.ply", "-f", status=0)
-            run = self.run_tool("in.ply", "-t", "2e-7", "-o", "out.ply", "-f", "--memory", "48M",
-                                "-v", "-j2", status=0)
-            self.assertIn(" tiles", run.err)
-            self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+        self.check_beyond_the_limit(some + [(x + 1e-7, y, z) for x, y, z in some], "2e-7")
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_a_heap_of_equal_points_beyond_the_memory_limit_is_welded_all_the_same(self):
+        rng = random.Random(6)
+        points = [(0.5, 0.5, 0.5) if i % 4 else (rng.random(), rng.random(), rng.random())
+                  for i in range(600000)]
+        for tolerance in ("0", "2e-3"):
+            self.check_beyond_the_limit(points, tolerance)
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_a_crowd_nearer_than_the_tolerance_beyond_the_memory_limit_is_welded_all_the_same(self):
+        rng = random.Random(7)
+        crowd = lambda: tuple(0.5 + 0.02 * rng.random() for _ in range(3))
+        points = [crowd() if i % 4 else (rng.random(), rng.random(), rng.random())
+                  for i in range(600000)]
+        for tolerance in ("0.004", "0.03"):
+            self.check_beyond_the_limit(points, tolerance)
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_what_is_welded_in_memory_says_so_where_memory_is_limited(self):
+        self.binary("in.ply", [(i % 100, i // 100 % 100, i // 10000) for i in range(200000)])
+        corners = b"".join(struct.pack("<12fH", *(3 * [0.0]), *(float(i % 97 + k) for k in range(9)),
+                                       0) for i in range(100000))
+        self.write("in.stl", 80 * b" " + struct.pack("<I", 100000) + corners)
+        for inputs, enough in ((["in.stl"], "70M"), (["--join", "in.ply", "in.ply"], "140M")):
+            command = [*inputs, "-o", "out.ply", "-f"]
+            self.assertNotIn("--memory", self.run_tool(*command, status=0).err)
+            report = self.report(*command, "--memory", enough, status=0)
+            self.assertIn("in-memory", [w["code"] for w in report["files"][0]["warnings"]])
+            run = self.run_tool(*command, "--memory", "16M", status=5)
+            self.assertIn("in memory, not in tiles", run.err)
 
 
 if __name__ == "__main__":

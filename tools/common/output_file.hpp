@@ -28,6 +28,9 @@ class output_place {
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] const std::filesystem::path& writable() const { return writable_; }
+    /// The new folder, which is all that stays when the process is killed; empty where none is
+    /// needed.
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
     /// \throws failure (bad_output), also when `path` has come into being without `force`
     void commit();
 
@@ -48,6 +51,8 @@ class output_file {
     output_file(const output_file&) = delete;
     output_file& operator=(const output_file&) = delete;
 
+    /// As that of an `output_place`.
+    [[nodiscard]] const std::filesystem::path& folder() const { return place_.folder(); }
     /// \throws failure (bad_output) when the device is full or the reader has gone
     void write(std::string_view bytes);
     void commit();

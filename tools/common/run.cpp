@@ -115,7 +115,8 @@ class session {
         out_.end_progress();
         one.entry["exit"] = static_cast<int>(result.status);
         if (result.text.empty()) return;
-        const bool by_limit = result.code == "memory" && options_.memory > 0;
+        const bool by_limit = result.code == "memory" && options_.memory > 0 &&
+                              result.text.find("--memory") == std::string::npos;
         const std::string text = by_limit ? "stopped by the memory limit (--memory)" : result.text;
         one.entry["error"] = {{"code", result.code}, {"text", text}};
         const bool named = text.find(one.path) != std::string::npos;

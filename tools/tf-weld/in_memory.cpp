@@ -6,7 +6,6 @@
 #include "tools/tf-weld/welding.hpp"
 #include "tools/tf-weld/words.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace tools {
@@ -39,15 +38,9 @@ tf::mesh_file read_all(job& work) {
 /// `file` as it was, with the number of each point's group.
 void label(job& work, tf::mesh_file& file, const welding& w, const std::string& name) {
     tf::element& vertices = tf::obtain_element(file.attributes, "vertex", file.mesh.points.size());
-    tf::column column = tf::make_column<std::uint32_t>(name, w.result.groups.group_of_point);
-    const auto at = std::find_if(vertices.columns.begin(), vertices.columns.end(),
-                                 [&](const tf::column& c) { return c.name == name; });
-    if (at == vertices.columns.end()) {
-        vertices.columns.push_back(std::move(column));
-        return;
-    }
-    work.warn("replaced", "property " + name + " was there before; its values are replaced");
-    *at = std::move(column);
+    if (tf::set_column(vertices,
+                       tf::make_column<std::uint32_t>(name, w.result.groups.group_of_point)))
+        work.warn("replaced", "property " + name + " was there before; its values are replaced");
 }
 
 /// `file`, now with the points and faces that were kept.
@@ -72,10 +65,11 @@ void restore_polygons(tf::mesh_file& file, const welding& w, bool welded,
 
 }  // namespace
 
-exit_status weld_in_memory(job& work, const weld_request& request) {
+exit_status weld_in_memory(job& work, const weld_request& request, const std::string& remark) {
     const common_options& o = work.options;
     const weld_outputs& asked = request.outputs;
     enter_blank_report(work, request);
+    if (!remark.empty()) work.warn("in-memory", remark);
     check_outputs(work, request);
     tf::mesh_file file = read_all(work);
     check_formats(work, request, file);

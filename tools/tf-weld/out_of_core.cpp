@@ -18,6 +18,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <limits>
+#include <new>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -36,7 +37,14 @@ std::uint64_t memory_allowed(const common_options& o) {
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) / 4 * 3;
 }
 
-constexpr std::uint64_t base_memory = std::uint64_t{32} << 20;  ///< of an empty cloud
+/// Of an empty cloud: the program, its threads and what is read and written.
+constexpr std::uint64_t base_memory = std::uint64_t{32} << 20;
+
+/// What is left for points.
+std::uint64_t memory_for_tiles(const common_options& o) {
+    const std::uint64_t allowed = memory_allowed(o);
+    return allowed - std::min(base_memory, allowed / 2);
+}
 
 /// What welding takes in memory for a point of `header`, measured: its place once, its properties
 /// twice, in the input and in the result, and what finds its neighbors.
@@ -158,15 +166,6 @@ class points_out {
     tf::point_block some_{};
 };
 
-void put_column(std::vector<tf::column>& columns, tf::column column) {
-    const auto at = std::find_if(columns.begin(), columns.end(),
-                                 [&](const tf::column& c) { return c.name == column.name; });
-    if (at == columns.end())
-        columns.push_back(std::move(column));
-    else
-        *at = std::move(column);
-}
-
 /// The last pass over the input: what is kept, and what else is asked for.
 class giving_back {
   public:
@@ -183,7 +182,11 @@ class giving_back {
           outputs_(work) {
         head_.stored_as = survey.single ? tf::precision::single_ : tf::precision::double_;
         open_files();
-        folder.store(leftovers, {{"folders", outputs_.unfinished()}});
+        std::vector<fs::path> unfinished = outputs_.unfinished();
+        if (map_ && !map_->folder().empty()) unfinished.push_back(map_->folder());
+        json folders = json::array();
+        for (const fs::path& path : unfinished) folders.push_back(fs::absolute(path).string());
+        folder.store(leftovers, {{"folders", folders}});
         if (map_ || !asked_.label.empty()) {
             welded_.kept.number();
             drops_.emplace(steps.all_drops(welded));
@@ -242,10 +245,9 @@ class giving_back {
 
     void add_label_to_head() {
         tf::element& vertices = tf::obtain_element(head_.attributes, "vertex", 0);
-        if (tf::find_column(vertices, asked_.label) != nullptr)
+        if (tf::set_column(vertices, {.name = asked_.label, .type = tf::scalar_type::uint32}))
             work_.warn("replaced",
                        "property " + asked_.label + " was there before; its values are replaced");
-        put_column(vertices.columns, {.name = asked_.label, .type = tf::scalar_type::uint32});
     }
 
     void give(tf::point_block& block) {
@@ -263,8 +265,8 @@ class giving_back {
             return;
         }
         const std::vector<std::uint32_t> groups(groups_.begin(), groups_.end());
-        put_column(block.properties.columns, tf::make_column<std::uint32_t>(asked_.label, groups));
         block.properties.rows = groups.size();
+        tf::set_column(block.properties, tf::make_column<std::uint32_t>(asked_.label, groups));
         result_->write(block);
     }
 
@@ -343,7 +345,7 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_set
     remove_leftovers(folder);
     const tile_task task{.input = input,
                          .rule = request.settings.rule,
-                         .memory = memory_allowed(work.options),
+                         .memory = memory_for_tiles(work.options),
                          .points_per_tile = tiles.points_per_tile,
                          .stop_at = tiles.stop_at,
                          .identity = identity_of(work, input, request, tiles)};
@@ -375,11 +377,10 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_set
         return steps.weld_borders();
     }();
     w.counted = {w.points - welded.kept.dropped(), welded.groups};
-    w.result.largest_move = welded.largest_move.value_or(0.0);
+    w.result.largest_move = welded.largest_move;
     work.out.result(work.name + ": " + verdict(w, request));
     say_details(work, w);
     enter_report(work, w, request);
-    if (!welded.largest_move) work.entry["displacement"] = {{"max", nullptr}};
     work.entry["polygons"] = {{"in", 0}, {"out", 0}};
     warn_of_harm(work, w);
 
@@ -402,6 +403,42 @@ std::optional<tf::point_reader> cloud_at(const job& work, const fs::path& path) 
     }
 }
 
+/// What is not a file counts as nothing.
+std::uint64_t size_of_inputs(const job& work) {
+    std::uint64_t sum = 0;
+    for (const std::string& name : work.options.inputs) {
+        std::error_code error;
+        const std::uint64_t size = fs::file_size(name, error);
+        if (!error) sum += size;
+    }
+    return sum;
+}
+
+/// Clouds and meshes take at most about so many bytes in memory for each of their file.
+constexpr std::uint64_t most_per_byte = 16;
+
+/// Where memory is limited and this may need more: says so before, and why when it does.
+exit_status weld_held(job& work, const weld_request& request, const std::string& what,
+                      std::uint64_t size) {
+    if (work.options.memory == 0 || size < work.options.memory / most_per_byte)
+        return weld_in_memory(work, request);
+    const auto not_enough = [&] {
+        return failure(stopped, "memory",
+                       work.name + ": " + what +
+                           " in memory, not in tiles, and --memory is not "
+                           "enough for that");
+    };
+    try {
+        return weld_in_memory(work, request,
+                              what + " in memory, not in tiles; --memory may not be enough");
+    } catch (const std::bad_alloc&) {
+        throw not_enough();
+    } catch (const failure& error) {
+        if (error.code() == "memory") throw not_enough();
+        throw;
+    }
+}
+
 exit_status weld_file(job& work, const weld_request& request, const tile_settings& tiles,
                       const fs::path& path) {
     const bool asked = tiles.points_per_tile > 0;
@@ -413,7 +450,7 @@ exit_status weld_file(job& work, const weld_request& request, const tile_setting
     std::uint64_t needed = 0;
     {
         const auto cloud = cloud_at(work, path);
-        if (!cloud) return weld_in_memory(work, request);
+        if (!cloud) return weld_held(work, request, "meshes are welded", size);
         header = cloud->header();
         needed = cloud->count().value_or(size / 16) * bytes_in_memory(header);
     }
@@ -423,14 +460,14 @@ exit_status weld_file(job& work, const weld_request& request, const tile_setting
     const std::string text =
         only + " needs the whole cloud in memory, about " + grouped(needed / 1000000 + 1) + " MB";
     if (asked) throw failure(bad_usage, "usage", text);
-    work.out.warning(work.name + ": " + text + "; without it, less memory would do");
-    return weld_in_memory(work, request);
+    return weld_in_memory(work, request, text + "; without it, less memory would do");
 }
 
 }  // namespace
 
 exit_status weld_somewhere(job& work, const weld_request& request, const tile_settings& tiles) {
-    if (work.options.joined && work.options.inputs.size() > 1) return weld_in_memory(work, request);
+    if (work.options.joined && work.options.inputs.size() > 1)
+        return weld_held(work, request, "inputs are joined", size_of_inputs(work));
     if (work.path != "-") return weld_file(work, request, tiles, work.path);
     if (work.options.memory == 0 && tiles.points_per_tile == 0)
         return weld_in_memory(work, request);

@@ -109,11 +109,10 @@ const std::filesystem::path& pending_outputs::add(const std::filesystem::path& p
     return places_.back()->writable();
 }
 
-std::vector<std::string> pending_outputs::unfinished() const {
-    std::vector<std::string> folders;
+std::vector<std::filesystem::path> pending_outputs::unfinished() const {
+    std::vector<std::filesystem::path> folders;
     for (const auto& place : places_)
-        if (place->writable() != place->path())
-            folders.push_back(std::filesystem::absolute(place->writable().parent_path()).string());
+        if (!place->folder().empty()) folders.push_back(place->folder());
     return folders;
 }
 

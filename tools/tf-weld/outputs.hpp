@@ -22,8 +22,8 @@ class pending_outputs {
     explicit pending_outputs(job& work) : work_(work) {}
     /// Where to write what will be at `path`. \throws failure (bad_output) as `output_place`
     const std::filesystem::path& add(const std::filesystem::path& path, bool force);
-    /// Folders of this class's that stay when the process is killed.
-    [[nodiscard]] std::vector<std::string> unfinished() const;
+    /// Folders that stay when the process is killed.
+    [[nodiscard]] std::vector<std::filesystem::path> unfinished() const;
     void commit();
 
   private:

@@ -1,9 +1,11 @@
 #include "tools/tf-weld/tile_steps.hpp"
 
 #include "tools/common/console.hpp"
+#include <libmesh/weld/crowded_chain.hpp>
 #include <libtree/parallel.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <mutex>
@@ -16,6 +18,7 @@ namespace {
 
 using tf::border_point;
 using tf::tile_drop;
+using tf::tile_member;
 using tf::tile_point;
 using tf::tile_role;
 
@@ -93,8 +96,12 @@ std::filesystem::path tile_steps::file(std::size_t t, const char* what) const {
     return folder_.file(std::to_string(t) + what);
 }
 
+tf::weld_rule tile_steps::rule() const {
+    return tolerance_ > 0.0 ? task_.rule : tf::weld_rule::first;
+}
+
 std::uint64_t tile_steps::bytes_per_point() const {
-    return task_.rule == tf::weld_rule::first ? 64 : 110;
+    return rule() == tf::weld_rule::first ? 64 : 110;
 }
 
 std::size_t tile_steps::bytes_per_reader() const {
@@ -147,18 +154,36 @@ void tile_steps::take_over_tile(std::size_t t) {
     tile& mine = tiles_[t];
     mine.drops = count_from(stored->at("drops"));
     mine.border = count_from(stored->at("border"));
+    mine.members = count_from(stored->at("members"));
     mine.move = move_from(stored->at("move"));
     mine.finished = is_whole<tile_drop>(file(t, ".drops"), mine.drops) &&
-                    is_whole<border_point>(file(t, ".border"), mine.border);
+                    is_whole<border_point>(file(t, ".border"), mine.border) &&
+                    is_whole<tile_member>(file(t, ".members"), mine.members);
     if (!mine.finished)
         work_.warn("damaged", file(t, ".drops").string() +
                                   ": this tile's files are not what was written; done again");
 }
 
+/// Crowds take room on the disk, but not where they are welded. With the rule first they are best
+/// not cut; chains are welded crowd by crowd only where there is no other way.
+tf::tile_slabs tile_steps::plan() const {
+    const std::vector<tf::point3> some = uncrowded_sample();
+    const bool crowded = 4 * some.size() <= 3 * survey_.sample.size();
+    if (crowded && rule() == tf::weld_rule::first)
+        if (const auto slabs = plan_by(some)) return *slabs;
+    if (const auto slabs = plan_by(survey_.sample)) return *slabs;
+    if (const auto slabs = plan_by(some)) return *slabs;
+    return {some, tolerance_, 1};
+}
+
 /// Small tiles stay in the caches while they are welded. Where halos are much of them, larger
 /// ones; where they are most of all, the tolerance is large and little will be kept: one tile.
-tf::tile_slabs tile_steps::plan() const {
+std::optional<tf::tile_slabs> tile_steps::plan_by(const std::vector<tf::point3>& sample) const {
     const auto all = static_cast<double>(survey_.points);
+    const auto slabs_of = [&](double count) {
+        return tf::tile_slabs(sample, tolerance_,
+                              static_cast<std::size_t>(std::ceil(std::max(count, 1.0))));
+    };
     if (task_.points_per_tile > 0)
         return slabs_of(all / static_cast<double>(task_.points_per_tile));
     constexpr double small = 250000.0;
@@ -172,25 +197,41 @@ tf::tile_slabs tile_steps::plan() const {
                         way{0.25 * room, 1.5}, way{room, 4.0}}) {
         double sum = 0.0;
         for (double count = all / w.most; sum <= w.with_halo * all; count = 1.25 * count + 1.0) {
-            tf::tile_slabs slabs = slabs_of(count);
-            const std::vector<double> size = sizes_of(slabs);
+            const tf::tile_slabs slabs = slabs_of(count);
+            const std::vector<double> size = sizes_of(slabs, survey_.sample);
+            const std::vector<double> held = sizes_of(slabs, sample);
             sum = std::accumulate(size.begin(), size.end(), 0.0);
-            const double largest = *std::max_element(size.begin(), size.end());
+            const double largest = *std::max_element(held.begin(), held.end());
             if (sum <= w.with_halo * all && largest <= 1.25 * w.most) return slabs;
-            if (count > static_cast<double>(survey_.sample.size())) break;  // equal points
+            if (count > static_cast<double>(sample.size())) break;  // equal points
         }
     }
-    return slabs_of(1.0);
+    return std::nullopt;
 }
 
-tf::tile_slabs tile_steps::slabs_of(double count) const {
-    return {survey_.sample, tolerance_, static_cast<std::size_t>(std::ceil(std::max(count, 1.0)))};
-}
-
-/// Points in each slab, halo included, judged by the sample.
-std::vector<double> tile_steps::sizes_of(const tf::tile_slabs& slabs) const {
-    std::vector<double> size(slabs.size(), 0.0);
+/// Of the points of a cube whose diagonal is the tolerance, one.
+std::vector<tf::point3> tile_steps::uncrowded_sample() const {
+    std::vector<std::pair<std::array<double, 3>, tf::point3>> by_cube;
     for (const tf::point3& p : survey_.sample) {
+        std::array<double, 3> cube{p.x, p.y, p.z};
+        if (tolerance_ > 0.0)
+            for (double& c : cube) c = std::floor(c / tolerance_ * 1.74);
+        by_cube.emplace_back(cube, p);
+    }
+    const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
+    const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
+    std::stable_sort(by_cube.begin(), by_cube.end(), before);
+    by_cube.erase(std::unique(by_cube.begin(), by_cube.end(), same), by_cube.end());
+    std::vector<tf::point3> some;
+    for (const auto& [cube, p] : by_cube) some.push_back(p);
+    return some;
+}
+
+/// Points in each slab, halo included, judged by a sample.
+std::vector<double> tile_steps::sizes_of(const tf::tile_slabs& slabs,
+                                         const std::vector<tf::point3>& sample) const {
+    std::vector<double> size(slabs.size(), 0.0);
+    for (const tf::point3& p : sample) {
         const auto place = slabs.find(p);
         for (std::uint32_t t = place.first; t <= place.last; ++t)
             size[t] += 1.0 / survey_.sample_share;
@@ -205,6 +246,7 @@ void tile_steps::scatter(double tolerance) {
     survey_.sample = {};
     tiles_.resize(slabs.size());
     // Tiles' points are removed as their drops are written, which take half as much at most.
+    // Members, few mostly, are not counted.
     const std::uint64_t needed = survey_.points * (sizeof(tile_point) + 2);
     work_.out.info(work_.name + ": " + grouped(survey_.points) + " points in " +
                    counted(slabs.size(), "tile", "tiles") + ", about " +
@@ -291,39 +333,120 @@ void tile_steps::weld_tiles() {
     work_.out.end_progress();
 }
 
-void tile_steps::weld_tile(std::size_t t) {
-    tile& mine = tiles_[t];
-    tf::tile_weld weld(task_.rule, tolerance_);
-    const std::uint64_t room = task_.memory / 2 / bytes_per_point();
-    weld.reserve(static_cast<std::size_t>(std::min(mine.points.records, room)));
-    record_reader<tile_point> points(file(t, ".points"), mine.points, piece);
-    record_writer<tile_drop> dropped(file(t, ".drops"), piece / 4);
-    record_writer<border_point> border(file(t, ".border"), piece / 4);
-    tf::tile_result result;
-    const auto write = [&] {
+/// What a tile leaves, on its way to the disk.
+struct tile_steps::tile_files {
+    record_writer<tile_drop> dropped;
+    record_writer<border_point> border;
+    record_writer<tile_member> members;
+    tf::tile_result result{};
+
+    void write() {
         dropped.put(result.dropped);
         border.put(result.border);
+        members.put(result.members);
         result.dropped.clear();
         result.border.clear();
-    };
+        result.members.clear();
+    }
+};
+
+template <class Take>
+void tile_steps::each_point_of(std::size_t t, const Take& take) {
+    record_reader<tile_point> points(file(t, ".points"), tiles_[t].points, piece);
     for (auto row = points.next(); !row.empty(); row = points.next()) {
-        weld.add(row, result);
-        write();
+        take(row);
         work_.keeper.check();
     }
-    weld.finish(result);
-    write();
-    mine.drops = dropped.finish();
-    mine.border = border.finish();
-    mine.move = result.move;
+}
+
+void tile_steps::weld_tile(std::size_t t) {
+    tile& mine = tiles_[t];
+    tile_files files{{file(t, ".drops"), piece / 4},
+                     {file(t, ".border"), piece / 4},
+                     {file(t, ".members"), piece / 4}};
+    const std::uint64_t room = task_.memory / 10 * 7 / bytes_per_point();
+    if (rule() == tf::weld_rule::chain && mine.points.records > room)
+        weld_crowded(t, files);
+    else
+        weld_held(t, files);
+    mine.drops = files.dropped.finish();
+    mine.border = files.border.finish();
+    mine.members = files.members.finish();
+    mine.move = files.result.move;
     folder_.store(std::to_string(t) + ".done", {{"drops", to_json(mine.drops)},
                                                 {"border", to_json(mine.border)},
+                                                {"members", to_json(mine.members)},
                                                 {"move", to_json(mine.move)}});
     std::filesystem::remove(file(t, ".points"));
 }
 
+void tile_steps::weld_held(std::size_t t, tile_files& files) {
+    tf::tile_weld weld(rule(), tolerance_);
+    const std::uint64_t room = task_.memory / 2 / bytes_per_point();
+    weld.reserve(static_cast<std::size_t>(std::min(tiles_[t].points.records, room)));
+    each_point_of(t, [&](auto row) {
+        weld.add(row, files.result);
+        files.write();
+    });
+    for (bool more = true; more; files.write()) more = weld.finish(files.result);
+}
+
+void tile_steps::weld_crowded(std::size_t t, tile_files& files) {
+    tf::crowded_chain weld(tolerance_);
+    each_point_of(t, [&](auto row) { weld.look(row); });
+    each_point_of(t, [&](auto row) { weld.link(row); });
+    each_point_of(t, [&](auto row) {
+        weld.settle(row, files.result);
+        files.write();
+    });
+}
+
+/// Members sorted in pieces that memory holds, and the pieces merged.
+tf::longest_move tile_steps::longest_chain_move(const tf::border_weld& border) const {
+    const auto tag_of = [](const tile_member& m) { return m.tag; };
+    const std::size_t most = static_cast<std::size_t>(task_.memory / 8) / sizeof(tile_member) + 1;
+    std::vector<record_count> pieces;
+    std::uint64_t all = 0;
+    for (const tile& t : tiles_) all += t.members.records;
+    std::vector<tile_member> held;
+    held.reserve(static_cast<std::size_t>(std::min<std::uint64_t>(all, most)));
+    const auto piece_file = [&](std::size_t i) {
+        return folder_.file("members." + std::to_string(i));
+    };
+    const auto write = [&] {
+        std::sort(held.begin(), held.end(),
+                  [](const tile_member& a, const tile_member& b) { return a.tag < b.tag; });
+        record_writer<tile_member> writer(piece_file(pieces.size()), piece);
+        writer.put(held);
+        pieces.push_back(writer.finish());
+        held.clear();
+        work_.keeper.check();
+    };
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+        record_reader<tile_member> reader(file(t, ".members"), tiles_[t].members, piece);
+        for (auto row = reader.next(); !row.empty(); row = reader.next())
+            for (const tile_member& m : row) {
+                held.push_back(border.settled(m));
+                if (held.size() == most) write();
+            }
+    }
+    if (!held.empty()) write();
+    held = {};
+    std::vector<record_reader<tile_member>> readers;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        readers.emplace_back(piece_file(i), pieces[i], piece / 4);
+    tf::chain_moves moves;
+    record_merge merge(std::move(readers), tag_of);
+    for (std::uint64_t count = 0; !merge.empty(); merge.pop(), ++count) {
+        moves.add(merge.front());
+        if (count % 65536 == 0) work_.keeper.check();
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) std::filesystem::remove(piece_file(i));
+    return moves.move();
+}
+
 tiles_welded tile_steps::weld_borders() {
-    tiles_welded w(survey_.points, task_.rule, tolerance_);
+    tiles_welded w(survey_.points, rule(), tolerance_);
     std::vector<record_reader<border_point>> readers;
     for (std::size_t t = 0; t < tiles_.size(); ++t)
         readers.emplace_back(file(t, ".border"), tiles_[t].border, bytes_per_reader());
@@ -346,7 +469,10 @@ tiles_welded tile_steps::weld_borders() {
 
     kept_points without_followers(survey_.points);
     tf::longest_move longest = w.border.move();
-    if (task_.rule == tf::weld_rule::first) w.border = {task_.rule, tolerance_};  // for its memory
+    if (rule() == tf::weld_rule::first)
+        w.border = {rule(), tolerance_};  // for its memory
+    else
+        longest = longest_chain_move(w.border);
     const auto follow = [&](const std::filesystem::path& path, const record_count& count) {
         record_reader<tile_drop> reader(path, count, piece);
         for (auto row = reader.next(); !row.empty(); row = reader.next()) {
@@ -365,7 +491,7 @@ tiles_welded tile_steps::weld_borders() {
     follow(folder_.file("border.drops"), borders);
     if (w.kept.shares_a_drop(without_followers))
         throw std::logic_error("a point belongs to one that was dropped");
-    if (task_.rule == tf::weld_rule::first) w.largest_move = longest.length();
+    w.largest_move = longest.length();
     step_done();
     return w;
 }

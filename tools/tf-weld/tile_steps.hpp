@@ -34,8 +34,8 @@ struct tiles_welded {
     kept_points kept;
     tf::border_weld border;  ///< names the leaders
     std::uint64_t groups = 0;
-    std::optional<double> largest_move{};  ///< with the rule first
-    std::vector<record_count> drops{};     ///< of each tile, and at the end those of the borders
+    double largest_move = 0.0;
+    std::vector<record_count> drops{};  ///< of each tile, and at the end those of the borders
 };
 
 class tile_steps {
@@ -68,16 +68,28 @@ class tile_steps {
         bool finished = false;
         record_count drops{};
         record_count border{};
+        record_count members{};
         tf::longest_move move{};
     };
+    struct tile_files;
 
+    /// The rule first where it comes to the same: it holds fewer points.
+    [[nodiscard]] tf::weld_rule rule() const;
     [[nodiscard]] std::filesystem::path file(std::size_t t, const char* what) const;
     [[nodiscard]] tf::tile_slabs plan() const;
-    [[nodiscard]] tf::tile_slabs slabs_of(double count) const;
-    [[nodiscard]] std::vector<double> sizes_of(const tf::tile_slabs& slabs) const;
+    [[nodiscard]] std::optional<tf::tile_slabs> plan_by(
+        const std::vector<tf::point3>& sample) const;
+    [[nodiscard]] std::vector<tf::point3> uncrowded_sample() const;
+    [[nodiscard]] std::vector<double> sizes_of(const tf::tile_slabs& slabs,
+                                               const std::vector<tf::point3>& sample) const;
     [[nodiscard]] bool take_over(const json& plan);
     void take_over_tile(std::size_t t);
     void weld_tile(std::size_t t);
+    void weld_held(std::size_t t, tile_files& files);
+    void weld_crowded(std::size_t t, tile_files& files);
+    template <class Take>
+    void each_point_of(std::size_t t, const Take& take);
+    [[nodiscard]] tf::longest_move longest_chain_move(const tf::border_weld& border) const;
     [[nodiscard]] std::size_t at_a_time() const;
     [[nodiscard]] std::uint64_t bytes_per_point() const;
     [[nodiscard]] std::size_t bytes_per_reader() const;
