@@ -30,8 +30,9 @@ struct earliest {
     std::optional<sweep_contact> first;
     std::vector<pair> pairs;
 
-    void offer(const point3& motion, std::uint32_t a, std::uint32_t b, const sweep_contact& one) {
-        const int order = first ? compare(motion, one, *first) : -1;
+    void offer(const point3& motion, std::uint32_t a, std::uint32_t b, const sweep_contact& one,
+               predicate_counters& counters) {
+        const int order = first ? compare(motion, one, *first, &counters) : -1;
         if (order > 0) return;
         if (order < 0) pairs.clear();
         pairs.push_back({a, b, one.at});
@@ -89,8 +90,8 @@ first_mesh_contact first_contact(mesh_view a, const tree<3>& tree_a, mesh_view b
         moving, still, motion,
         [&](std::uint32_t i, std::uint32_t j) {
             ++result.pairs_tested;
-            if (const auto one = first_contact(face_a(i), face_b(j), motion))
-                found.offer(motion, i, j, *one);
+            if (const auto one = first_contact(face_a(i), face_b(j), motion, &result.predicates))
+                found.offer(motion, i, j, *one, result.predicates);
             return found.first ? found.first->time * (1.0 + 0x1p-38) : options.latest;
         },
         options.latest);

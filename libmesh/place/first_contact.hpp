@@ -52,6 +52,7 @@ struct first_mesh_contact {
         contacts{};                   ///< all pairs that meet at t, ascending; not at the start
     std::uint64_t contact_count = 0;  ///< of all of them
     std::uint64_t pairs_tested = 0;   ///< pairs of faces looked at; the rest was skipped
+    predicate_counters predicates{};  ///< what these and the order of their times took
 };
 
 /// The least t >= 0 at which `a`, moved by t times `motion`, has a point in common with `b`.

@@ -16,6 +16,7 @@ struct part_end {
     std::vector<face_contact> contacts{};
     std::uint64_t contact_count = 0;
     std::uint64_t pairs_tested = 0;
+    predicate_counters predicates{};
 };
 
 part_end end_at(mesh_view a, const tree<3>& tree_a, const still_part& part, const point3& motion,
@@ -23,13 +24,13 @@ part_end end_at(mesh_view a, const tree<3>& tree_a, const still_part& part, cons
     if (options.clearance > 0.0) {
         auto one = first_approach(a, tree_a, part.mesh, *part.faces, motion, options.clearance,
                                   {.latest = latest, .limit = options.limit});
-        return {one.end,           one.time,        {}, std::move(one.contacts),
-                one.contact_count, one.pairs_tested};
+        return {one.end,           one.time,         {}, std::move(one.contacts),
+                one.contact_count, one.pairs_tested, {}};
     }
     auto one = first_contact(a, tree_a, part.mesh, *part.faces, motion,
                              {.latest = latest, .limit = options.limit});
-    return {one.end,           one.time,        one.exact, std::move(one.contacts),
-            one.contact_count, one.pairs_tested};
+    return {one.end,           one.time,         one.exact,     std::move(one.contacts),
+            one.contact_count, one.pairs_tested, one.predicates};
 }
 
 }  // namespace
@@ -42,12 +43,13 @@ slide_result slide(mesh_view a, const tree<3>& tree_a, std::span<const still_par
     for (std::size_t i = 0; i < parts.size(); ++i) {
         part_end one = end_at(a, tree_a, parts[i], motion, latest, options);
         result.pairs_tested += one.pairs_tested;
+        result.predicates += one.predicates;
         if (one.end == motion_end::free) continue;
         if (one.end == motion_end::at_start) {
-            const std::uint64_t tested = result.pairs_tested;
-            result = {.end = one.end, .part = i};
-            result.pairs_tested = tested;
-            return result;
+            return {.end = one.end,
+                    .part = i,
+                    .pairs_tested = result.pairs_tested,
+                    .predicates = result.predicates};
         }
         int order = -1;
         if (result.end == motion_end::contact) {

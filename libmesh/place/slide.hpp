@@ -2,6 +2,7 @@
 /// \file
 /// How far a mesh can be moved among several others.
 
+#include <libmesh/exact/counters.hpp>
 #include <libmesh/mesh.hpp>
 #include <libmesh/place/first_contact.hpp>
 #include <libmesh/place/still_part.hpp>
@@ -35,6 +36,7 @@ struct slide_result {
     std::vector<slide_contact> contacts{};
     std::uint64_t contact_count = 0;
     std::uint64_t pairs_tested = 0;
+    predicate_counters predicates{};  ///< without a clearance: what these took
 };
 
 /// The time at which `a`, moved by t times `motion`, first meets one of `parts`, or first comes

@@ -232,6 +232,29 @@ class Moves(PlaceTest):
         entry = self.placed("drop", "third.obj", "--start", "m.txt")
         self.assertEqual((entry["travel"], entry["matrix"]), (0, rows))
 
+    def test_a_flat_face_turned_and_rounded_before_is_one_side(self):
+        count, turn = 60, 0.3
+        ring = [(math.cos(2 * math.pi * i / count), math.sin(2 * math.pi * i / count))
+                for i in range(count)]
+        points = [(x, y, z) for z in (0.0, 0.5) for x, y in ring]
+        points = [(x, y * math.cos(turn) - z * math.sin(turn),
+                   y * math.sin(turn) + z * math.cos(turn)) for x, y, z in points]
+        caps = [(0, i + 1, i) for i in range(1, count - 1)]
+        caps += [(count, count + i, count + i + 1) for i in range(1, count - 1)]
+        sides = [(i, (i + 1) % count, count + i) for i in range(count)]
+        sides += [((i + 1) % count, count + (i + 1) % count, count + i) for i in range(count)]
+        self.mesh("disc.stl", (points, caps + sides))
+        area = count / 2 * math.sin(2 * math.pi / count)
+        entry = self.placed("lay", "disc.stl", "-o", "out.stl")
+        self.assertAlmostEqual(entry["sides"][entry["chosen"]]["area"], area, places=5)
+        self.assertEqual(entry["tolerance"]["given"], "0.0001%")
+        self.assertLessEqual(entry["corrected"], 2 * entry["tolerance"]["used"])
+        self.assertEqual(len({p for p in self.points("out.stl") if p[2] == 0}), count)
+        exactly = self.placed("lay", "disc.stl", "-t", "0", "-o", "exact.stl")
+        self.assertEqual(exactly["tolerance"], {"given": "0", "used": 0})
+        self.assertLess(exactly["sides"][exactly["chosen"]]["area"], 0.9 * area)
+        self.assertGreater(len(exactly["sides"]), len(entry["sides"]))
+
     def test_lay_turns_a_side_down_exactly(self):
         points, faces = box((0, 0, 0), (1, 2, 4))
         turned = [(0.6 * x - 0.8 * z, y, 0.8 * x + 0.6 * z + 3) for x, y, z in points]

@@ -11,8 +11,9 @@ FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in
         "distance": (*NUMBER, NULL), "surface_distance": (*NUMBER, NULL), "closest": (dict, NULL),
         "direction": (list, NULL), "travel": (*NUMBER, NULL), "backed_off": (int, NULL),
         "matrix": (list, NULL), "contacts": list, "contact_count": int, "sides": list,
-        "chosen": (int, NULL), "fit": (dict, NULL), "fits": (bool, NULL), "parts": list, "not_placed": list,
-        "matrix_file": (str, NULL), "output": (dict, NULL), "warnings": list, "exit": int}
+        "chosen": (int, NULL), "corrected": (*NUMBER, NULL), "tolerance": dict, "fit": (dict, NULL),
+        "fits": (bool, NULL), "parts": list, "not_placed": list, "matrix_file": (str, NULL),
+        "output": (dict, NULL), "warnings": list, "exit": int}
 
 
 class Usage(PlaceTest):

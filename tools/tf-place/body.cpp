@@ -3,6 +3,7 @@
 #include "tools/common/console.hpp"
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/face_tree.hpp>
+#include <libmesh/place/scene_parts.hpp>
 #include <libmesh/select_faces.hpp>
 #include <libmesh/validate.hpp>
 #include <libmesh/weld/equal_points.hpp>
@@ -72,40 +73,76 @@ std::vector<std::uint32_t> usable_faces(const tf::mesh& mesh, std::uint64_t& lef
 
 }  // namespace
 
-const tf::tree<3>& body::faces() {
+tf::still_part body::still() {
+    if (whole) {
+        mesh = tf::select_faces(*whole, faces_of_whole);
+        whole.reset();
+        faces_of_whole = {};
+    }
     if (!tree) tree = std::make_unique<tf::tree<3>>(tf::face_tree(mesh));
-    return *tree;
+    return {mesh, tree.get()};
 }
 
 std::string body::name() const {
     return path == "-" ? "stdin" : std::filesystem::path(path).filename().string();
 }
 
+std::string body::label() const { return part.empty() ? path : path + ": " + part; }
+
 body make_body(job& work, const std::string& path, tf::mesh_file file, bool cloud_allowed) {
     body b;
     b.path = path;
-    b.file = std::move(file);
+    *b.file = std::move(file);
     const auto timing = work.time("prepare");
-    std::vector<std::uint32_t> usable = usable_faces(b.file.mesh, b.non_finite);
+    std::vector<std::uint32_t> usable = usable_faces(b.file->mesh, b.non_finite);
     if (b.non_finite > 0)
         work.warn("non-finite", path + ": " + counted(b.non_finite, "face", "faces") +
                                     " with a NaN or infinite coordinate left out");
-    b.mesh = tf::join_equal_points(tf::select_faces(b.file.mesh, usable));
-    if (usable.size() < b.file.mesh.faces.size()) b.triangle_of_face = std::move(usable);
-    if (b.mesh.faces.empty() && b.file.mesh.faces.empty() && cloud_allowed)
-        std::copy_if(b.file.mesh.points.begin(), b.file.mesh.points.end(),
+    b.mesh = tf::join_equal_points(tf::select_faces(b.file->mesh, usable));
+    if (usable.size() < b.file->mesh.faces.size()) b.triangle_of_face = std::move(usable);
+    if (b.mesh.faces.empty() && b.file->mesh.faces.empty() && cloud_allowed)
+        std::copy_if(b.file->mesh.points.begin(), b.file->mesh.points.end(),
                      std::back_inserter(b.mesh.points), finite);
     if (b.mesh.points.empty())
         throw failure(bad_input, "no-triangles",
                       path + ": no triangle with finite coordinates (" +
-                          counted(b.file.mesh.points.size(), "point", "points") + ")");
+                          counted(b.file->mesh.points.size(), "point", "points") + ")");
     b.box = tf::bounding_box(b.mesh.points);
     return b;
 }
 
+std::vector<body> make_parts(job& work, const std::string& path, tf::mesh_file file,
+                             bool cloud_allowed) {
+    std::vector<body> bodies;
+    bodies.push_back(make_body(work, path, std::move(file), cloud_allowed));
+    const body& all = bodies.front();
+    const auto timing = work.time("prepare");
+    if (all.file->attributes.parts.size() < 2) return bodies;
+    std::vector<std::uint32_t> number;
+    for (std::uint32_t f = 0; f < all.mesh.faces.size(); ++f) number.push_back(all.stored_face(f));
+    std::vector<tf::scene_part> parts =
+        tf::scene_parts(all.mesh, all.file->attributes.parts, number);
+    if (parts.size() < 2) return bodies;
+    body before = std::move(bodies.front());
+    const auto whole = std::make_shared<const tf::mesh>(std::move(before.mesh));
+    bodies.clear();
+    for (tf::scene_part& one : parts) {
+        body& b = bodies.emplace_back();
+        b.path = path;
+        b.part = one.name.empty() ? "part " + std::to_string(bodies.size() - 1) : one.name;
+        b.file = before.file;
+        b.box = one.box;
+        if (bodies.size() == 1) b.non_finite = before.non_finite;
+        for (const std::uint32_t f : one.faces) b.triangle_of_face.push_back(before.triangle(f));
+        b.whole = whole;
+        b.faces_of_whole = std::move(one.faces);
+    }
+    return bodies;
+}
+
 void take_places(body& b, const std::vector<tf::point3>& placed, const tf::transform<3>& matrix,
                  bool to_single) {
-    auto& points = b.file.mesh.points;
+    auto& points = b.file->mesh.points;
     const bool cloud = b.mesh.faces.empty();
     std::size_t next = 0;
     for (tf::point3& p : points) {
@@ -118,7 +155,7 @@ void take_places(body& b, const std::vector<tf::point3>& placed, const tf::trans
     }
     for (std::uint32_t f = 0; f < b.mesh.faces.size(); ++f)
         for (std::size_t i = 0; i < 3; ++i)
-            points[b.file.mesh.faces[b.triangle(f)][i]] = placed[b.mesh.faces[f][i]];
+            points[b.file->mesh.faces[b.triangle(f)][i]] = placed[b.mesh.faces[f][i]];
 }
 
 void round_to_single(tf::mesh_file& file) {

@@ -88,8 +88,9 @@ std::vector<contact_row> contacts_at(const body& moving, tf::mesh_view mesh,
         for (std::size_t k = 0; k < 3 && !apart; ++k)
             apart = box->max[k] < other.box->min[k] || other.box->max[k] < box->min[k];
         if (apart) continue;
+        const tf::still_part still = other.still();
         const auto found =
-            tf::mesh_intersections(mesh, faces, other.mesh, other.faces(), {.limit = limit});
+            tf::mesh_intersections(mesh, faces, still.mesh, *still.faces, {.limit = limit});
         for (const std::uint64_t of_kind : found.counts) count += of_kind;
         for (const tf::face_pair& pair : found.pairs) {
             const tf::triangle3 a = triangle_of(mesh, pair.a);

@@ -45,7 +45,10 @@ void add_modes(command_line& line) {
 void add_options(command_line& line, place_settings& s, common_options& options) {
     line.group("Options");
     line.repeatable_option(options.also_read,
-                           {"--fixed", "FILE", "what stays where it is (repeatable)"});
+                           {"--fixed", "FILE",
+                            "what stays where it is (repeatable); its objects,\n"
+                            "groups or nodes are bodies, but for what has points\n"
+                            "in common"});
     line.option({"--bed", "Z",
                  "drop, lay, arrange: height of the bed; drop with\n"
                  "--fixed has none unless this is given",
@@ -75,6 +78,14 @@ void add_options(command_line& line, place_settings& s, common_options& options)
                     s.lay.choose = tf::lay_choice::holding_point;
                     s.lay.toward = {v[0], v[1], v[2]};
                     ++s.sides_chosen;
+                });
+    line.option({"-t, --tolerance", "DIST",
+                 "lay: what is this near to the plane of a side is on\n"
+                 "it, and flat afterwards; 0 = exactly in one plane",
+                 "0.0001%"},
+                [&s](std::string_view text) {
+                    s.flatness = tools::parse_distance("--tolerance", text);
+                    s.flatness_given = true;
                 });
     line.flag(s.lay.keep_spin, {"--keep-spin", "", "lay: keep the turn about the vertical"});
     line.option({"--size", "X,Y[,Z]", "arrange: bed or box size"}, [&s](std::string_view text) {
@@ -122,7 +133,9 @@ void add_what_to_give_back(command_line& line, place_settings& s, common_options
                                  "MOVING at its new place; of measure, where it is,\n"
                                  "with faces that penetrate red, touching yellow,\n"
                                  "closer than --clearance cyan (PLY, GLB)"});
-    line.flag(s.scene, {"--scene", "", "-o and --output-dir: the fixed meshes too"});
+    line.flag(s.scene, {"--scene", "",
+                        "-o and --output-dir: the fixed meshes too, with\n"
+                        "the names of their parts"});
     line.output(s.matrix, {"--matrix", "FILE",
                            "4x4 matrix, 4 lines, row-major, column vectors:\n"
                            "new = M * old, in file coordinates; \"-\" = stdout"});
@@ -158,8 +171,10 @@ const char* const epilogue =
 
 void check_lay(const place_settings& s) {
     if (s.mode != place_mode::lay) {
-        if (s.sides_chosen > 0 || s.lay.keep_spin)
-            refuse("--largest-face, --face-normal, --face-point and --keep-spin are for lay");
+        if (s.sides_chosen > 0 || s.lay.keep_spin || s.flatness_given)
+            refuse(
+                "--largest-face, --face-normal, --face-point, --tolerance and --keep-spin are for "
+                "lay");
         return;
     }
     if (s.sides_chosen > 1)
@@ -219,6 +234,15 @@ struct fixed_meshes {
     bool as_single = false;
 };
 
+/// Alignment is to all of a file, which may be a cloud.
+std::vector<tools::body> parts_of(tools::job& work, const std::string& path, tf::mesh_file file,
+                                  place_mode mode) {
+    if (mode != place_mode::fit) return tools::make_parts(work, path, std::move(file), false);
+    std::vector<tools::body> whole;
+    whole.push_back(tools::make_body(work, path, std::move(file), true));
+    return whole;
+}
+
 void read_fixed(tools::job& work, const place_settings& s, bool as_single, fixed_meshes& fixed) {
     if (fixed.read && fixed.as_single == as_single) return;
     fixed = {.as_single = as_single};
@@ -227,8 +251,10 @@ void read_fixed(tools::job& work, const place_settings& s, bool as_single, fixed
         tf::mesh_file file = work.read(path, about);
         for (const tf::io_warning& w : file.warnings) work.warn(w.code, path + ": " + w.text);
         if (as_single) tools::round_to_single(file);
-        const bool cloud_allowed = s.mode == place_mode::fit;
-        fixed.bodies.push_back(tools::make_body(work, path, std::move(file), cloud_allowed));
+        for (tools::body& part : parts_of(work, path, std::move(file), s.mode)) {
+            part.file_number = fixed.entries.size();
+            fixed.bodies.push_back(std::move(part));
+        }
         fixed.entries.push_back(std::move(about));
     }
     fixed.read = true;
@@ -252,7 +278,7 @@ exit_status look_at(tools::job& work, const place_settings& s, fixed_meshes& fix
     const tf::transform<3> start =
         s.start.empty() ? tf::transform<3>{} : tools::read_matrix(s.start);
     tools::body moving = read_moving(work, s, start);
-    const bool to_single = tools::writes_single(work, moving.file);
+    const bool to_single = tools::writes_single(work, *moving.file);
     read_fixed(work, s, s.scene && to_single, fixed);
     work.entry["fixed"] = fixed.entries;
     tools::surroundings among(fixed.bodies);

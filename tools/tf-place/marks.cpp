@@ -1,16 +1,14 @@
 #include "tools/tf-place/marks.hpp"
 
+#include "tools/common/class_colors.hpp"
 #include <libmesh/attributes.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libtree/build.hpp>
 #include <libtree/search_pair.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
-#include <string_view>
 #include <utility>
 
 namespace tools {
@@ -24,7 +22,9 @@ void mark(std::uint8_t& present, std::uint8_t one) {
 }
 
 void mark_meeting(body& moving, body& part, face_classes& a, face_classes& b) {
-    const auto found = tf::mesh_intersections(moving.mesh, moving.faces(), part.mesh, part.faces());
+    const tf::still_part still = part.still();
+    const auto found =
+        tf::mesh_intersections(moving.mesh, moving.faces(), still.mesh, *still.faces);
     for (const tf::face_pair& pair : found.pairs) {
         const std::uint8_t one = pair.kind == tf::pair_kind::crossing ? penetrating : touching;
         mark(a[moving.triangle(pair.a)], one);
@@ -49,10 +49,11 @@ void mark_closer(body& moving, body& part, double clearance, face_classes& a, fa
         return box;
     });
     using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+    const tf::still_part still = part.still();
     const auto chunks =
-        tf::search<pairs>(wide, part.faces(), [&](pairs& mine, std::uint32_t i, std::uint32_t j) {
+        tf::search<pairs>(wide, *still.faces, [&](pairs& mine, std::uint32_t i, std::uint32_t j) {
             const auto near =
-                tf::closest_points(triangle_of(moving.mesh, i), triangle_of(part.mesh, j));
+                tf::closest_points(triangle_of(moving.mesh, i), triangle_of(still.mesh, j));
             if (std::sqrt(near.squared_distance) < clearance) mine.emplace_back(i, j);
             return false;
         });
@@ -63,28 +64,15 @@ void mark_closer(body& moving, body& part, double clearance, face_classes& a, fa
         }
 }
 
-std::uint8_t channel(std::size_t of_class, std::size_t which) {
-    const std::string_view color = class_colors[of_class];
-    return static_cast<std::uint8_t>(
-        std::stoi(std::string(color.substr(1 + 2 * which, 2)), nullptr, 16));
-}
-
-void set_column(tf::element& element, tf::column column) {
-    const auto at = std::find_if(element.columns.begin(), element.columns.end(),
-                                 [&](const tf::column& c) { return c.name == column.name; });
-    if (at == element.columns.end())
-        element.columns.push_back(std::move(column));
-    else
-        *at = std::move(column);
-}
-
 }  // namespace
 
 all_classes classify_faces(body& moving, const surroundings& among, double clearance) {
     all_classes classes;
-    classes.moving.resize(moving.file.mesh.faces.size());
+    classes.moving.resize(moving.file->mesh.faces.size());
     for (body& part : among.all()) {
-        face_classes& mine = classes.fixed.emplace_back(part.file.mesh.faces.size());
+        if (part.file_number == classes.fixed.size())
+            classes.fixed.emplace_back(part.file->mesh.faces.size());
+        face_classes& mine = classes.fixed.back();
         bool apart = false;
         for (std::size_t k = 0; k < 3; ++k)
             apart |= part.box->min[k] - moving.box->max[k] > clearance ||
@@ -97,15 +85,10 @@ all_classes classify_faces(body& moving, const surroundings& among, double clear
 }
 
 void set_class_colors(tf::mesh_file& file, const face_classes& classes) {
-    constexpr const char* names[] = {"red", "green", "blue"};
     tf::element& faces = tf::obtain_element(file.attributes, "face", file.mesh.faces.size());
-    std::vector<std::uint8_t> values(classes.size());
-    for (std::size_t which = 0; which < 3; ++which) {
-        for (std::size_t f = 0; f < classes.size(); ++f) values[f] = channel(classes[f], which);
-        set_column(faces, tf::make_column<std::uint8_t>(names[which], values));
-    }
+    set_colors(faces, classes, class_colors);
     const std::vector<std::int32_t> numbers(classes.begin(), classes.end());
-    set_column(faces, tf::make_column<std::int32_t>("tf_class", numbers));
+    tf::set_column(faces, tf::make_column<std::int32_t>("tf_class", numbers));
 }
 
 }  // namespace tools

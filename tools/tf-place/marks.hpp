@@ -19,7 +19,7 @@ inline constexpr std::array<const char*, 4> class_colors{"#b4bac2", "#e02020", "
 
 struct all_classes {
     face_classes moving{};
-    std::vector<face_classes> fixed{};  ///< by part
+    std::vector<face_classes> fixed{};  ///< by file
 };
 
 /// For MOVING where it is, and what it meets.

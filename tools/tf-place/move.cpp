@@ -97,8 +97,8 @@ class placing {
 
     /// Says why nothing can move if that is so: penetrating, or nearer than the clearance.
     [[nodiscard]] bool stuck_at_start() {
-        const std::string& part =
-            result_.nearest ? among_.all()[result_.nearest->part].path : moving_.path;
+        const std::string part =
+            result_.nearest ? among_.all()[result_.nearest->part].label() : moving_.path;
         switch (result_.status_at_start) {
             case place_status::penetrating:
                 fail("penetrates " + part + " where it is; clear would take it out");
@@ -167,6 +167,7 @@ class placing {
                 moving_.mesh, moving_.faces(), parts.parts, motion,
                 {.clearance = result_.clearance, .latest = latest, .limit = contact_limit});
             result_.skipped.pairs_tested = slid.pairs_tested;
+            result_.skipped.predicates = slid.predicates;
         }
         work_.keeper.check();
         if (slid.end == tf::motion_end::contact) {
@@ -209,6 +210,7 @@ class placing {
         const double given = settings_.bed.value_or(0.0);
         options.bed = bed_to_write(given, to_single_);
         options.to_single = to_single_;
+        options.tolerance = result_.tolerance = settings_.flatness.used(tf::diagonal(*moving_.box));
         auto laid = tf::lay(moving_.mesh, options);
         work_.keeper.check();
         if (!laid) return fail("has no side: all its points are on a line");
@@ -219,6 +221,7 @@ class placing {
         result_.matrix = laid->matrix;
         result_.sides = std::move(laid->sides);
         result_.chosen = laid->chosen;
+        result_.corrected = laid->corrected;
     }
 
     void fit() {
@@ -252,6 +255,7 @@ class placing {
             tf::slide(moving_.mesh, moving_.faces(), parts.parts, way,
                       {.clearance = result_.clearance, .latest = latest, .limit = contact_limit});
         result_.skipped.pairs_tested = slid.pairs_tested;
+        result_.skipped.predicates = slid.predicates;
         const double time = slid.end == tf::motion_end::contact
                                 ? slid.time
                                 : 1.0 - result_.clearance / near.how.distance;

@@ -45,6 +45,8 @@ struct placement {
     std::vector<tf::hull_side> sides{};  ///< of `lay`: what there was to choose from
     std::optional<tf::fit_result> fit{};
     std::size_t chosen = 0;  ///< of `sides`
+    double tolerance = 0.0;  ///< of `lay`
+    double corrected = 0.0;  ///< by `lay`, beyond the rotation
     skipped_work skipped{};
 };
 

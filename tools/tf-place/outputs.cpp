@@ -8,6 +8,7 @@
 #include <libmesh/io/write.hpp>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace tools {
@@ -20,6 +21,13 @@ json box_entry(const std::optional<tf::box3>& box) {
     return {{"min", triple(box->min)}, {"max", triple(box->max)}};
 }
 
+void extend(std::optional<tf::box3>& box, const std::optional<tf::box3>& more) {
+    if (box && more)
+        box = tf::bounding_box(std::array{box->min, box->max, more->min, more->max});
+    else if (more)
+        box = more;
+}
+
 json side_entry(const body& b, const tf::surface_point& at) {
     return {{"point", triple(at.point)},
             {"face", b.stored_face(at.face)},
@@ -27,22 +35,28 @@ json side_entry(const body& b, const tf::surface_point& at) {
             {"barycentric", at.barycentric}};
 }
 
+json name_entry(const body& b) { return b.part.empty() ? json(nullptr) : json(b.part); }
+
 json closest_entry(const body& moving, const nearest_part& near, const surroundings& among) {
     const body& part = among.all()[near.part];
     json fixed = side_entry(part, near.how.on_b);
     fixed["file"] = part.path;
-    fixed["part"] = near.part;
+    fixed["part"] = part.file_number;
+    fixed["name"] = name_entry(part);
     return {{"moving", side_entry(moving, near.how.on_a)}, {"fixed", std::move(fixed)}};
 }
 
-json contacts_entry(const std::vector<contact_row>& contacts) {
+json contacts_entry(const std::vector<contact_row>& contacts, const surroundings& among) {
     json rows = json::array();
-    for (const contact_row& c : contacts)
+    for (const contact_row& c : contacts) {
+        const body* const part = c.fixed ? &among.all()[c.part] : nullptr;
         rows.push_back({{"point", triple(c.point)},
                         {"normal", triple(c.normal)},
                         {"moving", c.moving},
-                        {"fixed", c.fixed ? json(*c.fixed) : json(nullptr)},
-                        {"part", c.fixed ? json(c.part) : json("bed")}});
+                        {"fixed", part ? json(*c.fixed) : json(nullptr)},
+                        {"part", part ? json(part->file_number) : json("bed")},
+                        {"name", part ? name_entry(*part) : json(nullptr)}});
+    }
     return rows;
 }
 
@@ -91,19 +105,33 @@ std::pair<std::string, bool> format_of(const job& work, const tf::mesh_file& fil
     return {format, o.ascii || (file.format.ends_with("ascii") && !o.binary)};
 }
 
-/// All together, each a part with the name of its file; other properties are left out.
+/// All together, with the parts of their files; a file of one part is one with the file's name.
+/// Other properties are left out.
 tf::mesh_file scene_of(const std::vector<const body*>& bodies) {
     tf::mesh_file scene;
-    scene.format = bodies[0]->file.format;
-    scene.stored_as = bodies[0]->file.stored_as;
+    scene.format = bodies[0]->file->format;
+    scene.stored_as = bodies[0]->file->stored_as;
     const auto add = [&](const body& b) {
+        tf::mesh_file one;
+        one.mesh = b.file->mesh;
+        one.stored_face = b.file->stored_face;
+        one.attributes.parts = b.file->attributes.parts;
+        if (one.attributes.parts.size() < 2) one.attributes.parts.clear();
+        tf::split_polygons(one);
         const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
-        scene.attributes.parts.push_back(
-            {.object = std::filesystem::path(b.name()).stem().string(),
-             .first_face = static_cast<std::uint32_t>(scene.mesh.faces.size())});
-        scene.mesh.points.insert(scene.mesh.points.end(), b.file.mesh.points.begin(),
-                                 b.file.mesh.points.end());
-        for (const tf::face& f : b.file.mesh.faces)
+        const auto first_face = static_cast<std::uint32_t>(scene.mesh.faces.size());
+        auto& parts = scene.attributes.parts;
+        if (one.attributes.parts.empty() || one.attributes.parts[0].first_face > 0)
+            parts.push_back({.object = std::filesystem::path(b.name()).stem().string(),
+                             .first_face = first_face});
+        for (tf::part& p : one.attributes.parts) {
+            p.first_face += first_face;
+            p.material.clear();
+            parts.push_back(std::move(p));
+        }
+        scene.mesh.points.insert(scene.mesh.points.end(), one.mesh.points.begin(),
+                                 one.mesh.points.end());
+        for (const tf::face& f : one.mesh.faces)
             scene.mesh.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
     };
     for (const body* b : bodies) add(*b);
@@ -175,7 +203,8 @@ void enter_blank_report(job& work, const place_settings& settings) {
     entry["fixed"] = json::array();
     entry["skipped"] = {{"non_finite", nullptr},          {"parts_not_loaded", 0},
                         {"parts_not_indexed", nullptr},   {"primitives_not_indexed", nullptr},
-                        {"pairs_culled_by_box", nullptr}, {"face_pairs_in_motion", nullptr}};
+                        {"pairs_culled_by_box", nullptr}, {"face_pairs_in_motion", nullptr},
+                        {"filter_calls", nullptr},        {"exact_calls", nullptr}};
     entry["clearance"] = {{"given", settings.clearance.given}, {"used", nullptr}};
     entry["max_travel"] = settings.max_travel ? json(settings.max_travel->given) : json(nullptr);
     for (const char* key :
@@ -185,7 +214,10 @@ void enter_blank_report(job& work, const place_settings& settings) {
     entry["contacts"] = json::array();
     entry["contact_count"] = nullptr;
     entry["sides"] = json::array();
-    for (const char* key : {"chosen", "fit", "fits"}) entry[key] = nullptr;
+    for (const char* key : {"chosen", "corrected", "fit", "fits"}) entry[key] = nullptr;
+    entry["tolerance"] = {
+        {"given", settings.mode == place_mode::lay ? json(settings.flatness.given) : json(nullptr)},
+        {"used", nullptr}};
     entry["parts"] = json::array();
     entry["not_placed"] = json::array();
     entry["matrix_file"] = settings.matrix.empty() ? json(nullptr) : json(settings.matrix.string());
@@ -195,15 +227,16 @@ void enter_blank_report(job& work, const place_settings& settings) {
 
 void enter_bodies(job& work, const body& moving, const surroundings& among) {
     json& entry = work.entry;
-    entry["faces"] = moving.file.stored_faces;
-    entry["triangles"] = moving.file.mesh.faces.size();
+    entry["faces"] = moving.file->stored_faces;
+    entry["triangles"] = moving.file->mesh.faces.size();
     entry["box"] = box_entry(moving.box);
     std::uint64_t non_finite = moving.non_finite;
-    for (std::size_t i = 0; i < among.all().size(); ++i) {
-        const body& part = among.all()[i];
-        json& one = entry["fixed"][i];
-        one["faces"] = part.file.stored_faces;
-        one["box"] = box_entry(part.box);
+    std::vector<std::optional<tf::box3>> boxes(entry["fixed"].size());
+    for (const body& part : among.all()) {
+        json& one = entry["fixed"][part.file_number];
+        one["faces"] = part.file->stored_faces;
+        extend(boxes[part.file_number], part.box);
+        one["box"] = box_entry(boxes[part.file_number]);
         non_finite += part.non_finite;
     }
     entry["skipped"]["non_finite"] = non_finite;
@@ -216,12 +249,26 @@ void enter_report(job& work, const body& moving, const placement& p, const surro
     entry["skipped"]["parts_not_indexed"] = parts - among.indexed();
     std::uint64_t faces = 0;
     for (const body& part : among.all())
-        if (!part.tree) faces += part.mesh.faces.size();
+        if (!part.tree) faces += part.face_count();
     entry["skipped"]["primitives_not_indexed"] = faces;
     entry["skipped"]["pairs_culled_by_box"] = p.skipped.parts_culled;
     entry["skipped"]["face_pairs_in_motion"] = p.skipped.pairs_tested;
-    for (std::size_t i = 0; i < parts; ++i)
-        entry["fixed"][i]["indexed"] = among.all()[i].tree != nullptr;
+    entry["skipped"]["filter_calls"] = p.skipped.predicates.calls;
+    entry["skipped"]["exact_calls"] = p.skipped.predicates.undecided;
+    for (json& one : entry["fixed"]) {
+        one["indexed"] = false;
+        one["parts"] = json::array();
+    }
+    for (const body& part : among.all()) {
+        json& one = entry["fixed"][part.file_number];
+        const bool indexed = part.tree != nullptr;
+        if (indexed) one["indexed"] = true;
+        if (part.part.empty()) continue;
+        one["parts"].push_back({{"name", part.part},
+                                {"triangles", part.face_count()},
+                                {"box", box_entry(part.box)},
+                                {"indexed", indexed}});
+    }
     entry["clearance"]["used"] = p.clearance;
     if (p.bed)
         entry["bed"] = {{"given", p.bed->given}, {"used", p.bed->used}, {"reached", p.on_bed}};
@@ -230,7 +277,7 @@ void enter_report(job& work, const body& moving, const placement& p, const surro
     entry["status_at_start"] = name_of(p.status_at_start);
     entry["status"] = name_of(p.status);
     entry["inside"] = inside_entry(p);
-    entry["contacts"] = contacts_entry(p.contacts);
+    entry["contacts"] = contacts_entry(p.contacts, among);
     entry["contact_count"] = p.contact_count;
     if (p.nearest) {
         entry["distance"] = p.nearest->how.distance;
@@ -249,7 +296,11 @@ void enter_report(job& work, const body& moving, const placement& p, const surro
         entry["sides"].push_back({{"normal", triple(side.normal)},
                                   {"area", side.area},
                                   {"centre", triple(side.centre)}});
-    if (!p.sides.empty()) entry["chosen"] = p.chosen;
+    if (!p.sides.empty()) {
+        entry["chosen"] = p.chosen;
+        entry["tolerance"]["used"] = p.tolerance;
+        entry["corrected"] = p.corrected;
+    }
     if (p.fit) enter_fit(work, *p.fit);
 }
 
@@ -266,15 +317,16 @@ void write_result(job& work, body& moving, const placement& p, const surrounding
     const common_options& o = work.options;
     const auto path = mesh_output(o, work.path);
     if (!path || o.dry_run) return;
-    const auto [format, ascii] = format_of(work, moving.file, *path);
+    const auto [format, ascii] = format_of(work, *moving.file, *path);
     std::optional<all_classes> classes;
     if (settings.mode == place_mode::measure && (format == "ply" || format == "glb"))
         classes = classify_faces(moving, among, p.clearance);
     take_places(moving, p.points, p.matrix, to_single);
-    turn_normals(moving.file, all_moves);
+    turn_normals(*moving.file, all_moves);
     std::vector<const body*> bodies{&moving};
-    for (const body& part : among.all()) bodies.push_back(&part);
-    tf::mesh_file file = settings.scene ? scene_of(bodies) : moving.file;
+    for (const body& part : among.all())
+        if (part.file != bodies.back()->file) bodies.push_back(&part);
+    tf::mesh_file file = settings.scene ? scene_of(bodies) : *moving.file;
     if (classes) color_faces(file, *classes, settings.scene);
     write_file(work, file, *path, format, ascii, to_single, settings.scene);
 }
@@ -287,7 +339,7 @@ void write_plate(job& work, const std::vector<body>& bodies, const std::vector<b
     for (std::size_t i = 0; i < bodies.size(); ++i)
         if (placed[i]) there.push_back(&bodies[i]);
     if (there.empty()) return;
-    const auto [format, ascii] = format_of(work, there[0]->file, *path);
+    const auto [format, ascii] = format_of(work, *there[0]->file, *path);
     write_file(work, scene_of(there), *path, format, ascii, to_single, true);
 }
 

@@ -21,7 +21,7 @@ std::vector<body> read_all(job& work, const tf::transform<3>& start) {
         if (start != tf::transform<3>{})
             for (tf::point3& p : file.mesh.points) p = start(p);
         bodies.push_back(make_body(work, path, std::move(file), false));
-        about["faces"] = bodies.back().file.stored_faces;
+        about["faces"] = bodies.back().file->stored_faces;
         work.entry["parts"].push_back(std::move(about));
     }
     return bodies;
@@ -58,7 +58,7 @@ exit_status arrange_all(job& work, const place_settings& settings) {
         settings.start.empty() ? tf::transform<3>{} : read_matrix(settings.start);
     std::vector<body> bodies = read_all(work, start);
     const bool to_single = std::all_of(bodies.begin(), bodies.end(),
-                                       [&](const body& b) { return writes_single(work, b.file); });
+                                       [&](const body& b) { return writes_single(work, *b.file); });
     tf::arrange_options options = settings.arrange;
     const double bed = settings.bed.value_or(0.0);
     options.corner.z = bed_to_write(bed, to_single);

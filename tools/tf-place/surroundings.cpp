@@ -1,5 +1,9 @@
 #include "tools/tf-place/surroundings.hpp"
 
+#include <libtree/build.hpp>
+#include <libtree/nearness.hpp>
+#include <libtree/search.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -55,21 +59,33 @@ bool before(const nearest_part& a, const nearest_part& b) {
     return a.part < b.part;
 }
 
+tf::aabb<double, 3> tree_box(const tf::box3& box) {
+    return {{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}};
+}
+
 }  // namespace
+
+surroundings::surroundings(std::vector<body>& all)
+    : all_(all), boxes_(tf::build(all, [](const body& part) { return tree_box(*part.box); })) {}
 
 chosen_parts surroundings::choose(const std::vector<std::size_t>& numbers) const {
     chosen_parts chosen;
     chosen.number = numbers;
-    for (const std::size_t i : numbers) chosen.parts.push_back({all_[i].mesh, &all_[i].faces()});
+    for (const std::size_t i : numbers) chosen.parts.push_back(all_[i].still());
     return chosen;
 }
 
 chosen_parts surroundings::on_the_way(const tf::box3& box, const tf::point3& motion, double latest,
                                       double reach) const {
-    std::vector<std::size_t> numbers;
-    for (std::size_t i = 0; i < all_.size(); ++i)
-        if (meets_on_the_way(box, *all_[i].box, motion, latest, reach)) numbers.push_back(i);
-    return choose(numbers);
+    const auto is_met = [&](const tf::aabb<double, 3>& other) {
+        const tf::box3 b{{other.min[0], other.min[1], other.min[2]},
+                         {other.max[0], other.max[1], other.max[2]}};
+        return meets_on_the_way(box, b, motion, latest, reach);
+    };
+    const auto found = tf::search_all(boxes_, is_met, [&](std::uint32_t i) {
+        return meets_on_the_way(box, *all_[i].box, motion, latest, reach);
+    });
+    return choose({found.begin(), found.end()});
 }
 
 chosen_parts surroundings::everything() const {
@@ -80,21 +96,18 @@ chosen_parts surroundings::everything() const {
 
 std::optional<nearest_part> surroundings::nearest(tf::mesh_view mesh, const tf::tree<3>& faces,
                                                   const tf::box3& box, double radius) const {
-    std::vector<std::size_t> order(all_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::vector<double> least;
-    for (const body& part : all_) least.push_back(box_distance(box, *part.box));
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t i, std::size_t j) { return least[i] < least[j]; });
     std::optional<nearest_part> best;
-    for (const std::size_t i : order) {
-        if (best) radius = best->how.distance;
-        if (least[i] > radius) break;
-        const auto how = tf::measure(mesh, faces, all_[i].mesh, all_[i].faces(), radius);
-        if (!how) continue;
-        const nearest_part one{i, *how};
-        if (!best || before(one, *best)) best = one;
-    }
+    const auto look = [&](std::uint32_t i) {
+        if (box_distance(box, *all_[i].box) > radius) return radius * radius;
+        const tf::still_part still = all_[i].still();
+        if (const auto how = tf::measure(mesh, faces, still.mesh, *still.faces, radius)) {
+            const nearest_part one{i, *how};
+            if (!best || before(one, *best)) best = one;
+            radius = best->how.distance;
+        }
+        return radius * radius * (1.0 + 0x1p-40) + 0x1p-1000;
+    };
+    tf::visit_near(boxes_, tree_box(box), look, {.radius = radius});
     return best;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 /// \file
-/// The fixed meshes: those that matter for a motion are indexed, no others.
+/// The fixed meshes, part by part: those that matter for a motion are indexed, no others.
 
 #include "tools/tf-place/body.hpp"
 #include "tools/tf-place/settings.hpp"
+#include <libmesh/exact/counters.hpp>
 #include <libmesh/place/measure.hpp>
 #include <libmesh/place/still_part.hpp>
+#include <libtree/tree.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +18,9 @@ namespace tools {
 
 /// What did not have to be looked at.
 struct skipped_work {
-    std::uint64_t parts_culled = 0;  ///< whose box told that they cannot matter
-    std::uint64_t pairs_tested = 0;  ///< of faces in motion
+    std::uint64_t parts_culled = 0;       ///< whose box told that they cannot matter
+    std::uint64_t pairs_tested = 0;       ///< of faces in motion
+    tf::predicate_counters predicates{};  ///< that these took
 };
 
 /// A part and how MOVING lies to it.
@@ -26,7 +29,7 @@ struct nearest_part {
     tf::mesh_measure how{};
 };
 
-/// A few of the fixed meshes, with their numbers among all.
+/// A few of the parts, with their numbers among all.
 struct chosen_parts {
     std::vector<tf::still_part> parts{};
     std::vector<std::size_t> number{};
@@ -34,8 +37,9 @@ struct chosen_parts {
 
 class surroundings {
   public:
-    explicit surroundings(std::vector<body>& all) : all_(all) {}
+    explicit surroundings(std::vector<body>& all);
 
+    /// By ascending files.
     [[nodiscard]] std::vector<body>& all() const { return all_; }
     /// Those whose boxes come within `reach` of `box` when it is moved by up to `latest` times
     /// `motion`; a little more is allowed for rounding.
@@ -53,6 +57,7 @@ class surroundings {
     [[nodiscard]] chosen_parts choose(const std::vector<std::size_t>& numbers) const;
 
     std::vector<body>& all_;
+    tf::tree<3> boxes_;  ///< of the parts
 };
 
 }  // namespace tools

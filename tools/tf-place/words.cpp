@@ -21,7 +21,7 @@ std::string relation_in_words(const placement& p, const surroundings& among) {
     std::string text = name_of(p.status);
     if (p.on_bed) return text + (p.status == place_status::clear ? " of the bed" : " the bed");
     if (!p.nearest) return text;
-    const std::string part = among.all()[p.nearest->part].path;
+    const std::string part = among.all()[p.nearest->part].label();
     const bool meet = p.status == place_status::touching || p.status == place_status::penetrating;
     if (!meet) return text + ", " + shortest(p.nearest->how.distance) + " from " + part;
     text += " " + part;
@@ -83,8 +83,9 @@ void say_details(job& work, const placement& p, const surroundings& among) {
              std::to_string(p.backed_off) + " steps taken back for rounding");
     if (p.nearest)
         out.info(work.name + ": nearest points " + in_words(p.nearest->how.on_a.point) + " and " +
-                 in_words(p.nearest->how.on_b.point) + " of " + among.all()[p.nearest->part].path);
-    out.info(work.name + ": " + counted(among.indexed(), "fixed mesh", "fixed meshes") + " of " +
+                 in_words(p.nearest->how.on_b.point) + " of " +
+                 among.all()[p.nearest->part].label());
+    out.info(work.name + ": " + counted(among.indexed(), "fixed part", "fixed parts") + " of " +
              std::to_string(among.all().size()) + " indexed, " + grouped(p.skipped.pairs_tested) +
              " pairs of faces looked at in motion");
 }
