@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a bare Debian 12 to tf-selfintersect and what it finds in real models. As root or with sudo;
-# safe to repeat, quick the second time. Writes only into build/ and data/real/ here.
+# From a bare Debian 12 to the tools and what they do with real models. As root or with sudo; safe to
+# repeat, quick the second time. Writes only into build/ and data/real/ here.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -18,8 +18,12 @@ if command -v ccache >/dev/null; then
 fi
 # A build folder that the tests have set up serves as it is.
 [[ -f build/release/build.ninja ]] || cmake --preset release -DTREEFORM_BUILD_TESTS=OFF >/dev/null
-cmake --build build/release --target tf-selfintersect
-tool=build/release/tools/tf-selfintersect/tf-selfintersect
+tools=()
+for main in tools/*/main.cpp; do
+    tools+=("$(basename "$(dirname "$main")")")
+done
+cmake --build build/release --target "${tools[@]}"
+at() { echo "build/release/tools/$1/$1"; }
 
 step "models"
 shopt -s nullglob
@@ -33,15 +37,20 @@ step "what tf-selfintersect finds"
 status=0
 for model in "${models[@]}"; do
     found=0
-    "$tool" "$model" || found=$?
+    "$(at tf-selfintersect)" "$model" || found=$?
     ((found <= 1)) || status=$found
 done
 
+step "what tf-weld and tf-place do with the first"
+"$(at tf-weld)" "${models[0]}" -f -o build/welded.ply || status=$?
+"$(at tf-place)" lay "${models[0]}" -f -o build/laid.ply || status=$?
+
 cat <<MSG
 
-== next
-  $tool --help
-  $tool YOUR_MODEL.stl -o marked.ply -r report.json
+== next: --help of each is its manual
+  $(at tf-selfintersect) YOUR_MODEL.stl -o marked.ply -r report.json
+  $(at tf-weld) YOUR_SCAN.ply -t 0.5 -o thin.ply
+  $(at tf-place) drop YOUR_MODEL.stl -o on_bed.stl
   tests/run.sh
 MSG
 exit $status
