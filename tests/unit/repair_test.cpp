@@ -1,0 +1,181 @@
+/// \file
+/// Repair: what is certified, what is inside, what stays as it was.
+
+#include <libmesh/face_tree.hpp>
+#include <libmesh/intersect/point_location.hpp>
+#include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/repair/repair.hpp>
+#include <libmesh/topology.hpp>
+#include <libtree/parallel.hpp>
+
+#include <doctest/doctest.h>
+#include <support/solids.hpp>
+#include <support/soups.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace {
+
+using mode = tf::repair_mode;
+
+tf::mesh two_balls() {
+    return test::together(test::ball(3, 1.0), test::moved(test::ball(3, 1.0), {0.7, 0.3, 0.1}));
+}
+
+double area_of(const tf::mesh& mesh) {
+    double sum = 0.0;
+    for (const tf::face& f : mesh.faces) {
+        const tf::point3 &a = mesh.points[f[0]], &b = mesh.points[f[1]], &c = mesh.points[f[2]];
+        const tf::point3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
+        sum +=
+            0.5 * std::hypot(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
+    }
+    return sum;
+}
+
+/// How many of some random points are inside of `solid` and not where `mesh` winds around them as
+/// the rule says, or the other way round.
+std::size_t wrong_points(const tf::mesh& mesh, tf::inside_rule rule, const tf::mesh& solid,
+                         std::size_t count) {
+    test::random source(3);
+    const tf::tree<3> tree = tf::face_tree(mesh), solid_tree = tf::face_tree(solid);
+    const tf::point_locator before(mesh, tree), after(solid, solid_tree);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const tf::point3 p{source.in(-1.2, 2.0), source.in(-1.2, 1.6), source.in(-1.2, 1.4)};
+        const auto was = before.locate(p);
+        const auto is = after.locate(p);
+        const bool inside = rule == tf::inside_rule::odd        ? was.winding % 2 != 0
+                            : rule == tf::inside_rule::positive ? was.winding > 0
+                                                                : was.winding != 0;
+        wrong += is.winding != (inside ? 1 : 0);
+    }
+    return wrong;
+}
+
+}  // namespace
+
+TEST_CASE("repair: the outer surface of two balls bounds what either held") {
+    const tf::mesh mesh = two_balls();
+    for (const tf::inside_rule rule :
+         {tf::inside_rule::nonzero, tf::inside_rule::odd, tf::inside_rule::positive})
+        for (const bool to_float : {false, true}) {
+            CAPTURE(static_cast<int>(rule));
+            CAPTURE(to_float);
+            const auto result = tf::repair(mesh, {.inside = rule, .to_float = to_float});
+            CHECK(result.certified);
+            CHECK(result.meeting.empty());
+            CHECK(tf::self_intersections(result.surface).pairs.empty());
+            CHECK(!tf::find_open_edge(result.surface));
+            CHECK(result.max_move < (to_float ? 1e-6 : 1e-15));
+            CHECK(result.lost_components == 0);
+            if (!to_float) CHECK(wrong_points(mesh, rule, result.surface, 2000) == 0);
+        }
+}
+
+TEST_CASE("repair: faces that meet nothing come out bit for bit and in order") {
+    const tf::mesh mesh = two_balls();
+    std::vector<char> meets(mesh.faces.size());
+    for (const tf::face_pair& pair : tf::self_intersections(mesh).pairs)
+        meets[pair.a] = meets[pair.b] = 1;
+    for (const mode m : {mode::split, mode::outer}) {
+        const auto result = tf::repair(mesh, {.mode = m});
+        REQUIRE(result.face_of.size() == result.surface.faces.size());
+        CHECK(std::is_sorted(result.face_of.begin(), result.face_of.end()));
+        std::size_t same = 0;
+        for (std::size_t f = 0; f < result.face_of.size(); ++f) {
+            const std::uint32_t old = result.face_of[f];
+            if (meets[old] != 0) continue;
+            ++same;
+            for (std::size_t k = 0; k < 3; ++k)
+                CHECK(result.surface.points[result.surface.faces[f][k]] ==
+                      mesh.points[mesh.faces[old][k]]);
+        }
+        CHECK(same > 0);
+        if (m == mode::split) CHECK(same == static_cast<std::size_t>(std::ranges::count(meets, 0)));
+        for (std::size_t p = 0; p < result.point_of.size(); ++p)
+            if (result.point_of[p] != tf::repaired_mesh::none)
+                CHECK(result.surface.points[p] == mesh.points[result.point_of[p]]);
+    }
+}
+
+TEST_CASE("repair: splitting keeps every face") {
+    test::random source(4);
+    for (const tf::mesh& mesh : {two_balls(), test::random_soup(source, 60, 0.4)}) {
+        const auto result = tf::repair(mesh, {.mode = mode::split});
+        CHECK(result.certified);
+        CHECK(tf::self_intersections(result.surface).pairs.empty());
+        CHECK(area_of(result.surface) == doctest::Approx(area_of(mesh)).epsilon(1e-12));
+        CHECK(result.removed == 0);
+        CHECK(result.filled == 0);
+    }
+}
+
+TEST_CASE("repair: a surface with a border bounds nothing, and it is said where it ends") {
+    tf::mesh mesh = two_balls();
+    mesh.faces.erase(mesh.faces.begin() + 5);
+    const auto result = tf::repair(mesh);
+    CHECK(!result.certified);
+    CHECK(result.surface.faces.empty());
+    CHECK(result.open_count == 3);
+    REQUIRE(result.open.size() == 3);
+    CHECK(tf::repair(mesh, {.mode = mode::split}).certified);
+}
+
+TEST_CASE("repair: a spike through the other side is removed and its holes are closed") {
+    tf::mesh mesh = test::ball(4, 1.0);
+    mesh.points[4] = {0.03, 0.02, -1.5};  // the top pulled down through the bottom
+    REQUIRE(!tf::self_intersections(mesh).pairs.empty());
+    const auto result = tf::repair(mesh, {.mode = mode::remove});
+    CHECK(result.certified);
+    CHECK(result.removed > 0);
+    CHECK(result.filled > 0);
+    CHECK(tf::self_intersections(result.surface).pairs.empty());
+    const auto counts = tf::count_topology(result.surface.points.size(), result.surface.faces);
+    CHECK(counts.closed);
+    CHECK(counts.misoriented_edges == 0);
+    CHECK(result.face_of.size() == result.surface.faces.size());
+    CHECK(result.max_move == 0.0);
+}
+
+TEST_CASE("repair: removing faces leaves a border where there was one") {
+    test::random source(5);
+    tf::mesh mesh = test::grid(20);
+    mesh.points[220] = {5.5, 5.5, 0.0};  // folds over its neighbours
+    const auto before = tf::count_topology(mesh.points.size(), mesh.faces);
+    REQUIRE(!tf::self_intersections(mesh).pairs.empty());
+    const auto result = tf::repair(mesh, {.mode = mode::remove});
+    CHECK(result.certified);
+    CHECK(tf::self_intersections(result.surface).pairs.empty());
+    const auto after = tf::count_topology(result.surface.points.size(), result.surface.faces);
+    CHECK(after.boundary_edges == before.boundary_edges);
+    CHECK(after.components_by_edge == 1);
+}
+
+TEST_CASE("repair: a component that is nothing but faces that meet is counted as lost") {
+    const tf::mesh mesh = test::together(
+        test::ball(2, 1.0), {{{5, 0, 0}, {6, 0, 0}, {5, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}});
+    const auto result = tf::repair(mesh, {.mode = mode::outer});
+    CHECK(result.certified);
+    CHECK(result.lost_components == 1);
+    CHECK(result.removed == 2);
+}
+
+TEST_CASE("repair: nothing to repair, nothing changed; on any number of threads") {
+    const tf::mesh ball = test::ball(2, 1.0);
+    for (const mode m : {mode::split, mode::outer, mode::remove}) {
+        CHECK(tf::repair(ball, {.mode = m}).surface == ball);
+        CHECK(tf::repair({}, {.mode = m}).certified);
+        const auto all = tf::repair(two_balls(), {.mode = m});
+        for (const unsigned threads : {1U, 2U, 8U}) {
+            const tf::thread_scope scope(threads);
+            const auto again = tf::repair(two_balls(), {.mode = m});
+            CHECK(again.surface == all.surface);
+            CHECK(again.face_of == all.face_of);
+        }
+    }
+}
