@@ -41,6 +41,7 @@ class cutter {
     }
 
     cut_cluster run() {
+        if (points_.size() == 3) return copies();
         planar_triangulation plane = start();
         insert_points(plane);
         force_lines(plane);
@@ -143,6 +144,19 @@ class cutter {
             if (orientation_ != 0) return;
         }
         throw std::logic_error("tf::arrange_faces: a face without area");
+    }
+
+    /// Members with the same three corners, and nothing else there.
+    [[nodiscard]] cut_cluster copies() const {
+        const face& first = corners(in_.members[0]);
+        cut_cluster result;
+        result.faces.push_back({first, 0});
+        for (const std::uint32_t f : in_.members) {
+            const face& c = corners(f);
+            const std::size_t turn = c[0] == first[0] ? 0 : c[1] == first[0] ? 1 : 2;
+            result.covers.push_back({f, c[(turn + 1) % 3] != first[1]});
+        }
+        return result;
     }
 
     planar_triangulation start() {

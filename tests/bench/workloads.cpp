@@ -13,6 +13,8 @@ TREEFORM_WORKLOAD(poses_by_peers);             // b2
 TREEFORM_WORKLOAD(near_pairs_from_arrays);     // b3
 TREEFORM_WORKLOAD(nearness);                   // b4
 TREEFORM_WORKLOAD(self_intersections);         // b5
+TREEFORM_WORKLOAD(booleans);                   // b6
+TREEFORM_WORKLOAD(placement);                  // b7
 TREEFORM_WORKLOAD(files);                      // b8
 TREEFORM_WORKLOAD(predicates);                 // b9
 TREEFORM_WORKLOAD(build_by_peers);             // f2
@@ -50,6 +52,8 @@ std::span<const workload> workloads() {
                  draw_nearness},
         workload{"B5", "self-intersections: arrays -> classified pairs, tree included",
                  self_intersections},
+        workload{"B6", "set operations of two solids, from arrays to arrays", booleans},
+        workload{"B7", "two meshes met for the first time, and their first contact", placement},
         workload{"B8", "files: read and write, page cache warm", files},
         workload{"B9", "predicates and triangle pairs, by family of hard cases", predicates},
         workload{"F2", "tree build beside CGAL and FCL, by size", build_by_peers,

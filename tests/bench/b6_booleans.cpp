@@ -1,0 +1,117 @@
+/// \file
+/// B6: set operations of two solids, from arrays to arrays.
+
+#include "bench/models.hpp"
+#include "bench/peers/cgal_corefinement.hpp"
+#include "bench/peers/versions.hpp"
+#include "bench/workload.hpp"
+#include <libmesh/boolean/boolean.hpp>
+#include <libmesh/bounding_box.hpp>
+
+#include <cmath>
+
+namespace tf::bench {
+namespace {
+
+struct two_solids {
+    std::string name;
+    std::function<shared_mesh()> a;
+    std::function<shared_mesh()> b;
+};
+
+/// About the centre of its box, about the box's shortest axis.
+mesh turned(mesh m, double angle) {
+    const box3 box = bounding_box(m.points).value();
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (box.max[k] - box.min[k] < box.max[axis] - box.min[axis]) axis = k;
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const double cu = 0.5 * (box.min[u] + box.max[u]), cv = 0.5 * (box.min[v] + box.max[v]);
+    for (point3& p : m.points) {
+        const double x = p[u] - cu, y = p[v] - cv;
+        p[u] = cu + (std::cos(angle) * x - std::sin(angle) * y);
+        p[v] = cv + (std::sin(angle) * x + std::cos(angle) * y);
+    }
+    return m;
+}
+
+mesh moved(mesh m, double by_diagonals) {
+    const box3 box = bounding_box(m.points).value();
+    const double step = by_diagonals * (box.max.x - box.min.x);
+    for (point3& p : m.points) p.x += step;
+    return m;
+}
+
+std::vector<two_solids> pairs(const setting& setting) {
+    const auto loaded = [&](const model& m) { return [=] { return load(setting, m); }; };
+    const auto beside = [&](const model& m, const std::string& how,
+                            const std::function<mesh(const mesh&)>& change) {
+        return two_solids{name_of(setting, m) + how, [=] { return load(setting, m); },
+                          [=] {
+                              return cached(setting, name_of(setting, m) + how,
+                                            [=] { return change(*load(setting, m)); });
+                          }};
+    };
+    const model blade_1m{"clean/turbineblade_199k.ply", "1M", 1'000'000};
+    const model armadillo{"clean/armadillo_29k.obj", "100k", 100'000};
+    if (setting.effort == effort::tiny)
+        return {beside({"", "2k", 2'000}, "_turned", [](const mesh& m) { return turned(m, 0.8); })};
+    std::vector<two_solids> result{
+        {"bunny_100k+cow_100k", loaded({"pairs/bunny25k.obj", "100k", 99'000}),
+         loaded({"pairs/cow25k.obj", "100k", 99'000})},
+        beside(armadillo, "_turned", [](const mesh& m) { return turned(m, 0.7853981633974483); })};
+    if (setting.effort == effort::full) {
+        result.push_back(beside(blade_1m, "_beside", [](const mesh& m) { return moved(m, 0.97); }));
+        result.push_back(beside(blade_1m, "_turned",
+                                [](const mesh& m) { return turned(m, 0.7853981633974483); }));
+    }
+    return result;
+}
+
+contest contest_of(const two_solids& solids, const std::string& suffix,
+                   const std::function<boolean_expression()>& make, corefinement operation) {
+    contest contest{
+        .name = solids.name + suffix,
+        .size = [solids] { return solids.a()->faces.size() + solids.b()->faces.size(); },
+        .long_runs = 3};
+    for (const unsigned threads : {1U, 2U})
+        contest.contestants.push_back(
+            {"treeform", threads, [=] {
+                 const shared_mesh a = solids.a(), b = solids.b();
+                 return make_job(
+                     [a, b, make] {
+                         const std::array<mesh_view, 2> operands{*a, *b};
+                         return boolean(operands, make());
+                     },
+                     [](const solid_result& r) -> std::optional<double> {
+                         return r.certified ? 0.0 : 1.0;
+                     },
+                     [](const solid_result& r) {
+                         return std::vector<figure>{
+                             {"faces", static_cast<double>(r.surface.faces.size())},
+                             {"pairs", static_cast<double>(r.pairs)}};
+                     });
+             }});
+    contest.contestants.push_back(
+        {cgal_name() + " EPICK", 1,
+         [=] { return cgal_corefinement(*solids.a(), *solids.b(), operation); }});
+    return contest;
+}
+
+}  // namespace
+
+void booleans(const setting& setting, const contest_visitor& visit) {
+    for (const two_solids& solids : pairs(setting)) {
+        visit(contest_of(
+            solids, "/union", [] { return boolean_expression::union_of(2); },
+            corefinement::set_union));
+        visit(contest_of(
+            solids, "/difference", [] { return boolean_expression::difference_of(2); },
+            corefinement::set_difference));
+        visit(contest_of(
+            solids, "/intersection", [] { return boolean_expression::intersection_of(2); },
+            corefinement::set_intersection));
+    }
+}
+
+}  // namespace tf::bench

@@ -1,0 +1,148 @@
+/// \file
+/// B7: two large meshes met for the first time: tree and distance, tree and collision, beside FCL;
+/// and the first contact along a direction beside one distance, trees given.
+
+#include "bench/peers/fcl_models.hpp"
+#include "bench/peers/versions.hpp"
+#include "bench/pose_askers.hpp"
+#include "bench/poses.hpp"
+#include <libmesh/bounding_box.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/nearness/mesh_distance.hpp>
+#include <libmesh/place/first_contact.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tf::bench {
+namespace {
+
+std::vector<scene_name> scenes(const setting& setting) {
+    const char* armadillo = "clean/armadillo_29k.obj";
+    const char* bunny = "open/bunny_69k.obj";
+    const char* blade = "clean/turbineblade_199k.ply";
+    switch (setting.effort) {
+        case effort::tiny:
+            return {{{"", "2k", 2'000}, {"", "3k", 3'000}, 2}};
+        case effort::quick:
+            return {{{armadillo, "50k", 50'000}, {bunny, "70k", 70'000}, 10}};
+        case effort::full:
+            break;
+    }
+    return {{{blade, "200k", 199'000}, {bunny, "280k", 280'000}, 10},
+            {{blade, "1M", 1'000'000}, {bunny, "1.09M", 1'090'000}, 10}};
+}
+
+/// Trees and one answer: what a program that asks once has to wait for.
+make_asker own_from_arrays(pose_question question) {
+    return [=](const scene& scene) -> ask_pose {
+        return [a = scene.a, b = scene.b, question](const transform<3>& pose) -> double {
+            if (question == pose_question::collide)
+                return intersects(*a, *b, {.move_b = pose}) ? 1 : 0;
+            return mesh_distance(*a, face_tree(*a), *b, transformed<3>(face_tree(*b), pose))
+                .value()
+                .distance;
+        };
+    };
+}
+
+make_asker fcl_from_arrays(fcl_volume volume, pose_question question) {
+    return [=](const scene& scene) -> ask_pose {
+        return [a = scene.a, b = scene.b, volume, question](const transform<3>& pose) -> double {
+            const auto models = fcl_pair_of(*a, *b, volume);
+            return question == pose_question::collide ? (models->collide(pose) ? 1 : 0)
+                                                      : models->distance(pose);
+        };
+    };
+}
+
+contest from_arrays(const setting& setting, scene_name name, const std::string& suffix,
+                    pose_question question) {
+    name.poses = 1;
+    const std::function<shared_scene()> given = [=] { return load(setting, name); };
+    const auto expected = answered_once(
+        given, question, question == pose_question::collide ? own_collide : own_distance);
+    contest contest{.name = name_of(setting, name) + suffix,
+                    .size = [=] { return triangles_of(setting, name); },
+                    .long_runs = 3};
+    const auto add = [&](const std::string& who, unsigned threads, const make_asker& make) {
+        contest.contestants.push_back(
+            {who, threads, [=] { return pose_job(given(), question, make, expected); }});
+    };
+    add("treeform", 1, own_from_arrays(question));
+    add("treeform", 2, own_from_arrays(question));
+    add(fcl_name() + " OBBRSS", 1, fcl_from_arrays(fcl_volume::obbrss, question));
+    if (question == pose_question::distance)
+        add(fcl_name() + " RSS", 1, fcl_from_arrays(fcl_volume::rss, question));
+    return contest;
+}
+
+struct prepared {
+    shared_scene given;
+    tree<3> tree_a, tree_b;
+};
+
+/// From where the second mesh is towards the centre of the first.
+point3 towards_first(const scene& scene, const transform<3>& pose) {
+    const auto centre = [](const mesh& m) {
+        const box3 box = bounding_box(m.points).value();
+        return point3{0.5 * (box.min.x + box.max.x), 0.5 * (box.min.y + box.max.y),
+                      0.5 * (box.min.z + box.max.z)};
+    };
+    const point3 to = centre(*scene.a);
+    const point3 from = pose(centre(*scene.b));
+    return {to.x - from.x, to.y - from.y, to.z - from.z};
+}
+
+contest contact_beside_distance(const setting& setting, const scene_name& name) {
+    const auto prepare = [=] {
+        const shared_scene given = load(setting, name);
+        return std::make_shared<const prepared>(
+            prepared{given, face_tree(*given->a), face_tree(*given->b)});
+    };
+    contest contest{.name = name_of(setting, name) + "/first_contact",
+                    .size = [=] { return triangles_of(setting, name); },
+                    .unit = per_pose(name.poses),
+                    .with_memory = false,
+                    .long_runs = 3};
+    contest.contestants.push_back(
+        {"treeform", 1, [=] {
+             const auto p = prepare();
+             return make_job([p] {
+                 std::size_t met = 0;
+                 for (const transform<3>& pose : p->given->apart)
+                     met += first_contact(*p->given->b, p->tree_b, *p->given->a, p->tree_a,
+                                          towards_first(*p->given, pose), {.move_a = pose})
+                                .end == motion_end::contact;
+                 return met;
+             });
+         }});
+    contest.contestants.push_back({"treeform one distance", 1, [=] {
+                                       const auto p = prepare();
+                                       return make_job([p] {
+                                           double sum = 0.0;
+                                           for (const transform<3>& pose : p->given->apart)
+                                               sum += mesh_distance(*p->given->a, p->tree_a,
+                                                                    *p->given->b,
+                                                                    transformed<3>(p->tree_b, pose))
+                                                          .value()
+                                                          .distance;
+                                           return sum;
+                                       });
+                                   }});
+    return contest;
+}
+
+}  // namespace
+
+void placement(const setting& setting, const contest_visitor& visit) {
+    for (const scene_name& name : scenes(setting)) {
+        visit(from_arrays(setting, name, "/build+distance", pose_question::distance));
+        visit(from_arrays(setting, name, "/build+collide", pose_question::collide));
+        visit(contact_beside_distance(setting, name));
+    }
+}
+
+}  // namespace tf::bench

@@ -1,0 +1,168 @@
+/// \file
+/// Placements of real meshes: what has been placed penetrates nothing, and could not have been
+/// placed much further. Without TREEFORM_MODELS_DIR nothing is checked.
+
+#include <libmesh/bounding_box.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libmesh/io/read.hpp>
+#include <libmesh/nearness/mesh_distance.hpp>
+#include <libmesh/place/arrange.hpp>
+#include <libmesh/place/first_contact.hpp>
+#include <libmesh/place/relation.hpp>
+#include <libmesh/place/settle.hpp>
+#include <libmesh/weld/equal_points.hpp>
+
+#include <doctest/doctest.h>
+#include <support/truth.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+tf::mesh read(const std::filesystem::path& path) {
+    return tf::join_equal_points(tf::read_mesh(path).mesh);
+}
+
+double largest_coordinate(const tf::mesh& mesh) {
+    double largest = 0.0;
+    for (const tf::point3& p : mesh.points)
+        for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, std::abs(p[k]));
+    return largest;
+}
+
+/// `a` with its box centred above that of `b`, beyond it by the height of `b`.
+tf::mesh above(tf::mesh a, const tf::mesh& b) {
+    const tf::box3 from = tf::bounding_box(a.points).value();
+    const tf::box3 to = tf::bounding_box(b.points).value();
+    const double x = 0.5 * (to.min.x + to.max.x) - 0.5 * (from.min.x + from.max.x);
+    const double y = 0.5 * (to.min.y + to.max.y) - 0.5 * (from.min.y + from.max.y);
+    const double z = to.max.z + (to.max.z - to.min.z) - from.min.z;
+    for (tf::point3& p : a.points) p = {p.x + x, p.y + y, p.z + z};
+    return a;
+}
+
+tf::mesh dropped(tf::mesh a, double way, bool to_single) {
+    for (tf::point3& p : a.points) {
+        p.z -= way;
+        if (to_single)
+            p = {static_cast<double>(static_cast<float>(p.x)),
+                 static_cast<double>(static_cast<float>(p.y)),
+                 static_cast<double>(static_cast<float>(p.z))};
+    }
+    return a;
+}
+
+}  // namespace
+
+TEST_CASE("models: what is dropped on another stops outside of it, and not an ulp before") {
+    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
+    if (folder.empty()) {
+        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
+        return;
+    }
+    std::set<std::array<std::string, 2>> seen;
+    int placed = 0, touching = 0;
+    for (const test::truth_row& row : test::read_truth(folder / "TRUTH_PAIRS.csv")) {
+        const std::array files{row.text("file_a"), row.text("file_b")};
+        if (!seen.insert(files).second) continue;
+        CAPTURE(row.text("pair"));
+        const tf::mesh b = read(folder / files[1]);
+        const tf::mesh a = above(read(folder / files[0]), b);
+        const tf::tree<3> tree_a = tf::face_tree(a), tree_b = tf::face_tree(b);
+        const tf::point3 down{0.0, 0.0, -1.0};
+        const auto met = tf::first_contact(a, tree_a, b, tree_b, down);
+        if (met.end == tf::motion_end::free) continue;
+        REQUIRE(met.end == tf::motion_end::contact);
+        for (const bool to_single : {false, true}) {
+            CAPTURE(to_single);
+            const auto settled = tf::settle(a, b, tree_b, down, met.time, {.to_single = to_single});
+            tf::mesh there = a;
+            there.points = settled.points;
+            CHECK(there.points == dropped(a, settled.time, to_single).points);
+            const auto now = tf::relation(there, tf::face_tree(there), b, tree_b).relation;
+            CHECK(now == settled.relation);
+            CHECK(now != tf::mesh_relation::penetrating);
+            ++placed;
+            touching += now == tf::mesh_relation::touching;
+            if (now == tf::mesh_relation::touching) continue;
+            // An ulp of the largest coordinate further it meets.
+            const double largest =
+                std::max({largest_coordinate(there), largest_coordinate(b), settled.time});
+            const double ulp = to_single ? std::ldexp(1.0, std::ilogb(largest) - 23)
+                                         : std::ldexp(1.0, std::ilogb(largest) - 52);
+            const tf::mesh further = dropped(a, settled.time + 2.0 * ulp, to_single);
+            CHECK(tf::relation(further, tf::face_tree(further), b, tree_b).relation !=
+                  tf::mesh_relation::separate);
+        }
+    }
+    CHECK(placed > 0);
+    MESSAGE(placed << " placements checked, " << touching << " of them touch exactly");
+}
+
+TEST_CASE("models: fifty parts on a plate keep their distance, and those left out are named") {
+    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
+    if (folder.empty()) {
+        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
+        return;
+    }
+    // Fifty parts of moderate size, some of them twice, at sizes from 32 to 64.
+    std::set<std::string> files;
+    for (const test::truth_row& row : test::read_truth(folder / "TRUTH_PAIRS.csv"))
+        files.insert({row.text("file_a"), row.text("file_b")});
+    std::vector<tf::mesh> parts;
+    for (int copy = 0; parts.size() < 50; ++copy) {
+        REQUIRE(copy < 50);
+        for (const std::string& file : files) {
+            if (parts.size() == 50) break;
+            tf::mesh part = read(folder / file);
+            if (part.faces.size() > 30000) continue;
+            const tf::box3 box = tf::bounding_box(part.points).value();
+            const double size =
+                std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
+            const double factor = std::ldexp(1.0, 5 - std::ilogb(size));
+            for (tf::point3& p : part.points) p = {factor * p.x, factor * p.y, factor * p.z};
+            parts.push_back(std::move(part));
+        }
+    }
+    const std::vector<tf::mesh_view> views(parts.begin(), parts.end());
+    for (const double side : {600.0, 200.0}) {
+        CAPTURE(side);
+        const tf::arrange_options options{.size = {side, side, infinity}, .spacing = 2.0};
+        const auto result = tf::arrange(views, options);
+        std::vector<std::uint32_t> left_out;
+        std::vector<tf::mesh> placed;
+        for (std::uint32_t i = 0; i < parts.size(); ++i) {
+            if (!result.parts[i].placed) {
+                left_out.push_back(i);
+                continue;
+            }
+            placed.push_back({result.parts[i].points, parts[i].faces});
+            const tf::box3 box = tf::bounding_box(placed.back().points).value();
+            CHECK(box.min.z == 0.0);
+            CHECK(std::min(box.min.x, box.min.y) >= 0.0);
+            CHECK(std::max(box.max.x, box.max.y) <= side);
+        }
+        CHECK(result.not_placed == left_out);
+        CHECK(left_out.empty() == (side == 600.0));
+        CHECK(placed.size() >= 5);
+        std::vector<tf::tree<3>> trees;
+        for (const tf::mesh& part : placed) trees.push_back(tf::face_tree(part));
+        for (std::size_t i = 0; i < placed.size(); ++i)
+            for (std::size_t j = i + 1; j < placed.size(); ++j) {
+                const auto gap = tf::mesh_distance(placed[i], trees[i], placed[j], trees[j], 2.5);
+                if (gap) CHECK(gap->distance >= 2.0);
+            }
+        MESSAGE(placed.size() << " of 50 parts on a plate of " << side);
+    }
+}
