@@ -121,6 +121,15 @@ class Large(WeldTest):
             self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
             self.assertEqual(self.listing(), ["in.ply", "memory.ply", "out.ply"])
 
+    def test_standard_input_of_a_killed_run_is_removed_by_the_next(self):
+        data = ply(cloud(900), ascii=False)
+        command = ["-", "-t", "0.02", "-o", "out.ply", "--tile-points", 100]
+        run = self.run_tool(*command, "--stop-at", 2, stdin=data)
+        self.assertEqual(run.status, -signal.SIGKILL)
+        self.assertEqual(len(self.listing()), 2)  # what was read, and the tiles
+        self.run_tool(*command, stdin=data, status=0)
+        self.assertEqual(self.listing(), ["out.ply"])
+
     def test_what_only_memory_can_do_is_refused_in_words(self):
         self.write("in.ply", ply(cloud(200), ascii=False))
         for more in (["--keep", "mean"], ["--same", "number"], ["--keep-manifold"],

@@ -69,12 +69,28 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     return {};
 }
 
+/// Removes what processes that were killed have left of standard input.
+void remove_spooled(const fs::path& beside) {
+    const std::string start = beside.filename().string() + "-";
+    const fs::path folder = beside.has_parent_path() ? beside.parent_path() : fs::path(".");
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(start)) continue;
+        const std::string process = name.substr(start.size());
+        if (process.empty() || process.find_first_not_of("0123456789") != std::string::npos)
+            continue;
+        if (!fs::exists("/proc/" + process, ignored)) fs::remove(entry.path(), ignored);
+    }
+}
+
 /// Standard input as a file, as it is read more than once; what is read from standard input then
 /// comes from there, too.
 class spooled_input {
   public:
     spooled_input(job& work, const fs::path& beside)
         : keeper_(work.keeper), path_(beside.string() + "-" + std::to_string(::getpid())) {
+        remove_spooled(beside);
         keeper_.unfinished(path_);
         fs::remove(path_);
         std::vector<std::byte> bytes(std::size_t{1} << 20);
