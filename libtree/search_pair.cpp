@@ -1,4 +1,5 @@
 #include <libtree/detail/candidate_sink.hpp>
+#include <libtree/detail/map_back.hpp>
 #include <libtree/parallel.hpp>
 #include <libtree/search_pair.hpp>
 
@@ -36,80 +37,97 @@ HWY_BEFORE_NAMESPACE();
 namespace tf::detail::HWY_NAMESPACE {
 namespace {
 
+/// A node of a tree in the common frame and, where boxes are compared twice, in the other one.
+template <std::size_t D>
+struct framed_node {
+    const wide_node<D>* common;
+    const wide_node<D>* own;
+};
+
 /// A node, and where its box is.
 template <std::size_t D>
 struct place {
     unsigned height;
     std::size_t node;
-    const wide_node<D>* parent;
+    framed_node<D> parent;
     std::size_t slot;
 };
 
-/// The nodes of one tree in the common frame. A moved node is kept until another one of its height
-/// is asked for: a search that goes down asks for the children of one node in a row.
+/// The nodes of a tree in a frame. Those moved last are kept, of each height one for each slot of a
+/// parent: a search goes down to the children of one node in a row.
 template <std::size_t D>
-class side {
+class framed_nodes {
   public:
-    side(const tree<D>& t, const frame_map<D>& map) : map_(map) {
+    framed_nodes(const tree<D>& t, const frame_map<D>& map) : map_(map) {
         for (unsigned level = 0; level < t.levels(); ++level)
             nodes_[t.levels() - 1 - level] = t.level(level).data();
         top_ = t.levels() - 1;
-        moved_at_.fill(none);
-        // The box of the root, as if the root were a child.
-        const wide_node<D>& root = node(top_, 0);
-        for (std::size_t k = 0; k < D; ++k) {
-            above_root_.min[k][0] = *std::min_element(root.min[k], root.min[k] + 8);
-            above_root_.max[k][0] = *std::max_element(root.max[k], root.max[k] + 8);
-        }
+        if (!map_.identity)
+            for (unsigned height = 0; height <= top_; ++height) moved_at_[height].fill(none);
     }
-    side(const side&) = delete;
-    side& operator=(const side&) = delete;
+    framed_nodes(const framed_nodes&) = delete;
+    framed_nodes& operator=(const framed_nodes&) = delete;
 
     [[nodiscard]] unsigned top() const { return top_; }
 
     [[nodiscard]] const wide_node<D>& node(unsigned height, std::size_t i) {
         const wide_node<D>& original = nodes_[height][i];
         if (map_.identity) return original;
-        if (moved_at_[height] != i) {
-            map_node(map_, original, moved_[height]);
-            moved_at_[height] = i;
+        std::size_t& at = moved_at_[height][i % 8];
+        wide_node<D>& moved = moved_[height][i % 8];
+        if (at != i) {
+            map_node(map_, original, moved);
+            at = i;
         }
-        return moved_[height];
+        return moved;
     }
 
-    [[nodiscard]] place<D> at(unsigned height, std::size_t i) {
-        if (height == top_) return {height, i, &above_root_, 0};
-        return {height, i, &node(height + 1, i / 8), i % 8};
+    /// Asks memory for what `node` reads.
+    void prefetch(unsigned height, std::size_t i) const {
+        const auto* at = reinterpret_cast<const char*>(nodes_[height] + i);
+        for (std::size_t byte = 0; byte < sizeof(wide_node<D>); byte += 64)
+            __builtin_prefetch(at + byte);
     }
 
-    [[nodiscard]] static place<D> child(const place<D>& of, const wide_node<D>& node,
-                                        std::size_t slot) {
-        return {of.height - 1, 8 * of.node + slot, &node, slot};
+    /// The node above; for the root one whose first child it is.
+    [[nodiscard]] const wide_node<D>* above(unsigned height, std::size_t i) {
+        if (height != top_) return &node(height + 1, i / 8);
+        const wide_node<D>& root = node(top_, 0);
+        for (std::size_t k = 0; k < D; ++k) {
+            above_root_.min[k][0] = *std::min_element(root.min[k], root.min[k] + 8);
+            above_root_.max[k][0] = *std::max_element(root.max[k], root.max[k] + 8);
+        }
+        return &above_root_;
     }
 
   private:
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     static constexpr std::size_t max_levels = 11;  // 8^11 > 2^32
 
-    frame_map<D> map_;
+    const frame_map<D>& map_;
     unsigned top_ = 0;
     std::array<const wide_node<D>*, max_levels> nodes_{};
-    std::array<std::size_t, max_levels> moved_at_;
-    std::array<wide_node<D>, max_levels> moved_;
+    std::array<std::array<std::size_t, 8>, max_levels> moved_at_;
+    std::array<std::array<wide_node<D>, 8>, max_levels> moved_;
     wide_node<D> above_root_;
 };
 
-/// Calls `open(a, b)` for the pairs of children of two nodes that overlap, or of the higher one's
-/// children with the other: `pairs_below` for inner nodes; `leaf(i, mask)` for leaf blocks.
+/// The way down from a pair of nodes to the pairs of children that overlap, or of the higher one's
+/// children with the other.
 template <std::size_t D>
 class pair_traversal {
   public:
     explicit pair_traversal(const two_trees<D>& trees)
-        : a_(*trees.a, trees.map_a), b_(*trees.b, trees.map_b) {}
+        : both_(trees.both_frames),
+          a_{{*trees.a, trees.map_a}, {*trees.a, trees.own_a}},
+          b_{{*trees.b, trees.map_b}, {*trees.b, trees.own_b}} {}
 
-    [[nodiscard]] side<D>& a() { return a_; }
-    [[nodiscard]] side<D>& b() { return b_; }
+    [[nodiscard]] unsigned top_a() const { return a_.common.top(); }
+    [[nodiscard]] unsigned top_b() const { return b_.common.top(); }
     [[nodiscard]] search_statistics& seen() { return seen_; }
+
+    [[nodiscard]] place<D> at_a(unsigned height, std::size_t i) { return at(a_, height, i); }
+    [[nodiscard]] place<D> at_b(unsigned height, std::size_t i) { return at(b_, height, i); }
 
     /// One step down from a pair of nodes whose boxes may overlap: `inner(a, b)` for each pair of
     /// nodes below, until it returns false; for two leaf blocks `leaf(i, mask)`, primitive i of a
@@ -118,28 +136,31 @@ class pair_traversal {
     bool open(const place<D>& a, const place<D>& b, const Inner& inner, const Leaf& leaf) {
         ++seen_.nodes;
         if (a.height < b.height) {
-            const wide_node<D>& node = b_.node(b.height, b.node);
-            for (unsigned rest = mask(node, *a.parent, a.slot); rest != 0; rest &= rest - 1)
-                if (!inner(a, b_.child(b, node, lowest(rest)))) return false;
+            const framed_node<D> node = node_at(b_, b);
+            for (unsigned rest = mask(node, a.parent, a.slot); rest != 0; rest &= rest - 1)
+                if (!inner(a, child(b, node, lowest(rest)))) return false;
             return true;
         }
-        const wide_node<D>& node_a = a_.node(a.height, a.node);
-        const unsigned in_a = mask(node_a, *b.parent, b.slot);
+        const framed_node<D> node_a = node_at(a_, a);
+        const unsigned in_a = mask(node_a, b.parent, b.slot);
         if (b.height < a.height) {
             for (unsigned rest = in_a; rest != 0; rest &= rest - 1)
-                if (!inner(a_.child(a, node_a, lowest(rest)), b)) return false;
+                if (!inner(child(a, node_a, lowest(rest)), b)) return false;
             return true;
         }
-        const wide_node<D>& node_b = b_.node(b.height, b.node);
-        for (unsigned i = in_a; i != 0; i &= i - 1) {
-            const unsigned in_b = mask(node_b, node_a, lowest(i));
-            if (a.height == 0) {
-                if (in_b != 0) leaf(lowest(i), in_b);
-                continue;
-            }
-            const place<D> child = a_.child(a, node_a, lowest(i));
-            for (unsigned rest = in_b; rest != 0; rest &= rest - 1)
-                if (!inner(child, b_.child(b, node_b, lowest(rest)))) return false;
+        if (in_a == 0) return true;
+        const framed_node<D> node_b = node_at(b_, b);
+        std::array<unsigned, 8> in_b;
+        const unsigned met = masks(node_b, node_a, in_a, in_b);
+        if (a.height == 0) {
+            for (unsigned i = met; i != 0; i &= i - 1) leaf(lowest(i), in_b[lowest(i)]);
+            return true;
+        }
+        prefetch_children(a, met, b, in_b);
+        for (unsigned i = met; i != 0; i &= i - 1) {
+            const place<D> below = child(a, node_a, lowest(i));
+            for (unsigned rest = in_b[lowest(i)]; rest != 0; rest &= rest - 1)
+                if (!inner(below, child(b, node_b, lowest(rest)))) return false;
         }
         return true;
     }
@@ -156,16 +177,58 @@ class pair_traversal {
     }
 
   private:
+    /// A tree in the common frame and in the other one.
+    struct side {
+        framed_nodes<D> common;
+        framed_nodes<D> own;
+    };
+
     static std::size_t lowest(unsigned bits) {
         return static_cast<std::size_t>(std::countr_zero(bits));
     }
-    unsigned mask(const wide_node<D>& node, const wide_node<D>& other, std::size_t slot) {
+    static place<D> child(const place<D>& of, const framed_node<D>& node, std::size_t slot) {
+        return {of.height - 1, 8 * of.node + slot, node, slot};
+    }
+    [[nodiscard]] framed_node<D> node_at(side& of, const place<D>& at) const {
+        return {&of.common.node(at.height, at.node),
+                both_ ? &of.own.node(at.height, at.node) : nullptr};
+    }
+    [[nodiscard]] place<D> at(side& of, unsigned height, std::size_t i) const {
+        return {height,
+                i,
+                {of.common.above(height, i), both_ ? of.own.above(height, i) : nullptr},
+                height == of.common.top() ? 0 : i % 8};
+    }
+    /// The children of a that have a pair, and their partners, are about to be opened.
+    void prefetch_children(const place<D>& a, unsigned in_a, const place<D>& b,
+                           const std::array<unsigned, 8>& in_b) const {
+        unsigned partners = 0;
+        for (unsigned i = in_a; i != 0; i &= i - 1) {
+            partners |= in_b[lowest(i)];
+            a_.common.prefetch(a.height - 1, 8 * a.node + lowest(i));
+        }
+        for (unsigned rest = partners; rest != 0; rest &= rest - 1)
+            b_.common.prefetch(b.height - 1, 8 * b.node + lowest(rest));
+    }
+    unsigned mask(const framed_node<D>& node, const framed_node<D>& other, std::size_t slot) {
         ++seen_.box_tests;
-        return overlap_mask(node, other, slot);
+        const unsigned overlapping = overlap_mask(*node.common, *other.common, slot);
+        if (!both_ || overlapping == 0) return overlapping;
+        return overlapping & overlap_mask(*node.own, *other.own, slot);
+    }
+    /// The masks of `node` for the slots of `other` in `wanted`; returns those where it is not 0.
+    unsigned masks(const framed_node<D>& node, const framed_node<D>& other, unsigned wanted,
+                   std::array<unsigned, 8>& overlapping) {
+        seen_.box_tests += static_cast<unsigned>(std::popcount(wanted));
+        overlapping.fill(0xFF);
+        wanted = overlap_masks(*node.common, *other.common, wanted, overlapping.data());
+        if (!both_ || wanted == 0) return wanted;
+        return overlap_masks(*node.own, *other.own, wanted, overlapping.data());
     }
 
-    side<D> a_;
-    side<D> b_;
+    bool both_;
+    side a_;
+    side b_;
     search_statistics seen_;
 };
 
@@ -174,12 +237,12 @@ class pair_traversal {
 template <std::size_t D>
 frontier expand(const two_trees<D>& trees, std::size_t enough) {
     pair_traversal<D> traversal(trees);
-    frontier now{traversal.a().top(), traversal.b().top(), {{0, 0}}};
+    frontier now{traversal.top_a(), traversal.top_b(), {{0, 0}}};
     while (now.height_a + now.height_b != 0 && !now.items.empty() && now.items.size() < enough) {
         std::vector<node_pair> below;
         for (const node_pair item : now.items)
             traversal.open(
-                traversal.a().at(now.height_a, item.a), traversal.b().at(now.height_b, item.b),
+                traversal.at_a(now.height_a, item.a), traversal.at_b(now.height_b, item.b),
                 [&](const place<D>& a, const place<D>& b) {
                     below.push_back(
                         {static_cast<std::uint32_t>(a.node), static_cast<std::uint32_t>(b.node)});
@@ -201,8 +264,8 @@ search_statistics search_items(const two_trees<D>& trees, unsigned height_a, uns
     candidate_sink sink(visit, block_size);
     pair_traversal<D> traversal(trees);
     for (std::size_t i = 0; i < items.size() && !sink.stopped(); ++i)
-        traversal.descend(traversal.a().at(height_a, items[i].a),
-                          traversal.b().at(height_b, items[i].b), sink);
+        traversal.descend(traversal.at_a(height_a, items[i].a),
+                          traversal.at_b(height_b, items[i].b), sink);
     sink.flush();
     traversal.seen().candidates = sink.total();
     return traversal.seen();
@@ -255,12 +318,20 @@ search_statistics search_items(const two_trees<3>& trees, unsigned height_a, uns
 }
 
 template <std::size_t D>
-two_trees<D> in_one_frame(const transformed<D>& a, const transformed<D>& b) {
+two_trees<D> in_one_frame(const transformed<D>& a, const transformed<D>& b, turned_boxes boxes) {
     const tree_frame<D>& frame_a = a.original().frame();
     const tree_frame<D>& frame_b = b.original().frame();
     const tree_frame<D> common = common_frame(frame_a, a.by(), frame_b, b.by());
-    return {&a.original(), &b.original(), map_into(frame_a, a.by(), common),
-            map_into(frame_b, b.by(), common)};
+    two_trees<D> trees{&a.original(), &b.original(), map_into(frame_a, a.by(), common),
+                       map_into(frame_b, b.by(), common)};
+    if (boxes == turned_boxes::upright || a.moves() == b.moves() || a.original().empty() ||
+        b.original().empty())
+        return trees;
+    const auto back = a.moves() ? map_back(frame_b, a.by(), a.original())
+                                : map_back(frame_a, b.by(), b.original());
+    trees.both_frames = back.has_value();
+    if (back) (a.moves() ? trees.own_b : trees.own_a) = *back;
+    return trees;
 }
 
 // Where the search is cut: at the first level with enough pairs of nodes, in pieces of a few. Both
@@ -274,8 +345,8 @@ constexpr std::size_t small_block = 56;
 }  // namespace detail
 
 template <std::size_t D>
-pair_search<D>::pair_search(const transformed<D>& a, const transformed<D>& b)
-    : trees_(detail::in_one_frame(a, b)) {
+pair_search<D>::pair_search(const transformed<D>& a, const transformed<D>& b, turned_boxes boxes)
+    : trees_(detail::in_one_frame(a, b, boxes)) {
     if (trees_.a->empty() || trees_.b->empty()) return;
     detail::frontier cut = detail::expand(trees_, detail::enough_items);
     height_a_ = cut.height_a;
@@ -300,9 +371,9 @@ search_statistics pair_search<D>::visit(
 template <std::size_t D>
 search_statistics pair_search<D>::visit_all(
     const transformed<D>& a, const transformed<D>& b,
-    detail::function_ref<bool(const candidate_block&)> visit) {
+    detail::function_ref<bool(const candidate_block&)> visit, turned_boxes boxes) {
     if (a.original().empty() || b.original().empty()) return {};
-    const detail::two_trees<D> trees = detail::in_one_frame(a, b);
+    const detail::two_trees<D> trees = detail::in_one_frame(a, b, boxes);
     const detail::node_pair roots{0, 0};
     return detail::search_items(trees, trees.a->levels() - 1, trees.b->levels() - 1, {&roots, 1},
                                 detail::small_block, visit);

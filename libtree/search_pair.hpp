@@ -16,6 +16,18 @@
 #include <vector>
 
 namespace tf {
+
+/// When a box of a tree and one of a tree that is moved count as overlapping.
+enum class turned_boxes {
+    /// Where the box around the turned one, along the axes, overlaps the other.
+    upright,
+    /// Where besides, with all turned back, the box around the other one overlaps the moved one as
+    /// it was: fewer pairs, some quarter less of rotated surfaces, but none of primitives that
+    /// meet.
+    /// The same as `upright` unless one of the trees is moved, and the other not.
+    both_ways
+};
+
 namespace detail {
 
 /// Two trees, and how boxes of each come into the frame in which they are compared.
@@ -25,6 +37,10 @@ struct two_trees {
     const tree<D>* b;
     frame_map<D> map_a;
     frame_map<D> map_b;
+    /// Whether boxes are also compared in the frame of the moved tree, and how they come there.
+    bool both_frames = false;
+    frame_map<D> own_a{};
+    frame_map<D> own_b{};
 };
 
 }  // namespace detail
@@ -44,7 +60,8 @@ template <std::size_t D>
 class TREEFORM_API pair_search {
   public:
     /// \pre the trees outlive the search and are not rebuilt meanwhile
-    pair_search(const transformed<D>& a, const transformed<D>& b);
+    pair_search(const transformed<D>& a, const transformed<D>& b,
+                turned_boxes boxes = turned_boxes::upright);
 
     [[nodiscard]] std::size_t chunks() const;
 
@@ -60,7 +77,8 @@ class TREEFORM_API pair_search {
     /// The candidates of all chunks on this thread, in smaller blocks and without the cost of
     /// cutting the search first: for those who expect to hear soon that they may stop.
     static search_statistics visit_all(const transformed<D>& a, const transformed<D>& b,
-                                       detail::function_ref<bool(const candidate_block&)> visit);
+                                       detail::function_ref<bool(const candidate_block&)> visit,
+                                       turned_boxes boxes = turned_boxes::upright);
 
   private:
     detail::two_trees<D> trees_;
@@ -107,17 +125,21 @@ template <class State, placed_tree A, placed_tree B, class Apply>
 /// A block may be handed out twice. Looks at some thousand candidates on one thread before it cuts
 /// the search for all: a collision that is easy to find costs no more than the way down to it.
 template <placed_tree A, placed_tree B, class Accept>
-[[nodiscard]] bool search_any_broad(const A& a, const B& b, const Accept& accept) {
+[[nodiscard]] bool search_any_broad(const A& a, const B& b, const Accept& accept,
+                                    turned_boxes boxes = turned_boxes::upright) {
     constexpr std::size_t serially = 4096;
     bool found = false;
     std::size_t seen = 0;
-    pair_search<A::dimensions>::visit_all(a, b, [&](const candidate_block& block) {
-        found = accept(block);
-        seen += block.first.size();
-        return !found && seen < serially;
-    });
+    pair_search<A::dimensions>::visit_all(
+        a, b,
+        [&](const candidate_block& block) {
+            found = accept(block);
+            seen += block.first.size();
+            return !found && seen < serially;
+        },
+        boxes);
     if (found || seen < serially) return found;
-    return detail::search_for_any(pair_search<A::dimensions>(a, b), accept);
+    return detail::search_for_any(pair_search<A::dimensions>(a, b, boxes), accept);
 }
 
 /// The same by pairs: whether `accept(a, b)` is true for some pair of primitives whose boxes

@@ -74,14 +74,11 @@ template <std::size_t D>
     return result;
 }
 
-/// The map that undoes `by`: after(inverse(by), by) is the identity but for rounding. Exactly so
-/// for translations, exchanges of axes and scalings by powers of two.
-///
-/// \throws std::invalid_argument when `by` flattens space, as far as its rounded determinant says,
-///         or an entry of the result is not finite
-/// \source Cramer's rule
+namespace detail {
+
+/// As `inverse`, but entries may be infinite or NaN.
 template <std::size_t D>
-requires(D == 2 || D == 3) [[nodiscard]] transform<D> inverse(const transform<D>& by) {
+requires(D == 2 || D == 3) [[nodiscard]] transform<D> unchecked_inverse(const transform<D>& by) {
     const auto& m = by.rows;
     transform<D> result;
     double determinant = 0.0;
@@ -105,6 +102,20 @@ requires(D == 2 || D == 3) [[nodiscard]] transform<D> inverse(const transform<D>
         }
         row[D] = shift + 0.0;
     }
+    return result;
+}
+
+}  // namespace detail
+
+/// The map that undoes `by`: after(inverse(by), by) is the identity but for rounding. Exactly so
+/// for translations, exchanges of axes and scalings by powers of two.
+///
+/// \throws std::invalid_argument when `by` flattens space, as far as its rounded determinant says,
+///         or an entry of the result is not finite
+/// \source Cramer's rule
+template <std::size_t D>
+requires(D == 2 || D == 3) [[nodiscard]] transform<D> inverse(const transform<D>& by) {
+    const transform<D> result = detail::unchecked_inverse(by);
     if (!result.finite()) throw std::invalid_argument("tf::inverse: the map has no inverse");
     return result;
 }

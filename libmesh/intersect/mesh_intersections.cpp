@@ -85,7 +85,7 @@ mesh_intersection_result mesh_intersections(mesh_view a, const tree<3>& tree_a, 
     check_tree("tf::mesh_intersections", "first", a, tree_a);
     check_tree("tf::mesh_intersections", "second", b, tree_b);
     const pair_search<3> search(transformed(tree_a, options.move_a),
-                                transformed(tree_b, options.move_b));
+                                transformed(tree_b, options.move_b), turned_boxes::both_ways);
     const detail::mesh_pair_input input{
         {a, tree_a, options.move_a}, {b, tree_b, options.move_b}, options.kinds};
     return sieved<detail::mesh_pair_sieve>(search, input, options);
@@ -94,7 +94,7 @@ mesh_intersection_result mesh_intersections(mesh_view a, const tree<3>& tree_a, 
 mesh_intersection_result mesh_intersections(const distance_model& a, const distance_model& b,
                                             const mesh_intersection_options& options) {
     const pair_search<3> search(transformed(a.tree_, options.move_a),
-                                transformed(b.tree_, options.move_b));
+                                transformed(b.tree_, options.move_b), turned_boxes::both_ways);
     const detail::block_pair_input input{{a.triangles_, a.tree_, options.move_a},
                                          {b.triangles_, b.tree_, options.move_b},
                                          options.kinds};
@@ -115,18 +115,19 @@ bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& 
         {a, tree_a, positions.move_a}, {b, tree_b, positions.move_b}, all.kinds};
     std::mutex mutex;  // taken for a bad face only
     detail::bad_faces bad;
-    const bool found =
-        search_any_broad(transformed(tree_a, positions.move_a),
-                         transformed(tree_b, positions.move_b), [&](const candidate_block& block) {
-                             detail::sieve_output output;
-                             detail::bad_faces met;
-                             detail::mesh_pair_sieve(input, output, met).add(block);
-                             if (met.in_a != met.none || met.in_b != met.none) {
-                                 const std::lock_guard lock(mutex);
-                                 add(met, bad);
-                             }
-                             return !output.pairs.empty();
-                         });
+    const bool found = search_any_broad(
+        transformed(tree_a, positions.move_a), transformed(tree_b, positions.move_b),
+        [&](const candidate_block& block) {
+            detail::sieve_output output;
+            detail::bad_faces met;
+            detail::mesh_pair_sieve(input, output, met).add(block);
+            if (met.in_a != met.none || met.in_b != met.none) {
+                const std::lock_guard lock(mutex);
+                add(met, bad);
+            }
+            return !output.pairs.empty();
+        },
+        turned_boxes::both_ways);
     check_faces_met("tf::intersects", bad);
     return found;
 }

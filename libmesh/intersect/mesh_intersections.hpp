@@ -38,11 +38,11 @@ struct mesh_intersection_options {
 struct mesh_intersection_result {
     std::vector<face_pair> pairs;  ///< face `a` of the first mesh, `b` of the second; ascending
     std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
-    std::uint64_t box_pairs = 0;                          ///< pairs of faces whose boxes overlap
-    std::uint64_t exact_pairs = 0;                        ///< of these, left open by the filter
-    predicate_counters predicates{};                      ///< what the undecided pairs cost
-    search_statistics searched{};  ///< what was looked at; the rest of both meshes was skipped
-    bool cancelled = false;        ///< `progress` said stop
+    std::uint64_t box_pairs = 0;    ///< pairs of faces whose boxes overlap, under a move both ways
+    std::uint64_t exact_pairs = 0;  ///< of these, left open by the filter
+    predicate_counters predicates{};  ///< what the undecided pairs cost
+    search_statistics searched{};     ///< what was looked at; the rest of both meshes was skipped
+    bool cancelled = false;           ///< `progress` said stop
 };
 
 /// All pairs of a face of `a` and a face of `b` that have a common point.

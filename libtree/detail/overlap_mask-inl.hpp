@@ -13,6 +13,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -48,6 +49,40 @@ HWY_INLINE unsigned overlap_mask(const wide_node<D>& node, const wide_node<D>& o
         mask |= (bits[0] & ((1U << lanes) - 1)) << i;
     }
     return mask;
+}
+
+/// The same for each slot of `other` in `wanted`: takes from `masks[slot]` what does not overlap
+/// it, and from the slots returned those of which nothing is left.
+template <std::size_t D>
+HWY_INLINE unsigned overlap_masks(const wide_node<D>& node, const wide_node<D>& other,
+                                  unsigned wanted, unsigned* masks) {
+    const hn::CappedTag<float, 8> d;
+    const std::size_t lanes = hn::Lanes(d);
+    for (std::size_t i = 0; i < 8; i += lanes) {
+        hn::Vec<decltype(d)> min[D], max[D];
+        for (std::size_t k = 0; k < D; ++k) {
+            min[k] = hn::Load(d, node.min[k] + i);
+            max[k] = hn::Load(d, node.max[k] + i);
+        }
+        const unsigned others = 0xFFU & ~(((1U << lanes) - 1) << i);
+        for (unsigned rest = wanted; rest != 0; rest &= rest - 1) {
+            const auto slot = static_cast<std::size_t>(std::countr_zero(rest));
+            const float max_0 = std::min(other.max[0][slot], std::numeric_limits<float>::max());
+            auto overlap = hn::Le(min[0], hn::Set(d, max_0));
+            overlap = hn::And(overlap, hn::Ge(max[0], hn::Set(d, other.min[0][slot])));
+            for (std::size_t k = 1; k < D; ++k) {
+                overlap = hn::And(overlap, hn::Le(min[k], hn::Set(d, other.max[k][slot])));
+                overlap = hn::And(overlap, hn::Ge(max[k], hn::Set(d, other.min[k][slot])));
+            }
+            std::uint8_t bits[8] = {};
+            hn::StoreMaskBits(d, overlap, bits);
+            masks[slot] &= others | ((bits[0] & ((1U << lanes) - 1)) << i);
+        }
+    }
+    unsigned left = 0;
+    for (unsigned rest = wanted; rest != 0; rest &= rest - 1)
+        if (masks[std::countr_zero(rest)] != 0) left |= rest & (~rest + 1);
+    return left;
 }
 
 }  // namespace
