@@ -17,7 +17,7 @@ FILE = {"input": str, "exit": int, "error": type(None), "format": str, "sha256":
 PAIRS = dict.fromkeys(["crossing", "overlap", "fold", "duplicate", "pierce", "touching",
                        "degenerate"], OPTIONAL_COUNT)
 REGION = {"id": int, "faces": int, "pairs": int, "box": dict, "center": list, "components": list}
-STEPS = dict.fromkeys(["read", "prepare", "tree", "pairs", "regions", "write"], NUMBER)
+STEPS = dict.fromkeys(["read", "prepare", "tree", "pairs", "regions", "repair", "write"], NUMBER)
 
 
 class Report(ToolTest):

@@ -20,7 +20,7 @@ class Usage(ToolTest):
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
         for group in ("What counts:", "What to give back:", "Common options:", "Exit status:"):
             self.assertIn(group, run.text)
-        self.assertNotIn("--repair", run.text)
+        self.assertIn("--repair", run.text)
         self.assertEqual(self.run_tool("-h").text, run.text)
 
     def test_version_names_tool_and_build(self):
@@ -30,7 +30,7 @@ class Usage(ToolTest):
     def test_what_is_not_an_option_is_refused(self):
         self.assertIn("--nonsense", self.refused(self.part, "--nonsense"))
         self.refused()
-        self.refused(self.part, "--repair")
+        self.refused(self.part, "--mend")
 
     def test_options_of_other_tools_are_refused_with_a_reason(self):
         self.assertIn("changes no mesh", self.refused(self.part, "--in-place"))

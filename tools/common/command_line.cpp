@@ -56,6 +56,13 @@ void command_line::option(option_text text, std::function<void(std::string_view)
     mention(std::move(text));
 }
 
+void command_line::flag_with_value(option_text text, std::string bare,
+                                   std::function<void(std::string_view)> accept) {
+    CLI::Option* flag = parser_->app.add_flag(names_of(text) + "{" + bare + "}");
+    flag->each([accept = std::move(accept)](const std::string& value) { accept(value); });
+    mention(std::move(text));
+}
+
 void command_line::output(std::filesystem::path& target, option_text text) {
     outputs_.push_back(&target);
     option(std::move(text), [&target, names = text.names](std::string_view value) {

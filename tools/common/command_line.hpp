@@ -29,6 +29,10 @@ class command_line {
     void option(std::string& target, option_text text);
     /// `accept` parses the value; what it throws ends the run.
     void option(option_text text, std::function<void(std::string_view)> accept);
+    /// An option whose value, if any, follows "=": --name or --name=VALUE. `bare` is accepted for
+    /// the first.
+    void flag_with_value(option_text text, std::string bare,
+                         std::function<void(std::string_view)> accept);
     /// The value is the name of a file to write; "-" is standard output.
     void output(std::filesystem::path& target, option_text text);
     /// An option of other tools of the family that makes no sense here, and why.

@@ -1,26 +1,18 @@
 #include "tools/tf-boolean/outputs.hpp"
 
+#include "tools/common/carried_properties.hpp"
+#include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
-#include "tools/tf-boolean/properties.hpp"
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/io/write.hpp>
 #include <libmesh/topology.hpp>
 #include <libmesh/volume.hpp>
 
 #include <algorithm>
-#include <filesystem>
-#include <stdexcept>
+#include <optional>
 #include <utility>
 
 namespace tools {
 namespace {
-
-bool is_text(const std::string& format) {
-    return format.ends_with("ascii") || format.starts_with("obj") || format.starts_with("off") ||
-           format.starts_with("xyz") || format.starts_with("csv");
-}
 
 /// Of the faces that meet each other, where the first of them is.
 json meeting_list(const tf::solid_result& result) {
@@ -54,28 +46,6 @@ void add_sources(tf::mesh_file& file, const boolean_settings& settings,
                                                " " + solids[i].path);
 }
 
-bool same_corners(const tf::mesh& a, const tf::mesh& b) {
-    if (a.faces.size() != b.faces.size()) return false;
-    for (std::size_t f = 0; f < a.faces.size(); ++f)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (!(a.points[a.faces[f][k]] == b.points[b.faces[f][k]])) return false;
-    return true;
-}
-
-/// What was certified is what is on the disk now. GLB is read by others, which renumber; an empty
-/// mesh may be an empty file.
-void look_again(const std::filesystem::path& path, const std::string& format,
-                const tf::mesh& surface) {
-    std::error_code error;
-    if (surface.faces.empty() || format == "glb" || path == "-" ||
-        !std::filesystem::is_regular_file(path, error))
-        return;
-    const tf::mesh_file written = tf::read_mesh(path, format);
-    if (!same_corners(written.mesh, surface) ||
-        (written.indexed && written.mesh.faces != surface.faces))
-        throw std::logic_error("the file written does not hold what was certified");
-}
-
 }  // namespace
 
 void check_output_places(const job& work) {
@@ -100,15 +70,8 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
 
 bool writes_single(const job& work, const std::vector<solid>& solids) {
     const common_options& o = work.options;
-    if (!o.output.empty()) {
-        const std::string format = mesh_format(o, o.output);
-        if (format == "glb" || (format == "stl" && !o.ascii)) return true;
-    }
-    if (o.precision != "keep") return o.precision == "float";
-    return std::all_of(solids.begin(), solids.end(), [](const solid& s) {
-        return s.file.stored_as == tf::precision::single_ && !is_text(s.file.format) &&
-               tf::fits_single(s.file.mesh.points);
-    });
+    return writes_single(o, o.output.empty() ? std::nullopt : std::optional(o.output),
+                         sources_of(solids));
 }
 
 void enter_result(job& work, const boolean_settings& settings, const tf::solid_result& result,
@@ -154,20 +117,10 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     file.stored_faces = file.mesh.faces.size();
     file.stored_as = to_single ? tf::precision::single_ : tf::precision::double_;
     const std::string format = mesh_format(o, o.output);
-    if (!settings.no_attributes) carry_properties(file, solids, result);
+    if (!settings.no_attributes)
+        carry_properties(file, sources_of(solids), result.source_face, result.source_point);
     if (format == "ply") add_sources(file, settings, solids, result);
-    output_place place(o.output, o.force, work.keeper);
-    tf::write_result written;
-    try {
-        written = tf::write_mesh(place.writable(), file,
-                                 {.format = format, .ascii = o.ascii, .precision = file.stored_as});
-        look_again(place.writable(), format, file.mesh);
-    } catch (const tf::io_error& error) {
-        throw failure(bad_output, "output", error.what());
-    }
-    if (written.largest_move > 0.0)
-        throw std::logic_error("coordinates were rounded that had been certified");
-    place.commit();
+    const tf::write_result written = write_certified(work, file, o.output);
     work.entry["output"]["file"] = o.output.string();
     work.entry["output"]["format"] = written.format;
     for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);

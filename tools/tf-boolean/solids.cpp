@@ -103,6 +103,12 @@ std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids) {
     return views;
 }
 
+std::vector<property_source> sources_of(const std::vector<solid>& solids) {
+    std::vector<property_source> sources;
+    for (const solid& s : solids) sources.push_back(s.source());
+    return sources;
+}
+
 double diagonal_of(const std::vector<solid>& solids) {
     std::vector<tf::point3> corners;
     for (const solid& s : solids)

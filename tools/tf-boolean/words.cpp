@@ -1,7 +1,7 @@
 #include "tools/tf-boolean/words.hpp"
 
+#include "tools/common/carried_properties.hpp"
 #include "tools/common/console.hpp"
-#include "tools/tf-boolean/properties.hpp"
 
 namespace tools {
 
@@ -32,7 +32,7 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
     if (!settings.splits() && nonmanifold > 0)
         work.warn("nonmanifold", counted(nonmanifold, "edge", "edges") +
                                      " of more than two faces, where parts of the result touch");
-    if (!settings.no_attributes && leaves_out_properties(solids))
+    if (!settings.no_attributes && leaves_out_properties(sources_of(solids)))
         work.warn("attributes",
                   "normals of points, lists and properties of other elements are not carried over");
 }

@@ -1,5 +1,5 @@
 /// \file
-/// tf-selfintersect: finds the self-intersections of triangle meshes.
+/// tf-selfintersect: finds the self-intersections of triangle meshes, and resolves them.
 
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
@@ -7,6 +7,7 @@
 #include "tools/common/run.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
 #include "tools/tf-selfintersect/page.hpp"
+#include "tools/tf-selfintersect/repairing.hpp"
 #include "tools/tf-selfintersect/search.hpp"
 #include "tools/tf-selfintersect/words.hpp"
 
@@ -21,6 +22,9 @@ struct request {
     std::uint64_t limit = 10000;
     std::filesystem::path pairs;
     std::filesystem::path curves;
+    std::optional<tools::repair_settings> repair;
+    std::optional<tools::distance> max_move;
+    bool keep_components = false;
 };
 
 tf::box3 parse_box(std::string_view text) {
@@ -81,7 +85,35 @@ void add_what_to_give_back(command_line& line, request& r, common_options& optio
     line.output(options.html, {"--html", "FILE", "self-contained HTML page with a 3D view"});
     line.output(options.output, {"-o, --output", "FILE",
                                  "the mesh with the faces coloured by kind, and its\n"
-                                 "properties tf_class and tf_region (PLY, GLB)"});
+                                 "properties tf_class and tf_region (PLY, GLB); the\n"
+                                 "repaired mesh with --repair"});
+}
+
+tf::repair_mode parse_repair(std::string_view text) {
+    for (const tf::repair_mode mode :
+         {tf::repair_mode::split, tf::repair_mode::outer, tf::repair_mode::remove})
+        if (text == tools::name_of(mode)) return mode;
+    throw tools::failure(tools::bad_usage, "usage",
+                         "--repair=" + std::string(text) + ": expected split, outer or remove");
+}
+
+void add_repair(command_line& line, request& r) {
+    line.group("Repair");
+    line.flag_with_value({.names = "--repair",
+                          .text = "split: cut along the curves, keep every face\n"
+                                  "outer: then keep only what bounds the solid\n"
+                                  "remove: delete the faces and fill the holes",
+                          .fallback = "outer",
+                          .label = "--repair[=MODE]"},
+                         "outer", [&r](std::string_view text) {
+                             r.repair.emplace();
+                             r.repair->mode = parse_repair(text);
+                         });
+    line.option(
+        {"--max-move", "DIST", "fail (exit 1) if any point would move further", "0.1%"},
+        [&r](std::string_view text) { r.max_move = tools::parse_distance("--max-move", text); });
+    line.flag(r.keep_components,
+              {"--keep-components", "", "fail (exit 1) if a component would disappear"});
 }
 
 const char* const epilogue =
@@ -96,8 +128,19 @@ const char* const epilogue =
     "own right. Face and vertex numbers are those of the file, from 0; polygons are\n"
     "cut into a fan from their first corner.\n"
     "\n"
-    "Exit status: 0 none found; 1 found; 2 usage; 3 input; 4 output; 5 stopped\n"
-    "  (memory, timeout, signal); 70 bug. Of several inputs, the highest.\n";
+    "A repaired mesh is checked in the coordinates that are written; what cannot be\n"
+    "certified is not written. outer needs a closed surface, however it overlaps; it\n"
+    "keeps what the surface winds around. remove is for open sheets and scans: it is\n"
+    "local, and keeps no volume. Faces that meet nothing stay bit for bit.\n"
+    "\n"
+    "Examples:\n"
+    "  tf-selfintersect part.stl --curves where.obj\n"
+    "  tf-selfintersect --repair part.stl -o fixed.stl\n"
+    "  tf-selfintersect --repair=remove scan.ply -o clean.ply --max-move 0\n"
+    "\n"
+    "Exit status: 0 none found, or all resolved; 1 found, or not all resolved;\n"
+    "  2 usage; 3 input; 4 output; 5 stopped (memory, timeout, signal); 70 bug.\n"
+    "  Of several inputs, the highest.\n";
 
 /// Outputs are looked at before the work, so that it is not lost in the end.
 void check_outputs(const tools::job& work, const request& r) {
@@ -111,7 +154,7 @@ void check_outputs(const tools::job& work, const request& r) {
 
 bool curves_as_ply(const request& r) { return tools::extension_of(r.curves) == "ply"; }
 
-void check_request(const request& r, const common_options& options) {
+void check_request(const request& r, common_options& options) {
     const auto refuse = [](const std::string& text) {
         throw tools::failure(tools::bad_usage, "usage", text);
     };
@@ -119,6 +162,12 @@ void check_request(const request& r, const common_options& options) {
     if (!r.curves.empty() && r.curves != "-" && !curves_as_ply(r) &&
         tools::extension_of(r.curves) != "obj")
         refuse(r.curves.string() + ": curves can be written as obj or ply");
+    if (!r.repair && (r.max_move || r.keep_components))
+        refuse("--max-move and --keep-components need --repair");
+    if (r.repair && (r.search.first || r.search.between || r.search.within || r.search.box))
+        refuse("--repair looks at the whole mesh: no --first, --between, --within or --box");
+    if (!r.repair) options.mesh_formats = {"ply", "glb"};  // that can hold marks
+    if (!options.output.empty()) static_cast<void>(tools::mesh_format(options, options.output));
     const bool mesh_asked = !options.output.empty() || !options.output_dir.empty();
     if (!mesh_asked && (options.ascii || options.binary || options.precision != "keep" ||
                         !options.output_format.empty() || options.dry_run))
@@ -142,45 +191,69 @@ void hint_at_near_points(tools::job& work, const tools::findings& result) {
                   " of another without being equal to it; -t 0.0001% would join them");
 }
 
+void write_reports(tools::job& work, const request& r, const tools::findings& result) {
+    const auto timing = work.time("write");
+    const common_options& o = work.options;
+    write_file(work, r.pairs, [&](auto& out) { tools::write_pairs(out, result); });
+    if (!o.dry_run)
+        write_file(work, r.curves,
+                   [&](auto& out) { tools::write_curves(out, result, curves_as_ply(r)); });
+    write_file(work, o.html, [&](auto& out) { tools::write_page(out, work, result, r.search); });
+}
+
+tools::repair_settings repair_settings_of(const request& r) {
+    tools::repair_settings settings = *r.repair;
+    settings.max_move = r.max_move ? *r.max_move : tools::parse_distance("--max-move", "0.1%");
+    settings.keep_components = r.keep_components;
+    return settings;
+}
+
 exit_status look_at(tools::job& work, const request& r) {
     check_outputs(work, r);
     tf::mesh_file file = work.read();
     const common_options& o = work.options;
-    const auto marked = o.dry_run ? std::nullopt : tools::mesh_output(o, work.path);
-    const tools::findings result = tools::search(work, file, r.search, marked.has_value());
+    const auto output = tools::mesh_output(o, work.path);
+    const bool keeps_mesh = r.repair || (output && !o.dry_run);
+    const tools::findings result = tools::search(work, file, r.search, keeps_mesh);
 
     work.out.result(work.name + ": " + tools::verdict(result, r.search));
     tools::say_details(work, result);
     tools::enter_report(work, result, r.search, r.limit);
     if (result.pairs_that_count() > 0) hint_at_near_points(work, result);
 
-    const auto timing = work.time("write");
-    write_file(work, r.pairs, [&](auto& out) { tools::write_pairs(out, result); });
-    if (!o.dry_run)
-        write_file(work, r.curves,
-                   [&](auto& out) { tools::write_curves(out, result, curves_as_ply(r)); });
-    if (marked) tools::write_marked(work, file, result, *marked);
-    write_file(work, o.html, [&](auto& out) { tools::write_page(out, work, result, r.search); });
+    write_reports(work, r, result);
+    if (r.repair) {
+        const bool done =
+            tools::repair_and_write(work, file, result, repair_settings_of(r), output);
+        return done ? tools::done : tools::found;
+    }
+    if (output && !o.dry_run) {
+        const auto timing = work.time("write");
+        tools::write_marked(work, file, result, *output);
+    }
     return result.pairs_that_count() > 0 ? tools::found : tools::done;
 }
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    command_line line("tf-selfintersect", "[OPTIONS] INPUT...",
-                      "Find self-intersections of triangle meshes.\n"
-                      "Every yes/no answer is exact for the coordinates as read.");
+    command_line line(
+        "tf-selfintersect", "[OPTIONS] INPUT...",
+        "Find self-intersections of triangle meshes and, with --repair, resolve them.\n"
+        "Every yes/no answer is exact for the coordinates as read.");
     request r;
     common_options options;
     options.suffix = "-selfintersect";
     line.inputs(options.inputs, "STL OBJ PLY OFF GLB/glTF 3MF files; \"-\" = stdin");
     add_what_counts(line, r.search);
     add_what_to_give_back(line, r, options);
+    add_repair(line, r);
     line.group("Common options");
-    tools::add_common_options(line, options,
-                              {.output_formats = {"ply", "glb"}, .changes_meshes = false});
+    tools::add_common_options(
+        line, options,
+        {.output_formats = {"ply", "glb", "obj", "stl", "off"}, .changes_meshes = false});
     line.epilogue(epilogue);
     return tools::run(
-        line, options, {"read", "prepare", "tree", "pairs", "regions", "write"}, argc, argv,
-        [&] { check_request(r, options); }, [&](tools::job& work) { return look_at(work, r); });
+        line, options, {"read", "prepare", "tree", "pairs", "regions", "repair", "write"}, argc,
+        argv, [&] { check_request(r, options); },
+        [&](tools::job& work) { return look_at(work, r); });
 }

@@ -1,4 +1,4 @@
-#include "tools/tf-boolean/properties.hpp"
+#include "tools/common/carried_properties.hpp"
 
 #include <libmesh/attributes.hpp>
 
@@ -28,13 +28,13 @@ bool can_be_carried(const tf::element& e, const tf::column& c) {
 struct property {
     std::string name;
     tf::scalar_type type;
-    std::vector<const tf::column*> of_solid;  ///< null where it has none
+    std::vector<const tf::column*> of_input;  ///< null where it has none
 };
 
-std::vector<property> properties_of(const std::vector<solid>& solids, const char* element) {
+std::vector<property> properties_of(std::span<const property_source> inputs, const char* element) {
     std::vector<property> all;
-    for (std::size_t k = 0; k < solids.size(); ++k) {
-        const tf::element* e = tf::find_element(solids[k].file.attributes, element);
+    for (std::size_t k = 0; k < inputs.size(); ++k) {
+        const tf::element* e = tf::find_element(inputs[k].file->attributes, element);
         if (e == nullptr) continue;
         for (const tf::column& c : e->columns) {
             if (!can_be_carried(*e, c)) continue;
@@ -42,11 +42,11 @@ std::vector<property> properties_of(const std::vector<solid>& solids, const char
                                    [&](const property& p) { return p.name == c.name; });
             if (at == all.end()) {
                 all.push_back({c.name, c.type, {}});
-                all.back().of_solid.resize(solids.size(), nullptr);
+                all.back().of_input.resize(inputs.size(), nullptr);
                 at = all.end() - 1;
             }
             if (at->type != c.type) at->type = tf::scalar_type::float64;
-            at->of_solid[k] = &c;
+            at->of_input[k] = &c;
         }
     }
     return all;
@@ -99,17 +99,18 @@ weights weights_of(const tf::point3& p, const tf::point3& a, const tf::point3& b
 
 /// The input points that a point of the result has its values from.
 struct mixture {
-    std::uint32_t solid = 0;
+    std::uint32_t input = 0;
     tf::face points{};
     weights shares{1.0, 0.0, 0.0};
 };
 
-std::vector<mixture> mixtures_of(const std::vector<solid>& solids, const tf::mesh& surface,
-                                 const tf::solid_result& result) {
+std::vector<mixture> mixtures_of(std::span<const property_source> inputs, const tf::mesh& surface,
+                                 std::span<const tf::operand_element> source_face,
+                                 std::span<const tf::operand_element> source_point) {
     std::vector<mixture> all(surface.points.size());
     std::vector<std::uint8_t> known(all.size(), 0);
     for (std::size_t p = 0; p < all.size(); ++p) {
-        const tf::operand_element source = result.source_point[p];
+        const tf::operand_element source = source_point[p];
         if (source == tf::operand_element{}) continue;
         all[p] = {source.operand, {source.index, source.index, source.index}};
         known[p] = 1;
@@ -117,8 +118,9 @@ std::vector<mixture> mixtures_of(const std::vector<solid>& solids, const tf::mes
     for (std::size_t f = 0; f < surface.faces.size(); ++f)
         for (const std::uint32_t p : surface.faces[f]) {
             if (known[p] != 0) continue;
-            const auto [operand, index] = result.source_face[f];
-            const tf::mesh& mesh = solids[operand].file.mesh;
+            const auto [operand, index] = source_face[f];
+            if (operand == tf::operand_element::none) continue;
+            const tf::mesh& mesh = inputs[operand].file->mesh;
             const tf::face& corners = mesh.faces[index];
             all[p] = {operand, corners,
                       weights_of(surface.points[p], mesh.points[corners[0]],
@@ -129,7 +131,7 @@ std::vector<mixture> mixtures_of(const std::vector<solid>& solids, const tf::mes
 }
 
 double value_of(const property& p, const mixture& m) {
-    const tf::column* values = p.of_solid[m.solid];
+    const tf::column* values = p.of_input[m.input];
     if (values == nullptr) return std::numeric_limits<double>::quiet_NaN();
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -139,32 +141,35 @@ double value_of(const property& p, const mixture& m) {
 
 }  // namespace
 
-void carry_properties(tf::mesh_file& file, const std::vector<solid>& solids,
-                      const tf::solid_result& result) {
+void carry_properties(tf::mesh_file& file, std::span<const property_source> inputs,
+                      std::span<const tf::operand_element> source_face,
+                      std::span<const tf::operand_element> source_point) {
     const tf::mesh& surface = file.mesh;
-    if (const auto of_points = properties_of(solids, "vertex"); !of_points.empty()) {
-        const std::vector<mixture> mixtures = mixtures_of(solids, surface, result);
+    if (const auto of_points = properties_of(inputs, "vertex"); !of_points.empty()) {
+        const std::vector<mixture> mixtures =
+            mixtures_of(inputs, surface, source_face, source_point);
         tf::element& rows = tf::obtain_element(file.attributes, "vertex", surface.points.size());
         for (const property& p : of_points)
             rows.columns.push_back(make_values(
                 p, mixtures.size(), [&](std::size_t row) { return value_of(p, mixtures[row]); }));
     }
-    if (const auto of_faces = properties_of(solids, "face"); !of_faces.empty()) {
+    if (const auto of_faces = properties_of(inputs, "face"); !of_faces.empty()) {
         tf::element& rows = tf::obtain_element(file.attributes, "face", surface.faces.size());
         for (const property& p : of_faces)
             rows.columns.push_back(make_values(p, surface.faces.size(), [&](std::size_t row) {
-                const auto [operand, index] = result.source_face[row];
-                const tf::column* values = p.of_solid[operand];
+                const auto [operand, index] = source_face[row];
+                const tf::column* values =
+                    operand == tf::operand_element::none ? nullptr : p.of_input[operand];
                 return values == nullptr
                            ? std::numeric_limits<double>::quiet_NaN()
-                           : tf::number_at(*values, solids[operand].stored_face(index));
+                           : tf::number_at(*values, inputs[operand].stored_face(index));
             }));
     }
 }
 
-bool leaves_out_properties(const std::vector<solid>& solids) {
-    for (const solid& s : solids)
-        for (const tf::element& e : s.file.attributes.elements)
+bool leaves_out_properties(std::span<const property_source> inputs) {
+    for (const property_source& input : inputs)
+        for (const tf::element& e : input.file->attributes.elements)
             for (const tf::column& c : e.columns)
                 if (c.role == tf::column_role::data &&
                     ((e.name != "vertex" && e.name != "face") || !can_be_carried(e, c)))

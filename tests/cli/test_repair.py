@@ -1,0 +1,117 @@
+"""tf-selfintersect --repair: what is written is whole, closed and free of self-intersections."""
+
+from boolean_support import *
+from support import ToolTest
+
+import struct
+
+
+class Repair(ToolTest):
+    def repaired(self, *arguments, status=0):
+        return self.report(*arguments, status=status)["files"][0]
+
+    def no_pairs(self, name):
+        self.run_tool(self.path(name), "--touching", status=0)
+
+    def test_two_cubes_become_the_surface_of_both(self):
+        part = write(self.path("part.obj"), TWO_CUBES)
+        entry = self.repaired(part, "--repair", "-o", "out.obj")
+        repair = entry["repair"]
+        self.assertEqual((repair["mode"], repair["certified"]), ("outer", True))
+        self.assertGreater(repair["self_intersections"]["before"], 0)
+        self.assertEqual(repair["self_intersections"]["after"], 0)
+        self.assertEqual(repair["volume"], {"before": 2, "after": 1.875})
+        self.assertEqual((repair["boundary_edges"], repair["lost_components"]), (0, 0))
+        self.assertEqual(entry["output"]["file"], "out.obj")
+        self.assertEqual(volume(*obj_mesh(self.read("out.obj"))), 1.875)
+        self.no_pairs("out.obj")
+        self.assertEqual(self.repaired(part, "--repair=outer")["repair"], repair)
+
+    def test_splitting_keeps_every_face(self):
+        part = write(self.path("part.obj"), TWO_CUBES)
+        repair = self.repaired(part, "--repair=split", "-o", "out.ply")["repair"]
+        self.assertEqual(repair["volume"]["after"], 2)
+        self.assertEqual(repair["removed_faces"], 0)
+        self.assertGreater(repair["nonmanifold_edges"], 0)
+        self.no_pairs("out.ply")
+
+    def test_what_is_written_is_checked_in_the_precision_written(self):
+        part = write(self.path("part.obj"), together(cube((0.1, 0.2, 0.3)), cube((0.4, 0.5, 0.7))))
+        entry = self.repaired(part, "--repair", "-o", "out.stl")
+        self.assertEqual(entry["repair"]["precision_out"], "float")
+        self.assertGreater(entry["repair"]["max_move"]["largest"], 1e-12)
+        self.assertEqual(len(self.read_bytes("out.stl")), 84 + 50 * entry["repair"]["faces"])
+        self.no_pairs("out.stl")
+        entry = self.repaired(part, "--repair", "-o", "out.ply")
+        self.assertLess(entry["repair"]["max_move"]["largest"], 1e-15)
+
+    def test_a_surface_that_ends_has_no_outer_side(self):
+        points, faces = TWO_CUBES
+        part = write(self.path("part.obj"), (points, faces[1:]))
+        run = self.run_tool(part, "--repair", "-o", "out.obj", status=1)
+        self.assertIn("bounds no solid", run.text)
+        self.assertNotIn("out.obj", self.listing())
+        entry = self.repaired(part, "--repair", status=1)
+        self.assertEqual(entry["repair"]["open"]["count"], 3)
+        self.assertEqual(len(entry["repair"]["open"]["list"]), 3)
+        self.repaired(part, "--repair=split", "-o", "out.obj")
+        self.no_pairs("out.obj")
+
+    def test_a_fold_is_removed_and_the_border_stays(self):
+        points, faces = grid(8)
+        points = list(points)
+        points[40] = (2.25, 2.5, 0.0)
+        part = write(self.path("part.obj"), (points, faces))
+        entry = self.repaired(part, "--repair=remove", "-o", "out.obj")
+        self.assertGreater(entry["repair"]["filled_faces"], 0)
+        self.assertEqual(entry["repair"]["boundary_edges"], 32)
+        self.assertEqual(entry["repair"]["max_move"]["largest"], 0)
+        self.no_pairs("out.obj")
+
+    def test_limits_are_kept(self):
+        part = write(self.path("part.obj"), together(cube((0.1, 0.2, 0.3)), cube((0.4, 0.5, 0.7)),
+                                                     cube((0.2, 0.3, 0.4), 0.25)))
+        run = self.run_tool(part, "--repair", "--max-move", "0", "-o", "out.stl", status=1)
+        self.assertIn("--max-move", run.text)
+        run = self.run_tool(part, "--repair", "--keep-components", "-o", "out.stl", status=1)
+        self.assertIn("1 component would disappear", run.text)
+        self.assertEqual(self.listing(), ["part.obj"])
+        run = self.run_tool(part, "--repair", "-o", "out.stl", status=0)
+        self.assertIn("1 component has disappeared", run.err)
+
+    def test_a_clean_mesh_stays_as_it_is(self):
+        part = write(self.path("part.obj"), cube())
+        for mode in ("split", "outer", "remove"):
+            self.run_tool(part, f"--repair={mode}", "-o", "out.obj", "-f", status=0)
+            self.assertEqual(obj_mesh(self.read("out.obj")), obj_mesh(self.read("part.obj")))
+
+    def test_properties_go_along(self):
+        rows = "".join(f"{x} {y} {z} {x}\n" for x, y, z in TWO_CUBES[0])
+        faces = "".join(f"3 {a} {b} {c} {i}\n" for i, (a, b, c) in enumerate(TWO_CUBES[1]))
+        with open(self.path("part.ply"), "w") as file:
+            file.write(f"ply\nformat ascii 1.0\nelement vertex {len(TWO_CUBES[0])}\n"
+                       "property double x\nproperty double y\nproperty double z\n"
+                       f"property double heat\nelement face {len(TWO_CUBES[1])}\n"
+                       "property list uchar int vertex_indices\nproperty int id\nend_header\n" +
+                       rows + faces)
+        self.run_tool(self.path("part.ply"), "--repair", "-o", "out.ply", "--ascii", status=0)
+        lines = self.read("out.ply").splitlines()
+        self.assertIn("property double heat", lines)
+        self.assertIn("property int id", lines)
+        count = int(next(l for l in lines if l.startswith("element vertex")).split()[2])
+        body = lines[lines.index("end_header") + 1:]
+        for line in body[:count]:
+            x, _, _, heat = map(float, line.split())
+            self.assertAlmostEqual(x, heat)
+
+    def test_what_makes_no_sense_is_refused(self):
+        part = write(self.path("part.obj"), TWO_CUBES)
+        for options in (["--repair=all"], ["--max-move", "1"], ["--keep-components"],
+                        ["--repair", "--first"], ["--repair", "--within"],
+                        ["-o", "out.stl"], ["--repair", "-o", "out.xyz"]):
+            self.run_tool(part, *options, status=2)
+        # A word after --repair is an input, not its mode.
+        self.run_tool("--repair", part, status=0)
+
+
+main()

@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// Properties of the inputs' points and faces, for the points and faces of what is made of them.
+
+#include <libmesh/boolean/boolean.hpp>
+#include <libmesh/io/mesh_file.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tools {
+
+/// An input whose elements are named by `operand_element`: points as in the file, faces as in
+/// `file->mesh`, which `triangle_of_face` takes back to the triangles of the file.
+struct property_source {
+    const tf::mesh_file* file = nullptr;
+    const std::vector<std::uint32_t>* triangle_of_face = nullptr;  ///< empty: the same
+
+    /// The number in the file.
+    [[nodiscard]] std::uint32_t stored_face(std::uint32_t face) const {
+        const std::uint32_t t = triangle_of_face->empty() ? face : (*triangle_of_face)[face];
+        return file->stored_face.empty() ? t : file->stored_face[t];
+    }
+};
+
+/// Gives `file` the columns that elements "vertex" and "face" of the inputs have with one value a
+/// row, by name.
+///
+/// A face has the values of its source, which it lies in, a point those of its own; a point that
+/// was cut has values between those of the corners of the face it lies in, of the lowest where
+/// there are several. Where an input has no such column, or a face no source, 0 or NaN stands.
+/// Normals of points are left out: what is subtracted turns around, and a cut has one on each side.
+void carry_properties(tf::mesh_file& file, std::span<const property_source> inputs,
+                      std::span<const tf::operand_element> source_face,
+                      std::span<const tf::operand_element> source_point);
+
+/// Whether an input has values that `carry_properties` leaves out.
+[[nodiscard]] bool leaves_out_properties(std::span<const property_source> inputs);
+
+}  // namespace tools

@@ -1,0 +1,176 @@
+#include "tools/tf-selfintersect/repairing.hpp"
+
+#include "tools/common/certified_output.hpp"
+#include "tools/common/console.hpp"
+#include <libmesh/topology.hpp>
+#include <libmesh/volume.hpp>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tools {
+namespace {
+
+json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
+
+tf::repaired_mesh compute(job& work, const findings& result, const repair_settings& settings,
+                          bool to_single) {
+    const auto timing = work.time("repair");
+    tf::repair_options options;
+    options.mode = settings.mode;
+    options.to_float = to_single;
+    options.progress = work.progress("repair");
+    tf::repaired_mesh repaired = tf::repair(result.mesh, options);
+    work.out.end_progress();
+    work.keeper.check();
+    if (repaired.cancelled) throw failure(stopped, "stopped", work.name + ": stopped");
+    return repaired;
+}
+
+json edge_entry(const tf::open_operand_edge& edge, const findings& result) {
+    return {{"face", result.stored_face(edge.face.index)},
+            {"from", triple(edge.ends[0])},
+            {"to", triple(edge.ends[1])}};
+}
+
+void enter_repair(job& work, const findings& result, const repair_settings& settings,
+                  const tf::repaired_mesh& repaired, double allowed, bool to_single) {
+    json open = json::array(), meeting = json::array();
+    for (const auto& edge : repaired.open) open.push_back(edge_entry(edge, result));
+    for (const auto& [f, g] : repaired.meeting)
+        meeting.push_back(
+            {{"faces", {f, g}},
+             {"near", triple(repaired.surface.points[repaired.surface.faces[f][0]])}});
+    const tf::mesh& surface = repaired.surface;
+    const auto topology = tf::count_topology(surface.points.size(), surface.faces);
+    work.entry["repair"] = {
+        {"mode", name_of(settings.mode)},
+        {"certified", repaired.certified},
+        {"self_intersections",
+         {{"before", result.pairs_that_count()}, {"after", repaired.meeting_count}}},
+        {"meeting", meeting},
+        {"open", {{"count", repaired.open_count}, {"list", open}}},
+        {"max_move",
+         {{"given", settings.max_move.given}, {"used", allowed}, {"largest", repaired.max_move}}},
+        {"removed_faces", repaired.removed},
+        {"filled_faces", repaired.filled},
+        {"lost_components", repaired.lost_components},
+        {"volume",
+         {{"before", tf::signed_volume(result.mesh)}, {"after", tf::signed_volume(surface)}}},
+        {"precision_out", to_single ? "float" : "double"},
+        {"vertices", surface.points.size()},
+        {"faces", surface.faces.size()},
+        {"components", topology.components_by_point},
+        {"boundary_edges", topology.boundary_edges},
+        {"nonmanifold_edges", topology.nonmanifold_edges}};
+}
+
+/// Why the result cannot be taken; empty when it can.
+std::string objection(const findings& result, const repair_settings& settings,
+                      const tf::repaired_mesh& repaired, double allowed) {
+    if (repaired.open_count > 0)
+        return "it bounds no solid: its surface ends at " +
+               counted(repaired.open_count, "edge", "edges") + ", the first at face " +
+               std::to_string(result.stored_face(repaired.open.front().face.index)) +
+               "; --repair=split or --repair=remove do without";
+    if (repaired.meeting_count > 0)
+        return counted(repaired.meeting_count, "self-intersecting pair",
+                       "self-intersecting pairs") +
+               (repaired.meeting_count == 1 ? " remains" : " remain");
+    if (!repaired.certified)
+        return settings.mode == tf::repair_mode::remove ? "a hole could not be closed"
+                                                        : "coordinates are too large";
+    if (repaired.max_move > allowed)
+        return "a point would move by " + shortest(repaired.max_move) + ", more than " +
+               shortest(allowed) + " (--max-move)";
+    if (settings.keep_components && repaired.lost_components > 0)
+        return counted(repaired.lost_components, "component", "components") +
+               " would disappear (--keep-components)";
+    return {};
+}
+
+void say_result(job& work, const repair_settings& settings, const tf::repaired_mesh& repaired) {
+    std::string text = work.name + ": repaired (" + name_of(settings.mode) +
+                       "): " + counted(repaired.surface.faces.size(), "face", "faces") +
+                       ", no self-intersections";
+    if (repaired.removed > 0)
+        text += ", " + counted(repaired.removed, "face", "faces") + " removed";
+    if (repaired.filled > 0) text += ", " + grouped(repaired.filled) + " filled in";
+    if (repaired.max_move > 0.0)
+        text += ", rounding moved points by " + shortest(repaired.max_move) + " at most";
+    work.out.result(text);
+    if (repaired.lost_components > 0)
+        work.warn(
+            "lost-components",
+            counted(repaired.lost_components, "component has", "components have") + " disappeared");
+}
+
+/// Where points of the file's mesh are those that were searched, their properties can be carried.
+std::vector<tf::operand_element> of_input(const std::vector<std::uint32_t>& indices) {
+    std::vector<tf::operand_element> elements;
+    elements.reserve(indices.size());
+    for (const std::uint32_t index : indices)
+        elements.push_back(index == tf::repaired_mesh::none ? tf::operand_element{}
+                                                            : tf::operand_element{0, index});
+    return elements;
+}
+
+void write_repaired(job& work, const tf::mesh_file& input, const findings& result,
+                    tf::repaired_mesh& repaired, const std::filesystem::path& output,
+                    bool to_single) {
+    const auto timing = work.time("write");
+    tf::mesh_file file;
+    file.mesh = std::move(repaired.surface);
+    file.stored_faces = file.mesh.faces.size();
+    file.stored_as = to_single ? tf::precision::single_ : tf::precision::double_;
+    const property_source source{&input, &result.triangle_of_face};
+    const bool same_points = input.mesh.points.size() == result.mesh.points.size();
+    if (same_points)
+        carry_properties(file, {&source, 1}, of_input(repaired.face_of),
+                         of_input(repaired.point_of));
+    if ((!same_points && !input.attributes.elements.empty() && input.indexed) ||
+        leaves_out_properties({&source, 1}))
+        work.warn("attributes", "not all properties of the input are carried over");
+    const tf::write_result written = write_certified(work, file, output);
+    work.entry["output"] = {{"file", output.string()},
+                            {"format", written.format},
+                            {"precision_out", to_single ? "float" : "double"},
+                            {"max_move", written.largest_move}};
+    for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
+}
+
+}  // namespace
+
+const char* name_of(tf::repair_mode mode) {
+    switch (mode) {
+        case tf::repair_mode::split:
+            return "split";
+        case tf::repair_mode::outer:
+            return "outer";
+        case tf::repair_mode::remove:
+            return "remove";
+    }
+    return "";
+}
+
+bool repair_and_write(job& work, const tf::mesh_file& file, const findings& result,
+                      const repair_settings& settings,
+                      const std::optional<std::filesystem::path>& output) {
+    const property_source source{&file, &result.triangle_of_face};
+    const bool to_single = writes_single(work.options, output, {&source, 1});
+    tf::repaired_mesh repaired = compute(work, result, settings, to_single);
+    const double allowed = settings.max_move.used(result.box ? tf::diagonal(*result.box) : 0.0);
+    enter_repair(work, result, settings, repaired, allowed, to_single);
+    if (const std::string why = objection(result, settings, repaired, allowed); !why.empty()) {
+        work.out.result(work.name + ": not repaired, nothing written: " + why);
+        return false;
+    }
+    say_result(work, settings, repaired);
+    if (output && !work.options.dry_run)
+        write_repaired(work, file, result, repaired, *output, to_single);
+    return true;
+}
+
+}  // namespace tools

@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// From a mesh with self-intersections to one without.
+
+#include "tools/common/parse_value.hpp"
+#include "tools/tf-selfintersect/search.hpp"
+#include <libmesh/repair/repair.hpp>
+
+#include <filesystem>
+#include <optional>
+
+namespace tools {
+
+struct repair_settings {
+    tf::repair_mode mode = tf::repair_mode::outer;
+    distance max_move{};  ///< no point may move further
+    bool keep_components = false;
+};
+
+[[nodiscard]] const char* name_of(tf::repair_mode mode);
+
+/// Repairs the mesh that was searched, enters "repair" and "output" in the report, says the verdict
+/// and writes the result to `output`, if there is one and the result is as it has to be.
+///
+/// Whether it is. \throws failure
+[[nodiscard]] bool repair_and_write(job& work, const tf::mesh_file& file, const findings& result,
+                                    const repair_settings& settings,
+                                    const std::optional<std::filesystem::path>& output);
+
+}  // namespace tools
