@@ -16,6 +16,7 @@ void block_pair_sieve::add(const candidate_block& block) {
         for (; i < count && block.first[i] / 8 == block_a && block.second[i] / 8 == block_b; ++i)
             pairs[block.first[i] % 8] |= 1U << block.second[i] % 8;
         const std::size_t later = std::min(i + ahead, count - 1);
+        input_.a.prefetch(block.first[later] / 8);
         input_.b.prefetch(block.second[later] / 8);
         look_at(block_a, block_b, pairs);
     }

@@ -36,6 +36,7 @@ class block_side {
         const auto* at = reinterpret_cast<const char*>(blocks_ + i);
         for (std::size_t byte = 0; byte < sizeof(eight_triangles); byte += 64)
             __builtin_prefetch(at + byte);
+        __builtin_prefetch(ids_.data() + std::size_t{i} * 8);
     }
 
   private:
