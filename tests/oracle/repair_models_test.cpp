@@ -1,0 +1,96 @@
+/// \file
+/// Repair of real files: every closed surface that passes through itself becomes the boundary of
+/// what it winds around. Without TREEFORM_MODELS_DIR nothing is checked.
+///
+/// TREEFORM_STRESS_COUNT sets the points whose winding is compared for each file (default 500).
+
+#include <libmesh/bounding_box.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libmesh/intersect/point_location.hpp>
+#include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/read.hpp>
+#include <libmesh/repair/repair.hpp>
+#include <libmesh/validate.hpp>
+#include <libmesh/weld/equal_points.hpp>
+
+#include <doctest/doctest.h>
+#include <support/random.hpp>
+#include <support/solid_checks.hpp>
+#include <support/truth.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+std::size_t point_count() {
+    const char* text = std::getenv("TREEFORM_STRESS_COUNT");
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : 500;
+}
+
+/// Closed, finite, and not too large for a test.
+bool can_be_asked(const tf::mesh& mesh) {
+    constexpr std::size_t most_faces = 150'000;
+    if (mesh.faces.empty() || mesh.faces.size() > most_faces) return false;
+    const tf::mesh_defects defects = tf::find_defects(mesh);
+    return defects.nonfinite_points.empty() && defects.out_of_range_faces.empty() &&
+           !tf::find_open_edge(mesh);
+}
+
+/// Random points of the box that the repaired surface has on the wrong side.
+std::size_t wrong_points(const tf::mesh& mesh, const tf::mesh& repaired) {
+    test::random source(11);
+    const tf::tree<3> tree = tf::face_tree(mesh), repaired_tree = tf::face_tree(repaired);
+    const tf::point_locator before(mesh, tree), after(repaired, repaired_tree);
+    const tf::box3 box = tf::bounding_box(mesh.points).value();
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < point_count(); ++i) {
+        const tf::point3 p{source.in(box.min.x, box.max.x), source.in(box.min.y, box.max.y),
+                           source.in(box.min.z, box.max.z)};
+        wrong += after.locate(p).winding != (before.locate(p).winding != 0 ? 1 : 0);
+    }
+    return wrong;
+}
+
+}  // namespace
+
+TEST_CASE("models: the outer surface of whatever passes through itself") {
+    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
+    if (folder.empty()) {
+        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
+        return;
+    }
+    std::set<std::string> files;
+    for (const test::truth_row& row : test::read_truth(folder / "TRUTH.csv"))
+        files.insert(row.text("file"));
+    std::size_t asked = 0, certified = 0;
+    for (const std::string& file : files) {
+        CAPTURE(file);
+        tf::mesh mesh;
+        try {
+            mesh = tf::join_equal_points(tf::read_mesh(folder / file).mesh);
+        } catch (const tf::io_error&) {
+            continue;  // files that no reader should take
+        }
+        if (!can_be_asked(mesh) || tf::self_intersections(mesh).pairs.empty()) continue;
+        ++asked;
+        const auto result = tf::repair(mesh);
+        CHECK(result.open_count == 0);
+        certified += result.certified;
+        if (!result.certified) {
+            MESSAGE(file << " not certified: " << result.meeting_count << " pairs remain");
+            continue;
+        }
+        CHECK(test::is_clean_solid(result.surface));
+        CHECK(wrong_points(mesh, result.surface) == 0);
+    }
+    CHECK(asked > 0);
+    CHECK(static_cast<double>(certified) >= 0.995 * static_cast<double>(asked));
+    MESSAGE(certified << " of " << asked << " models certified");
+}
