@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace tf {
 namespace {
@@ -31,7 +32,8 @@ double unit_of_time(const std::vector<point3>& points, const point3& motion, boo
         if (motion[k] == 0.0) continue;
         for (const point3& p : points) largest = std::max(largest, std::abs(p[k]));
     }
-    const double unit = to_single ? std::ldexp(largest, -23) : std::ldexp(largest, -52);
+    if (largest == 0.0) return std::numeric_limits<double>::denorm_min() / speed;
+    const double unit = std::ldexp(1.0, std::ilogb(largest) - (to_single ? 23 : 52));
     return std::max(unit, std::numeric_limits<double>::denorm_min()) / speed;
 }
 
@@ -52,8 +54,20 @@ settled_mesh settle(mesh_view a, mesh_view b, const tree<3>& tree_b, const point
         one.relation = relation(there, face_tree(there), b, tree_b).relation;
         return one;
     };
+    /// From a place that is separate on by single units, while nothing is penetrated.
+    const auto closed_in = [&](settled_mesh place) {
+        const double unit = unit_of_time(place.points, motion, options.to_single);
+        for (int steps = 0;
+             options.close_in && place.relation == mesh_relation::separate && steps < 4; ++steps) {
+            settled_mesh next = at(place.time + unit);
+            if (next.relation == mesh_relation::penetrating) break;
+            next.backed_off = place.backed_off;
+            place = std::move(next);
+        }
+        return place;
+    };
     settled_mesh best = at(time);
-    if (best.relation != mesh_relation::penetrating) return best;
+    if (best.relation != mesh_relation::penetrating) return closed_in(std::move(best));
 
     double step = unit_of_time(best.points, motion, options.to_single);
     double bad = time;
@@ -76,7 +90,7 @@ settled_mesh settle(mesh_view a, mesh_view b, const tree<3>& tree_b, const point
             best = std::move(middle);
         best.backed_off = count;
     }
-    return best;
+    return closed_in(std::move(best));
 }
 
 }  // namespace tf

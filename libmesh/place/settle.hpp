@@ -16,6 +16,9 @@ struct settle_options {
     bool to_single = false;  ///< coordinates become float32 values, as a binary STL holds them
     /// Steps tried before giving up; each backs off further than the one before.
     unsigned attempts = 40;
+    /// The time is that of a contact: where rounding leaves a gap, go on by units in the last
+    /// place, up to 4, until one more would penetrate, or the meshes touch.
+    bool close_in = false;
 };
 
 struct settled_mesh {

@@ -52,7 +52,8 @@ class settling {
             for (const point3& p : points)
                 if (std::isfinite(p[k])) largest = std::max(largest, std::abs(p[k]));
         }
-        const double unit = std::ldexp(largest, options_.to_single ? -23 : -52);
+        if (largest == 0.0) return std::numeric_limits<double>::denorm_min() / speed;
+        const double unit = std::ldexp(1.0, std::ilogb(largest) - (options_.to_single ? 23 : 52));
         return std::max(unit, std::numeric_limits<double>::denorm_min()) / speed;
     }
 
@@ -125,9 +126,20 @@ settled_among settle_among(mesh_view a, std::span<const still_part> parts, const
     check(motion, time, options);
     const settling place(a, parts, motion, options);
     settled_among best = place.at(time, true);
-    if (best.good) return best;
-
     const double unit = place.unit_of_time(best.points);
+    const auto closed_in = [&](settled_among found) {
+        if (!options.close_in || options.forward || options.clearance > 0.0) return found;
+        for (int steps = 0; steps < 4 && found.good && found.relation == mesh_relation::separate;
+             ++steps) {
+            settled_among next = place.at(found.time + unit, true);
+            if (!next.good) break;
+            next.backed_off = found.backed_off;
+            found = std::move(next);
+        }
+        return found;
+    };
+    if (best.good) return closed_in(std::move(best));
+
     const auto back = [&](double step) {
         return options.forward ? time + step : std::max(0.0, time - step);
     };
@@ -152,7 +164,7 @@ settled_among settle_among(mesh_view a, std::span<const still_part> parts, const
             bad = middle.time;
         best.backed_off = count;
     }
-    return best;
+    return closed_in(std::move(best));
 }
 
 }  // namespace tf

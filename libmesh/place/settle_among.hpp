@@ -25,6 +25,8 @@ struct settle_among_options {
     std::optional<double> floor{};
     bool forward = false;  ///< back off to later times, not to earlier ones
     unsigned attempts = 40;
+    /// As of `settle_options`; without a clearance and backing off to earlier times only.
+    bool close_in = false;
 };
 
 struct settled_among {

@@ -121,13 +121,15 @@ class placing {
     void stay() { settle({}, {0.0, 0.0, -1.0}, 0.0, false, false); }
 
     void settle(const chosen_parts& known, const tf::point3& motion, double time, bool floor,
-                bool forward) {
+                bool forward, bool close_in = false) {
         const auto timing = work_.time("settle");
         const chosen_parts parts =
             known.parts.empty() ? among_.on_the_way(*moving_.box, motion, time, result_.clearance)
                                 : known;
-        tf::settle_among_options options{
-            .to_single = to_single_, .clearance = result_.clearance, .forward = forward};
+        tf::settle_among_options options{.to_single = to_single_,
+                                         .clearance = result_.clearance,
+                                         .forward = forward,
+                                         .close_in = close_in};
         if (floor) options.floor = result_.bed->used;
         auto settled = tf::settle_among(moving_.mesh, parts.parts, motion, time, options);
         work_.keeper.check();
@@ -173,7 +175,7 @@ class placing {
         if (slid.end == tf::motion_end::contact) {
             result_.contacts = contacts_of(moving_, among_.all(), parts, slid, motion);
             result_.contact_count = slid.contact_count;
-            settle(parts, motion, slid.time, settings_.has_bed(), false);
+            settle(parts, motion, slid.time, settings_.has_bed(), false, true);
         } else if (bed_time_ < infinity && bed_time_ <= allowed) {
             result_.on_bed = true;
             settle(parts, motion, bed_time_, true, false);
