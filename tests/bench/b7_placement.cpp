@@ -11,10 +11,15 @@
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/nearness/mesh_distance.hpp>
 #include <libmesh/place/first_contact.hpp>
+#include <libmesh/place/relation.hpp>
+#include <libtree/build.hpp>
+#include <libtree/search.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
+#include <numeric>
+#include <vector>
 
 namespace tf::bench {
 namespace {
@@ -135,6 +140,81 @@ contest contact_beside_distance(const setting& setting, const scene_name& name) 
     return contest;
 }
 
+/// A thousand bumpy balls in a lattice, nearly touching, and where one of them is moved to.
+struct parts_scene {
+    std::vector<mesh> parts;
+    std::vector<aabb<double, 3>> boxes;
+    tree<3> over_boxes;
+    mesh moved;
+};
+
+std::shared_ptr<const parts_scene> make_parts(const setting& setting) {
+    const std::size_t side = setting.effort == effort::tiny ? 3 : 10;
+    const shared_mesh one = load(setting, model{"", "1k", 1'000});
+    const box3 box = bounding_box(one->points).value();
+    auto scene = std::make_shared<parts_scene>();
+    const auto at = [&](double x, double y, double z) {
+        mesh part = *one;
+        for (point3& p : part.points)
+            p = {p.x + x * (box.max.x - box.min.x), p.y + y * (box.max.y - box.min.y),
+                 p.z + z * (box.max.z - box.min.z)};
+        return part;
+    };
+    for (std::size_t i = 0; i < side * side * side; ++i)
+        scene->parts.push_back(at(static_cast<double>(i % side),
+                                  static_cast<double>(i / side % side),
+                                  static_cast<double>(i / side / side)));
+    for (const mesh& part : scene->parts) {
+        aabb<double, 3> bounds;
+        for (const point3& p : part.points) bounds.include(p);
+        scene->boxes.push_back(bounds);
+    }
+    scene->over_boxes = build(scene->boxes, [](const aabb<double, 3>& b) { return b; });
+    scene->moved = at(1.25, 1.5, 1.25);
+    return scene;
+}
+
+/// How many of the parts the moved one touches or penetrates; trees of parts are made when wanted.
+template <class Parts>
+std::size_t met_by_moved(const parts_scene& scene, const Parts& looked_at) {
+    const tree<3> faces = face_tree(scene.moved);
+    std::size_t met = 0;
+    for (const std::uint32_t i : looked_at)
+        met += relation(scene.moved, faces, scene.parts[i], face_tree(scene.parts[i])).relation !=
+               mesh_relation::separate;
+    return met;
+}
+
+contest scene_of_parts(const setting& setting) {
+    const auto prepare = [=] { return make_parts(setting); };
+    contest contest{
+        .name = setting.effort == effort::tiny ? "27_parts/one_moved" : "1000_parts/one_moved",
+        .size =
+            [=] {
+                const auto scene = prepare();
+                return scene->parts.size() * scene->parts[0].faces.size();
+            },
+        .with_memory = false,
+        .long_runs = 3};
+    contest.contestants.push_back({"treeform", 1, [=] {
+                                       return make_job([scene = prepare()] {
+                                           aabb<double, 3> bounds;
+                                           for (const point3& p : scene->moved.points)
+                                               bounds.include(p);
+                                           return met_by_moved(
+                                               *scene, search_all(scene->over_boxes, bounds));
+                                       });
+                                   }});
+    contest.contestants.push_back({"treeform, all parts looked at", 1, [=] {
+                                       return make_job([scene = prepare()] {
+                                           std::vector<std::uint32_t> all(scene->parts.size());
+                                           std::iota(all.begin(), all.end(), 0U);
+                                           return met_by_moved(*scene, all);
+                                       });
+                                   }});
+    return contest;
+}
+
 }  // namespace
 
 void placement(const setting& setting, const contest_visitor& visit) {
@@ -143,6 +223,7 @@ void placement(const setting& setting, const contest_visitor& visit) {
         visit(from_arrays(setting, name, "/build+collide", pose_question::collide));
         visit(contact_beside_distance(setting, name));
     }
+    visit(scene_of_parts(setting));
 }
 
 }  // namespace tf::bench
