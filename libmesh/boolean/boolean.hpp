@@ -73,9 +73,9 @@ struct solid_result {
 /// The solid that `expression` makes of the operands, in one arrangement of all of them.
 ///
 /// The surface is decided exactly on the coordinates as given; only then its constructed points are
-/// rounded, and the rounded surface is checked. Where rounding makes faces meet, it is cut along
-/// itself again, and points go to a coarser lattice, step by step (`round_surface`). Given points
-/// stay bit for bit unless floats are asked for or a second step is needed.
+/// rounded, and the rounded surface is checked. Where rounding makes faces meet, what is next to
+/// each other is joined and cut again, step by step (`round_surface`). Given points stay bit for
+/// bit unless floats are asked for or they are next to such a place.
 ///
 /// Operands may overlap themselves, touch, be nested, be equal, consist of parts, be inside out or
 /// empty; their corners with equal coordinates are one. Each has to bound a solid: along every

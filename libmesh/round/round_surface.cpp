@@ -4,6 +4,7 @@
 #include <libmesh/detail/stars.hpp>
 #include <libmesh/intersect/point_location.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/round/detail/join_near.hpp>
 #include <libmesh/round/detail/solid_faces.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/validate.hpp>
@@ -15,7 +16,6 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace tf {
@@ -26,10 +26,6 @@ constexpr std::size_t listed_pairs = 100;
 
 bool is_finite(const point3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-bool comes_first(const point3& p, const point3& q) {
-    return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
 }
 
 point3 to_single(const point3& p) {
@@ -53,41 +49,23 @@ double largest_coordinate(const std::vector<point3>& points) {
     return largest;
 }
 
-/// Step k = 1, 2, ... uses this share, a power of two, of the largest coordinate.
-int bits_of_step(int step, bool to_float) {
-    return to_float ? std::max(26 - 2 * step, 12) : std::max(56 - 8 * step, 16);
+/// How near is next to each other, in step k = 1, 2, ...: a growing share of the largest
+/// coordinate.
+double reach_of_step(int step, double largest, bool to_float) {
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    const int bits = (to_float ? 24 : 50) - 2 * step;
+    return std::max(std::ldexp(1.0, exponent - bits), std::numeric_limits<double>::min());
 }
-
-/// Multiples of a power of two not below 2^-bits of the largest coordinate. All of them in that
-/// range have `bits` bits and are doubles (floats).
-class lattice {
-  public:
-    lattice(const std::vector<point3>& points, int bits) {
-        int exponent = 0;
-        std::frexp(largest_coordinate(points), &exponent);
-        step_ = std::max(std::ldexp(1.0, exponent - bits), std::numeric_limits<double>::min());
-    }
-    [[nodiscard]] point3 nearest(const point3& p) const {
-        return {nearest(p.x), nearest(p.y), nearest(p.z)};
-    }
-
-  private:
-    [[nodiscard]] double nearest(double x) const { return std::nearbyint(x / step_) * step_ + 0.0; }
-
-    double step_;
-};
 
 /// The surface, exact and as rounded so far. Of the exact one, points of the surface that was
 /// rounded before come first.
 class rounding {
   public:
     rounding(exact_surface exact, const round_options& options)
-        : options_(options), exact_(std::move(exact)), offending_(exact_.faces.size(), 0) {
-        const std::size_t given = exact_.given.size();
-        point_of_.resize(given + exact_.constructed.size());
+        : options_(options), exact_(std::move(exact)), most_faces_(4 * exact_.faces.size() + 1000) {
+        point_of_.resize(exact_.given.size() + exact_.constructed.size());
         std::iota(point_of_.begin(), point_of_.end(), 0U);
-        movable_.assign(point_of_.size(), 0);
-        std::fill(movable_.begin() + static_cast<std::ptrdiff_t>(given), movable_.end(), 1);
         result_.face_of.resize(exact_.faces.size());
         std::iota(result_.face_of.begin(), result_.face_of.end(), 0U);
     }
@@ -96,6 +74,7 @@ class rounding {
         while (settle()) {
             result_.certified = check();
             if (result_.certified || result_.cancelled || result_.steps >= options_.steps) break;
+            if (result_.surface.faces.size() > most_faces_) break;  // it gets worse
             ++result_.steps;
             if (!cut_again()) break;
         }
@@ -144,38 +123,8 @@ class rounding {
         });
         if (!moves.empty()) result_.max_move += *std::max_element(moves.begin(), moves.end());
         const bool finite = std::all_of(at.begin(), at.end(), is_finite);
-        if (finite && result_.steps > 0) snap(points, at);
-        join(points, at);
+        join_equal(points, at);
         return finite;
-    }
-
-    /// Puts points of offending faces, and what shares their lattice point, onto the lattice.
-    void snap(const std::vector<std::uint32_t>& points, std::vector<point3>& at) {
-        const lattice to(at, bits_of_step(result_.steps, options_.to_float));
-        const auto snapped = [&](std::size_t i) {
-            const point3 p = to.nearest(at[i]);
-            return options_.to_float ? to_single(p) : p;
-        };
-        const auto may_move = [&](std::size_t i) {
-            return result_.steps > 1 || movable_[points[i]] != 0;
-        };
-        std::vector<std::uint8_t> loose(point_of_.size(), 0);
-        for (std::size_t f = 0; f < exact_.faces.size(); ++f)
-            if (offending_[f] != 0)
-                for (const std::uint32_t corner : exact_.faces[f]) loose[corner] = 1;
-        std::vector<point3> targets;
-        for (std::size_t i = 0; i < at.size(); ++i)
-            if (loose[points[i]] != 0 && may_move(i)) targets.push_back(snapped(i));
-        std::sort(targets.begin(), targets.end(), comes_first);
-        double largest = 0.0;
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            if (!may_move(i)) continue;
-            const point3 target = snapped(i);
-            if (!std::binary_search(targets.begin(), targets.end(), target, comes_first)) continue;
-            largest = std::max(largest, largest_difference(at[i], target));
-            at[i] = target;
-        }
-        result_.max_move += largest;
     }
 
     /// Bound of how far rounding has moved a point, in each coordinate.
@@ -191,18 +140,16 @@ class rounding {
 
     /// Equal points become one, under the number of the lowest of them; faces that repeat a corner
     /// then go: what is left of them runs back and forth.
-    void join(const std::vector<std::uint32_t>& points, const std::vector<point3>& at) {
+    void join_equal(const std::vector<std::uint32_t>& points, const std::vector<point3>& at) {
         const equal_points equal = find_equal_points(at);
         const std::size_t count = equal.first_of_new.size();
         mesh& now = result_.surface;
         now.points.resize(count);
         std::vector<std::uint32_t> point_of(count);
-        std::vector<std::uint8_t> movable(count);
         for (std::size_t p = 0; p < count; ++p) {
             const std::uint32_t first = equal.first_of_new[p];
             now.points[p] = at[first];
             point_of[p] = point_of_[points[first]];
-            movable[p] = movable_[points[first]];
         }
         std::vector<std::uint32_t> new_of_old(point_of_.size(), 0);
         for (std::size_t i = 0; i < points.size(); ++i) new_of_old[points[i]] = equal.new_of_old[i];
@@ -216,7 +163,6 @@ class rounding {
             face_of.push_back(result_.face_of[f]);
         }
         point_of_ = std::move(point_of);
-        movable_ = std::move(movable);
         result_.face_of = std::move(face_of);
     }
 
@@ -243,9 +189,11 @@ class rounding {
         if (result_.meeting.size() < listed_pairs) result_.meeting.push_back({f, g});
     }
 
-    /// The rounded surface, cut along itself, becomes the exact one; false when that fails.
+    /// The rounded surface, with what is next to each other joined, and cut along itself, becomes
+    /// the exact one; false when that fails.
     bool cut_again() {
-        const mesh& now = result_.surface;
+        const detail::joined_near near = join_what_is_near();
+        const mesh& now = near.surface;
         arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
         result_.cancelled = arranged.cancelled;
         if (arranged.cancelled) return false;
@@ -266,32 +214,46 @@ class rounding {
             std::iota(face_of_cut.begin(), face_of_cut.end(), 0U);
             exact_.faces = std::move(cut.faces);
         }
-        take_sources(cut, face_of_cut);
+        std::vector<std::uint32_t> face_of(face_of_cut.size());
+        for (std::size_t f = 0; f < face_of.size(); ++f)
+            face_of[f] = result_.face_of[near.face_of[cut.covers_of(face_of_cut[f]).front().face]];
+        result_.face_of = std::move(face_of);
         exact_.given = std::move(cut.given_points);
         exact_.constructed = std::move(cut.constructed);
         point_of_.resize(exact_.given.size() + exact_.constructed.size(), rounded_surface::none);
-        movable_.resize(point_of_.size(), 1);
         return true;
     }
 
-    void take_sources(const mesh_arrangement& cut, const std::vector<std::uint32_t>& face_of_cut) {
-        std::vector<std::uint8_t> offending(face_of_cut.size(), 0);
-        std::vector<std::uint32_t> face_of(face_of_cut.size());
-        for (std::size_t f = 0; f < face_of.size(); ++f) {
-            const auto covers = cut.covers_of(face_of_cut[f]);
-            face_of[f] = result_.face_of[covers.front().face];
-            for (const covering_face& cover : covers)
-                if (offending_[cover.face] != 0) offending[f] = 1;
+    /// Faces that meet once others are joined are next to something, too.
+    detail::joined_near join_what_is_near() {
+        const mesh& now = result_.surface;
+        const detail::joint how{
+            .reach =
+                reach_of_step(result_.steps, largest_coordinate(now.points), options_.to_float),
+            .source = result_.face_of,
+            .solid = options_.solid};
+        constexpr int most_rounds = 8;
+        detail::joined_near near;
+        for (int round = 0; round < most_rounds; ++round) {
+            near = detail::join_near(now, offending_, how);
+            bool more = false;
+            for (const face_pair& pair : self_intersections(near.surface).pairs)
+                for (const std::uint32_t f : {near.face_of[pair.a], near.face_of[pair.b]}) {
+                    more = more || offending_[f] == 0;
+                    offending_[f] = 1;
+                }
+            if (!more) break;
         }
-        offending_ = std::move(offending);
-        result_.face_of = std::move(face_of);
+        result_.max_move += near.moved;
+        point_of_.resize(near.surface.points.size(), rounded_surface::none);
+        return near;
     }
 
     const round_options& options_;
     exact_surface exact_;
     std::vector<std::uint32_t> point_of_;  ///< by point, of the original surface
-    std::vector<std::uint8_t> movable_;    ///< by point: it was constructed
     std::vector<std::uint8_t> offending_;  ///< by face
+    std::size_t most_faces_;
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between
 };

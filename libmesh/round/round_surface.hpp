@@ -58,23 +58,24 @@ struct rounded_surface {
 ///
 /// Every point is rounded once, to nearest; given points stay bit for bit unless floats are asked
 /// for. Then the surface is checked with the exact predicates. Where it is broken, it is mended,
-/// step by step: it is cut along itself (`arrange_faces`), of a solid what winds around nothing
-/// any more is left out, and the points of the faces that met, with points that are next to
-/// them, go to a lattice of 2^-48 of the size of the largest coordinate, then 2^-40, 2^-32 and
-/// 2^-24 (2^-24 to 2^-18 for floats). In the first step only constructed points are moved so.
-/// Points that rounding makes equal become one; faces that lose their area or cover each other in
-/// opposite directions vanish.
+/// step by step: corners, edges and faces next to each other are joined where faces meet, the
+/// surface is cut along itself (`arrange_faces`), of a solid what it does not wind around any more
+/// is left out, and what was cut is rounded. Next to each other is what is nearer than 2^-48 of the
+/// largest coordinate in the first step (2^-22 for floats), four times as far in each that follows.
+/// Faces that lose their area or cover each other in opposite directions vanish; points of these
+/// places may move by that much.
 ///
-/// No number of steps is sure to suffice: `certified` tells. It is false, with nothing in
-/// `meeting`, when a coordinate is too large to be rounded.
+/// No number of steps is sure to suffice: `certified` tells. Mending also ends when the surface
+/// only grows by it. With nothing in `meeting`, a coordinate was too large to be rounded.
 ///
 /// \pre    faces have three different corners and, as exact ones, meet in common corners and edges
 ///         only; of a solid, they run along every edge as often one way as the other
 /// \cost   as `self_intersections` for the check; as `arrange_faces` and `find_cells` for each
 ///         step, if any
 /// \same   on any number of threads
-/// \source iterated snap rounding: Valque, Lazard, Arrighi and Loriot, as in CGAL 6.1; here what is
-///         inside decides what stays
+/// \source in the spirit of iterated snap rounding: Valque, Lazard and de Berg, Rounding meshes in
+///         3D, and CGAL 6.1; here faces take the points next to them, and winding numbers decide
+///         what stays
 [[nodiscard]] TREEFORM_API rounded_surface round_surface(exact_surface exact,
                                                          const round_options& options = {});
 

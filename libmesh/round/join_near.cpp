@@ -1,0 +1,487 @@
+#include <libmesh/detail/stars.hpp>
+#include <libmesh/geometry/closest_point.hpp>
+#include <libmesh/round/detail/face_pieces.hpp>
+#include <libmesh/round/detail/join_near.hpp>
+#include <libtree/build.hpp>
+#include <libtree/parallel.hpp>
+#include <libtree/search.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace tf::detail {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 10;
+constexpr int most_rounds = 8;
+
+using edge_name = std::array<std::uint32_t, 2>;  // the lower end first
+
+point3 operator-(const point3& p, const point3& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
+double dot(const point3& u, const point3& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
+double length(const point3& v) { return std::sqrt(dot(v, v)); }
+
+edge_name edge_between(std::uint32_t a, std::uint32_t b) {
+    return {std::min(a, b), std::max(a, b)};
+}
+
+std::array<edge_name, 3> edges_of(const face& f) {
+    return {edge_between(f[0], f[1]), edge_between(f[1], f[2]), edge_between(f[2], f[0])};
+}
+
+bool holds(const face& f, std::uint32_t p) { return f[0] == p || f[1] == p || f[2] == p; }
+
+aabb<double, 3> box_around(const point3& p, const point3& q, double by) {
+    return {{std::min(p.x, q.x) - by, std::min(p.y, q.y) - by, std::min(p.z, q.z) - by},
+            {std::max(p.x, q.x) + by, std::max(p.y, q.y) + by, std::max(p.z, q.z) + by}};
+}
+
+/// A place on an edge, from 0 at its lower end to 1, and how far away it is.
+struct place {
+    double along = 0.0;
+    double distance = 0.0;
+};
+
+/// A point to be put into an edge.
+struct edge_point {
+    edge_name edge{};
+    double along = 0.0;
+    std::uint32_t point = 0;
+    double distance = 0.0;
+};
+
+/// Two edges that pass each other.
+struct passing_edges {
+    edge_name a{}, b{};
+    place on_a{}, on_b{};
+    point3 between{};
+    friend bool operator<(const passing_edges& x, const passing_edges& y) {
+        return std::tie(x.a, x.b) < std::tie(y.a, y.b);
+    }
+    friend bool operator==(const passing_edges& x, const passing_edges& y) {
+        return x.a == y.a && x.b == y.b;
+    }
+};
+
+/// `find(i, part)` for 0 <= i < count, in parallel; the parts in order.
+template <class T, class Find>
+std::vector<T> gather(std::size_t count, const Find& find) {
+    std::vector<std::vector<T>> parts(chunk_count(count, grain));
+    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t i = begin; i < end; ++i) find(i, parts[c]);
+    });
+    std::vector<T> all;
+    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+/// Three passes, each on what the one before it has left: corners, edges, faces.
+class joining {
+  public:
+    joining(mesh_view mesh, std::span<const std::uint8_t> offending, const joint& how)
+        : reach_(how.reach),
+          solid_(how.solid),
+          source_(how.source),
+          bad_(offending.begin(), offending.end()) {
+        surface().points.assign(mesh.points.begin(), mesh.points.end());
+        surface().faces.assign(mesh.faces.begin(), mesh.faces.end());
+        result_.face_of.resize(mesh.faces.size());
+        std::iota(result_.face_of.begin(), result_.face_of.end(), 0U);
+        most_faces_ = 2 * mesh.faces.size() + 1000;
+    }
+
+    joined_near run() {
+        for (int round = 0; round < most_rounds; ++round) {
+            const joined_near before = result_;
+            const std::vector<std::uint8_t> bad_before = bad_;
+            const bool corners = join_corners();
+            const bool edges = split_edges();
+            const bool faces = split_faces();
+            flip();
+            if (!corners && !edges && !faces) break;
+            if (surface().faces.size() > most_faces_) {  // it gets worse
+                result_ = before;
+                bad_ = bad_before;
+                break;
+            }
+        }
+        join_corners();  // no two points that are used are equal
+        return std::move(result_);
+    }
+
+  private:
+    mesh& surface() { return result_.surface; }
+    [[nodiscard]] const mesh& surface() const { return result_.surface; }
+    [[nodiscard]] const point3& at(std::uint32_t p) const { return surface().points[p]; }
+
+    void note(double distance) { result_.moved = std::max(result_.moved, distance); }
+
+    /// The points that faces use, offending ones or all.
+    [[nodiscard]] std::vector<std::uint32_t> used_points(bool offending_only) const {
+        std::vector<std::uint8_t> used(surface().points.size(), 0);
+        for (std::size_t f = 0; f < surface().faces.size(); ++f)
+            if (!offending_only || bad_[f] != 0)
+                for (const std::uint32_t c : surface().faces[f]) used[c] = 1;
+        std::vector<std::uint32_t> points;
+        for (std::uint32_t p = 0; p < used.size(); ++p)
+            if (used[p] != 0) points.push_back(p);
+        return points;
+    }
+
+    [[nodiscard]] std::vector<edge_name> offending_edges() const {
+        std::vector<edge_name> edges;
+        for (std::size_t f = 0; f < surface().faces.size(); ++f)
+            if (bad_[f] != 0)
+                for (const edge_name& e : edges_of(surface().faces[f])) edges.push_back(e);
+        std::sort(edges.begin(), edges.end());
+        edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+        return edges;
+    }
+
+    [[nodiscard]] tree<3> tree_of_points(const std::vector<std::uint32_t>& points) const {
+        return build(points, [&](std::uint32_t p) { return box_around(at(p), at(p), 0.0); });
+    }
+
+    /// Corners within reach become the lower one of two. No chains: what others have joined stays.
+    bool join_corners() {
+        const std::vector<std::uint32_t> all = used_points(false);
+        const std::vector<std::uint32_t> loose = used_points(true);
+        const tree<3> around = tree_of_points(all);
+        using pair = std::tuple<std::uint32_t, std::uint32_t, double>;
+        std::vector<pair> pairs =
+            gather<pair>(loose.size(), [&](std::size_t i, std::vector<pair>& found) {
+                const std::uint32_t p = loose[i];
+                search(around, box_around(at(p), at(p), reach_), [&](std::uint32_t id) {
+                    const std::uint32_t q = all[id];
+                    const double distance = length(at(p) - at(q));
+                    if (p != q && distance <= reach_)
+                        found.emplace_back(std::min(p, q), std::max(p, q), distance);
+                });
+            });
+        if (pairs.empty()) return false;
+        std::sort(pairs.begin(), pairs.end());
+        std::vector<std::uint32_t> now(surface().points.size());
+        std::iota(now.begin(), now.end(), 0U);
+        std::vector<std::uint8_t> joined(now.size(), 0);
+        for (const auto& [stays, goes, distance] : pairs) {
+            if (joined[goes] != 0 || now[goes] != goes || now[stays] != stays) continue;
+            now[goes] = stays;
+            joined[stays] = 1;
+            note(distance);
+        }
+        replace_faces([&](std::uint32_t, const face& f, std::vector<face>& pieces) {
+            pieces.push_back({now[f[0]], now[f[1]], now[f[2]]});
+        });
+        return true;
+    }
+
+    [[nodiscard]] place nearest_on(std::uint32_t p, const edge_name& e) const {
+        const point3 &a = at(e[0]), &q = at(p);
+        const point3 way = at(e[1]) - a;
+        const double square = dot(way, way);
+        const double along = square > 0.0 ? std::clamp(dot(q - a, way) / square, 0.0, 1.0) : 0.0;
+        const point3 there{a.x + along * way.x, a.y + along * way.y, a.z + along * way.z};
+        return {along, length(q - there)};
+    }
+
+    /// Corners next to offending edges.
+    [[nodiscard]] std::vector<edge_point> corners_near(const std::vector<edge_name>& edges) const {
+        const std::vector<std::uint32_t> all = used_points(false);
+        const tree<3> around = tree_of_points(all);
+        return gather<edge_point>(edges.size(), [&](std::size_t i, std::vector<edge_point>& found) {
+            const edge_name& e = edges[i];
+            search(around, box_around(at(e[0]), at(e[1]), near()), [&](std::uint32_t id) {
+                const std::uint32_t p = all[id];
+                if (p == e[0] || p == e[1]) return;
+                const place on = nearest_on(p, e);
+                if (on.distance <= near()) found.push_back({e, on.along, p, on.distance});
+            });
+        });
+    }
+
+    /// Where the lines through two edges are nearest, if that is inside of both.
+    [[nodiscard]] bool pass(passing_edges& e) const {
+        const point3 &p = at(e.a[0]), &q = at(e.b[0]);
+        const point3 u = at(e.a[1]) - p, v = at(e.b[1]) - q, w = q - p;
+        const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+        const double turn = uu * vv - uv * uv;
+        if (!(turn > 0x1p-40 * uu * vv)) return false;  // along each other: their ends are near
+        const double s = (uw * vv - vw * uv) / turn, t = (uw * uv - vw * uu) / turn;
+        if (!(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)) return false;
+        const point3 on_a{p.x + s * u.x, p.y + s * u.y, p.z + s * u.z};
+        const point3 on_b{q.x + t * v.x, q.y + t * v.y, q.z + t * v.z};
+        const double distance = length(on_a - on_b);
+        if (!(distance <= near())) return false;
+        e.on_a = {s, distance};
+        e.on_b = {t, distance};
+        e.between = {(on_a.x + on_b.x) / 2, (on_a.y + on_b.y) / 2, (on_a.z + on_b.z) / 2};
+        return true;
+    }
+
+    [[nodiscard]] std::vector<passing_edges> edges_passing(
+        const std::vector<edge_name>& edges) const {
+        const tree<3> around =
+            build(edges, [&](const edge_name& e) { return box_around(at(e[0]), at(e[1]), 0.0); });
+        auto all = gather<passing_edges>(
+            edges.size(), [&](std::size_t i, std::vector<passing_edges>& found) {
+                const edge_name& a = edges[i];
+                search(around, box_around(at(a[0]), at(a[1]), near()), [&](std::uint32_t id) {
+                    const edge_name& b = edges[id];
+                    if (!(a < b) || a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1])
+                        return;
+                    passing_edges both{.a = a, .b = b};
+                    if (pass(both)) found.push_back(both);
+                });
+            });
+        std::sort(all.begin(), all.end());
+        return all;
+    }
+
+    /// A corner or new point where edges pass each other: an end of theirs within reach, or one
+    /// made for other edges there, or a new one.
+    std::uint32_t point_for(const passing_edges& e, std::size_t first_made) {
+        for (const std::uint32_t end : {e.a[0], e.a[1], e.b[0], e.b[1]})
+            if (length(at(end) - e.between) <= reach_) return end;
+        const auto made = static_cast<std::uint32_t>(surface().points.size());
+        for (std::uint32_t p = made; p-- > first_made && made - p < 64;)
+            if (length(at(p) - e.between) <= reach_) return p;
+        surface().points.push_back(e.between);
+        return made;
+    }
+
+    /// Offending edges, with all faces at them, get the corners next to them, and common points
+    /// where they pass each other.
+    bool split_edges() {
+        const std::vector<edge_name> edges = offending_edges();
+        std::vector<edge_point> in_edges = corners_near(edges);
+        const std::size_t first_made = surface().points.size();
+        for (const passing_edges& e : edges_passing(edges)) {
+            const std::uint32_t p = point_for(e, first_made);
+            if (p != e.a[0] && p != e.a[1])
+                in_edges.push_back({e.a, e.on_a.along, p, e.on_a.distance});
+            if (p != e.b[0] && p != e.b[1])
+                in_edges.push_back({e.b, e.on_b.along, p, e.on_b.distance});
+        }
+        if (in_edges.empty()) return false;
+        const auto by_point = [](const edge_point& e) {
+            return std::tuple(e.edge, e.point, e.along);
+        };
+        std::sort(in_edges.begin(), in_edges.end(),
+                  [&](const auto& e, const auto& f) { return by_point(e) < by_point(f); });
+        const auto last = std::unique(
+            in_edges.begin(), in_edges.end(),
+            [](const auto& e, const auto& f) { return e.edge == f.edge && e.point == f.point; });
+        in_edges.erase(last, in_edges.end());
+        const auto by_place = [](const edge_point& e) {
+            return std::tuple(e.edge, e.along, e.point);
+        };
+        std::sort(in_edges.begin(), in_edges.end(),
+                  [&](const auto& e, const auto& f) { return by_place(e) < by_place(f); });
+        for (const edge_point& e : in_edges) note(e.distance);
+        put_into_edges(in_edges);
+        return true;
+    }
+
+    void put_into_edges(const std::vector<edge_point>& in_edges) {
+        std::vector<std::uint8_t> split(surface().points.size(), 0);
+        for (const edge_point& e : in_edges) split[e.edge[0]] = split[e.edge[1]] = 1;
+        const auto points_of = [&](std::uint32_t a, std::uint32_t b) {
+            std::vector<std::uint32_t> points;
+            const edge_name name = edge_between(a, b);
+            auto next = std::lower_bound(
+                in_edges.begin(), in_edges.end(), name,
+                [](const edge_point& e, const edge_name& edge) { return e.edge < edge; });
+            for (; next != in_edges.end() && next->edge == name; ++next)
+                points.push_back(next->point);
+            if (a > b) std::reverse(points.begin(), points.end());
+            return points;
+        };
+        replace_faces([&](std::uint32_t, const face& f, std::vector<face>& pieces) {
+            std::array<std::vector<std::uint32_t>, 3> inner;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = f[k], b = f[(k + 1) % 3];
+                if (split[a] != 0 && split[b] != 0) inner[k] = points_of(a, b);
+            }
+            if (inner[0].empty() && inner[1].empty() && inner[2].empty()) {
+                pieces.push_back(f);
+                return;
+            }
+            face_pieces cut(f, surface().points);
+            for (std::size_t k = 0; k < 3; ++k) cut.split_edge(f[k], f[(k + 1) % 3], inner[k]);
+            pieces = cut.all();
+        });
+    }
+
+    /// Offending faces get the corners next to them.
+    bool split_faces() {
+        std::vector<std::uint32_t> faces;
+        for (std::uint32_t f = 0; f < bad_.size(); ++f)
+            if (bad_[f] != 0) faces.push_back(f);
+        const std::vector<std::uint32_t> all = used_points(false);
+        const tree<3> around = tree_of_points(all);
+        using in_face = std::tuple<std::uint32_t, std::uint32_t, double>;
+        const auto found =
+            gather<in_face>(faces.size(), [&](std::size_t i, std::vector<in_face>& part) {
+                const face& f = surface().faces[faces[i]];
+                const triangle3 t{at(f[0]), at(f[1]), at(f[2])};
+                aabb<double, 3> box = box_around(t[0], t[1], near());
+                box.include(box_around(t[2], t[2], near()));
+                const std::size_t first = part.size();
+                search(around, box, [&](std::uint32_t id) {
+                    const std::uint32_t p = all[id];
+                    if (holds(f, p)) return;
+                    const double distance = std::sqrt(closest_point(t, at(p)).squared_distance);
+                    if (distance <= near()) part.emplace_back(faces[i], p, distance);
+                });
+                std::sort(part.begin() + static_cast<std::ptrdiff_t>(first), part.end());
+            });
+        if (found.empty()) return false;
+        for (const in_face& one : found) note(std::get<2>(one));
+        auto next = found.begin();
+        replace_faces([&](std::uint32_t number, const face& f, std::vector<face>& pieces) {
+            if (next == found.end() || std::get<0>(*next) != number) {
+                pieces.push_back(f);
+                return;
+            }
+            face_pieces cut(f, surface().points);
+            for (; next != found.end() && std::get<0>(*next) == number; ++next)
+                cut.split_inside(std::get<1>(*next));
+            pieces = cut.all();
+        });
+        return true;
+    }
+
+    /// The edges that are not between two faces of one source, ascending.
+    [[nodiscard]] std::vector<edge_name> borders() const {
+        std::vector<std::pair<edge_name, std::uint32_t>> edges;
+        for (std::size_t f = 0; f < surface().faces.size(); ++f)
+            for (const edge_name& e : edges_of(surface().faces[f]))
+                edges.emplace_back(e, source_[result_.face_of[f]]);
+        std::sort(edges.begin(), edges.end());
+        std::vector<edge_name> found;
+        for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+            while (end < edges.size() && edges[end].first == edges[begin].first) ++end;
+            if (end - begin != 2 || edges[begin].second != edges[begin + 1].second)
+                found.push_back(edges[begin].first);
+        }
+        return found;
+    }
+
+    /// Offending pieces of one source get the triangles of Delaunay, so that sources that lie on
+    /// each other are cut in the same way where they have the same points.
+    void flip() {
+        std::vector<std::array<std::uint32_t, 2>> by_source;
+        for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
+            if (bad_[f] != 0) by_source.push_back({source_[result_.face_of[f]], f});
+        std::sort(by_source.begin(), by_source.end());
+        const std::vector<edge_name> kept = borders();
+        for (std::size_t begin = 0, end = 0; begin < by_source.size(); begin = end) {
+            std::vector<face> faces;
+            for (; end < by_source.size() && by_source[end][0] == by_source[begin][0]; ++end)
+                faces.push_back(surface().faces[by_source[end][1]]);
+            if (faces.size() == 1) continue;
+            face_pieces pieces(std::move(faces), surface().points);
+            pieces.flip(kept);
+            for (std::size_t i = begin; i < end; ++i)
+                surface().faces[by_source[i][1]] = pieces.all()[i - begin];
+        }
+        cancel();
+    }
+
+    /// Puts the pieces that `cut(number, face, pieces)` adds in the place of each face.
+    template <class Cut>
+    void replace_faces(const Cut& cut) {
+        std::vector<face> faces, pieces;
+        std::vector<std::uint32_t> face_of;
+        std::vector<std::uint8_t> bad;
+        for (std::uint32_t f = 0; f < surface().faces.size(); ++f) {
+            pieces.clear();
+            cut(f, surface().faces[f], pieces);
+            for (const face& piece : pieces) {
+                if (!has_three_corners(piece)) continue;
+                faces.push_back(piece);
+                face_of.push_back(result_.face_of[f]);
+                bad.push_back(bad_[f]);
+            }
+        }
+        surface().faces = std::move(faces);
+        result_.face_of = std::move(face_of);
+        bad_ = std::move(bad);
+        cancel();
+    }
+
+    /// Of faces with the same corners, those of opposite orientation bound nothing between them.
+    void cancel() {
+        struct named_face {
+            face corners;  // ascending
+            std::uint32_t number;
+        };
+        std::vector<named_face> named;
+        for (std::uint32_t f = 0; f < surface().faces.size(); ++f) {
+            face corners = surface().faces[f];
+            std::sort(corners.begin(), corners.end());
+            named.push_back({corners, f});
+        }
+        std::sort(named.begin(), named.end(), [](const auto& x, const auto& y) {
+            return std::tie(x.corners, x.number) < std::tie(y.corners, y.number);
+        });
+        std::vector<std::uint8_t> gone(named.size(), 0);
+        bool any = false;
+        for (std::size_t begin = 0, end = 0; begin < named.size(); begin = end) {
+            while (end < named.size() && named[end].corners == named[begin].corners) ++end;
+            if (end - begin == 1) continue;
+            any = true;
+            int sum = 0;
+            for (std::size_t i = begin; i < end; ++i)
+                sum += is_even(surface().faces[named[i].number]) ? 1 : -1;
+            int left = solid_ ? std::abs(sum) : 1;
+            for (std::size_t i = begin; i < end; ++i) {
+                const bool even = is_even(surface().faces[named[i].number]);
+                const bool stays = left > 0 && (!solid_ || even == (sum > 0));
+                if (stays) --left;
+                gone[named[i].number] = stays ? 0 : 1;
+            }
+        }
+        if (!any) return;
+        std::size_t kept = 0;
+        for (std::size_t f = 0; f < gone.size(); ++f) {
+            if (gone[f] != 0) continue;
+            surface().faces[kept] = surface().faces[f];
+            result_.face_of[kept] = result_.face_of[f];
+            bad_[kept++] = bad_[f];
+        }
+        surface().faces.resize(kept);
+        result_.face_of.resize(kept);
+        bad_.resize(kept);
+    }
+
+    /// Whether the corners ascend but for a cyclic shift.
+    static bool is_even(const face& f) {
+        return (f[0] < f[1]) + (f[1] < f[2]) + (f[2] < f[0]) == 2;
+    }
+
+    /// Edges and faces take corners from nearer than corners join: edges do not get short by it.
+    [[nodiscard]] double near() const { return reach_ / 2; }
+
+    double reach_;
+    bool solid_;
+    std::span<const std::uint32_t> source_;
+    std::size_t most_faces_ = 0;
+    std::vector<std::uint8_t> bad_;  ///< by face
+    joined_near result_{};
+};
+
+}  // namespace
+
+joined_near join_near(mesh_view mesh, std::span<const std::uint8_t> offending, const joint& how) {
+    return joining(mesh, offending, how).run();
+}
+
+}  // namespace tf::detail
