@@ -1,11 +1,11 @@
 #include <libmesh/arrange/detail/cluster.hpp>
-#include <libmesh/intersect/detail/meetings.hpp>
-#include <libmesh/intersect/detail/same_points.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/detail/stars.hpp>
 #include <libmesh/detail/union_find.hpp>
 #include <libmesh/exact/predicates.hpp>
+#include <libmesh/intersect/detail/meetings.hpp>
+#include <libmesh/intersect/detail/same_points.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libtree/parallel.hpp>
 

@@ -1,5 +1,5 @@
-#include <libmesh/intersect/detail/meetings.hpp>
 #include <libmesh/geometry/detail/features.hpp>
+#include <libmesh/intersect/detail/meetings.hpp>
 #include <libtree/parallel.hpp>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 /// \file
 /// The common subdivision of input faces that overlap in one plane.
 
-#include <libmesh/intersect/detail/meetings.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/intersect/detail/meetings.hpp>
 #include <libmesh/mesh.hpp>
 
 #include <array>
