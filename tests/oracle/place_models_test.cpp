@@ -3,6 +3,7 @@
 /// placed much further. Without TREEFORM_MODELS_DIR nothing is checked.
 
 #include <libmesh/bounding_box.hpp>
+#include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/io/read.hpp>
 #include <libmesh/nearness/mesh_distance.hpp>
@@ -56,9 +57,8 @@ tf::mesh dropped(tf::mesh a, double way, bool to_single) {
     for (tf::point3& p : a.points) {
         p.z -= way;
         if (to_single)
-            p = {static_cast<double>(static_cast<float>(p.x)),
-                 static_cast<double>(static_cast<float>(p.y)),
-                 static_cast<double>(static_cast<float>(p.z))};
+            p = {tf::detail::nearest_float(p.x), tf::detail::nearest_float(p.y),
+                 tf::detail::nearest_float(p.z)};
     }
     return a;
 }
