@@ -67,8 +67,8 @@ mesh_intersections(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3
 [[nodiscard]] TREEFORM_API mesh_intersection_result
 mesh_intersections(mesh_view a, mesh_view b, const mesh_intersection_options& options = {});
 
-/// The same of meshes made ready to be asked many times, wherever they are moved: twice as fast.
-/// Pairs, kinds and their order are those of the meshes with their trees.
+/// The same of meshes made ready to be asked many times, wherever they are moved: up to twice as
+/// fast. Pairs, kinds and their order are those of the meshes with their trees.
 ///
 /// \throws std::invalid_argument when a transform is not finite, or naming a face with a corner
 ///         that is not finite as moved; only faces that are looked at are checked
