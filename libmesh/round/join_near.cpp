@@ -94,7 +94,7 @@ class joining {
         surface().faces.assign(mesh.faces.begin(), mesh.faces.end());
         result_.face_of.resize(mesh.faces.size());
         std::iota(result_.face_of.begin(), result_.face_of.end(), 0U);
-        most_faces_ = 2 * mesh.faces.size() + 1000;
+        most_faces_ = 3 * mesh.faces.size() + 4000;
     }
 
     joined_near run() {
@@ -104,13 +104,13 @@ class joining {
             const bool corners = join_corners();
             const bool edges = split_edges();
             const bool faces = split_faces();
-            flip();
-            if (!corners && !edges && !faces) break;
-            if (surface().faces.size() > most_faces_) {  // it gets worse
+            if (grows_) {
                 result_ = before;
                 bad_ = bad_before;
                 break;
             }
+            flip();
+            if (!corners && !edges && !faces) break;
         }
         join_corners();  // no two points that are used are equal
         return std::move(result_);
@@ -120,6 +120,12 @@ class joining {
     mesh& surface() { return result_.surface; }
     [[nodiscard]] const mesh& surface() const { return result_.surface; }
     [[nodiscard]] const point3& at(std::uint32_t p) const { return surface().points[p]; }
+
+    /// Whether this many points more in edges and faces would make too many faces.
+    bool too_many(std::size_t points) {
+        grows_ = grows_ || surface().faces.size() + 2 * points > most_faces_;
+        return grows_;
+    }
 
     void note(double distance) { result_.moved = std::max(result_.moved, distance); }
 
@@ -269,7 +275,7 @@ class joining {
             if (p != e.b[0] && p != e.b[1])
                 in_edges.push_back({e.b, e.on_b.along, p, e.on_b.distance});
         }
-        if (in_edges.empty()) return false;
+        if (in_edges.empty() || too_many(in_edges.size())) return false;
         const auto by_point = [](const edge_point& e) {
             return std::tuple(e.edge, e.point, e.along);
         };
@@ -342,7 +348,7 @@ class joining {
                 });
                 std::sort(part.begin() + static_cast<std::ptrdiff_t>(first), part.end());
             });
-        if (found.empty()) return false;
+        if (found.empty() || too_many(found.size())) return false;
         for (const in_face& one : found) note(std::get<2>(one));
         auto next = found.begin();
         replace_faces([&](std::uint32_t number, const face& f, std::vector<face>& pieces) {
@@ -474,6 +480,7 @@ class joining {
     bool solid_;
     std::span<const std::uint32_t> source_;
     std::size_t most_faces_ = 0;
+    bool grows_ = false;
     std::vector<std::uint8_t> bad_;  ///< by face
     joined_near result_{};
 };

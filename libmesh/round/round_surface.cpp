@@ -74,7 +74,7 @@ class rounding {
         while (settle()) {
             result_.certified = check();
             if (result_.certified || result_.cancelled || result_.steps >= options_.steps) break;
-            if (result_.surface.faces.size() > most_faces_) break;  // it gets worse
+            if (gets_worse()) break;
             ++result_.steps;
             if (!cut_again()) break;
         }
@@ -83,6 +83,12 @@ class rounding {
     }
 
   private:
+    [[nodiscard]] bool gets_worse() {
+        if (result_.steps == 0) first_meeting_count_ = result_.meeting_count;
+        return result_.surface.faces.size() > most_faces_ ||
+               result_.meeting_count > 4 * first_meeting_count_ + 1000;
+    }
+
     /// Each phase has half of the work that was left; nobody knows how many there will be.
     progress_callback next_phase() {
         if (!options_.progress) return {};
@@ -254,6 +260,7 @@ class rounding {
     std::vector<std::uint32_t> point_of_;  ///< by point, of the original surface
     std::vector<std::uint8_t> offending_;  ///< by face
     std::size_t most_faces_;
+    std::uint64_t first_meeting_count_ = 0;
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between
 };

@@ -73,9 +73,8 @@ struct rounded_surface {
 /// \cost   as `self_intersections` for the check; as `arrange_faces` and `find_cells` for each
 ///         step, if any
 /// \same   on any number of threads
-/// \source in the spirit of iterated snap rounding: Valque, Lazard and de Berg, Rounding meshes in
-///         3D, and CGAL 6.1; here faces take the points next to them, and winding numbers decide
-///         what stays
+/// \source CGAL 6.1's iterative snap rounding has the same aim and ends in the same check; here
+///         faces take the points next to them, and winding numbers decide what stays
 [[nodiscard]] TREEFORM_API rounded_surface round_surface(exact_surface exact,
                                                          const round_options& options = {});
 
