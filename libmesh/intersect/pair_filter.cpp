@@ -141,7 +141,21 @@ class plane {
                 hn::And(known, hn::Lt(value, hn::Neg(error)))};
     }
 
+    /// The sides by the signs of the normal's components: how u and v turn, seen along each axis.
+    /// \source the bound of libmesh/exact/detail/filter.hpp for `orient2d`
+    [[nodiscard]] std::array<sides, 3> turns() const {
+        return {turn(normal_.x, permanent_.x), turn(normal_.y, permanent_.y),
+                turn(normal_.z, permanent_.z)};
+    }
+
   private:
+    static sides turn(lanes value, lanes permanent) {
+        const lanes_tag d;
+        const lanes error = hn::Mul(hn::Set(d, error_factor<orient2d_polynomial>), permanent);
+        const lanes_mask known = hn::Ge(permanent, hn::Set(d, least_permanent));
+        return {hn::And(known, hn::Gt(value, error)),
+                hn::And(known, hn::Lt(value, hn::Neg(error)))};
+    }
     static void component(lanes uy, lanes vz, lanes uz, lanes vy, lanes& normal, lanes& permanent) {
         const lanes p = hn::Mul(uy, vz);
         const lanes q = hn::Mul(uz, vy);
@@ -171,16 +185,45 @@ std::uint64_t bits_at(lanes_mask mask, std::size_t i) {
     return static_cast<std::uint64_t>(bits[0] & ((1U << hn::Lanes(d)) - 1)) << i;
 }
 
-/// Two triangles on a common edge have no more in common unless they are coplanar.
+/// Two triangles on a common edge have no more in common unless they are coplanar, nor if seen
+/// along some axis they lie on either side of it: neighbours in a flat part of a surface.
 batch_verdict edge_pairs(const pair_batch<4>& batch, std::size_t count) {
     batch_verdict verdict;
     for (std::size_t i = 0; i < count; i += hn::Lanes(lanes_tag())) {
         const vec u = load(batch, 0, i);
-        const plane of_a(load(batch, 1, i) - u, load(batch, 2, i) - u);
-        const sides b = of_a.of(load(batch, 3, i) - u);
-        verdict.apart |= bits_at(hn::Or(b.ahead, b.behind), i);
+        const vec edge = load(batch, 1, i) - u;
+        const vec to_b = load(batch, 3, i) - u;
+        const plane of_a(edge, load(batch, 2, i) - u);
+        const sides b = of_a.of(to_b);
+        lanes_mask apart = hn::Or(b.ahead, b.behind);
+        if (!hn::AllTrue(lanes_tag(), apart)) {
+            const auto turns_a = of_a.turns();
+            const auto turns_b = plane(edge, to_b).turns();
+            for (std::size_t k = 0; k < 3; ++k)
+                apart = hn::Or(apart, opposite_sides(turns_a[k], turns_b[k]));
+        }
+        verdict.apart |= bits_at(apart, i);
     }
     return verdict;
+}
+
+/// Triangles p a1 a2 and p b1 b2, relative to p: where an edge at p separates them, seen along an
+/// axis. They then meet in p alone, as its triangle has an area seen so and the other one no point
+/// on the edge's line but p.
+lanes_mask separated_by_an_edge(const vec& a1, const vec& a2, const vec& b1, const vec& b2) {
+    const auto a12 = plane(a1, a2).turns(), b12 = plane(b1, b2).turns();
+    const auto a1b1 = plane(a1, b1).turns(), a1b2 = plane(a1, b2).turns();
+    const auto a2b1 = plane(a2, b1).turns(), a2b2 = plane(a2, b2).turns();
+    const auto along = [&](std::size_t k) {
+        const lanes_mask by_a1 =
+            hn::And(opposite_sides(a12[k], a1b1[k]), opposite_sides(a12[k], a1b2[k]));
+        const lanes_mask by_a2 = same_side(a12[k], a2b1[k], a2b2[k]);
+        const lanes_mask by_b1 = same_side(b12[k], a1b1[k], a2b1[k]);
+        const lanes_mask by_b2 =
+            hn::And(opposite_sides(b12[k], a1b2[k]), opposite_sides(b12[k], a2b2[k]));
+        return hn::Or(hn::Or(by_a1, by_a2), hn::Or(by_b1, by_b2));
+    };
+    return hn::Or(along(0), hn::Or(along(1), along(2)));
 }
 
 /// Triangles p a1 a2 and p b1 b2. When either plane has the other triangle strictly on one side
@@ -206,10 +249,13 @@ batch_verdict corner_pairs(const pair_batch<5>& batch, std::size_t count) {
         const sides d2 = of_b.of(a2);
         const lanes_mask both_cross = hn::And(opposite_sides(e1, e2), opposite_sides(d1, d2));
         const lanes_mask same_way = same_side(d1, e2);
-        verdict.apart |= bits_at(
-            hn::Or(hn::Or(same_side(e1, e2), same_side(d1, d2)), hn::AndNot(same_way, both_cross)),
-            i);
-        verdict.pierce |= bits_at(hn::And(both_cross, same_way), i);
+        lanes_mask apart =
+            hn::Or(hn::Or(same_side(e1, e2), same_side(d1, d2)), hn::AndNot(same_way, both_cross));
+        const lanes_mask pierce = hn::And(both_cross, same_way);
+        if (!hn::AllTrue(lanes_tag(), hn::Or(apart, pierce)))
+            apart = hn::Or(apart, hn::AndNot(pierce, separated_by_an_edge(a1, a2, b1, b2)));
+        verdict.apart |= bits_at(apart, i);
+        verdict.pierce |= bits_at(pierce, i);
     }
     return verdict;
 }
