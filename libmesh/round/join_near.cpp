@@ -65,9 +65,6 @@ struct passing_edges {
     friend bool operator<(const passing_edges& x, const passing_edges& y) {
         return std::tie(x.a, x.b) < std::tie(y.a, y.b);
     }
-    friend bool operator==(const passing_edges& x, const passing_edges& y) {
-        return x.a == y.a && x.b == y.b;
-    }
 };
 
 /// `find(i, part)` for 0 <= i < count, in parallel; the parts in order.

@@ -303,6 +303,29 @@ TEST_CASE("boolean: surfaces that nearly coincide are mended until they are cert
     }
 }
 
+TEST_CASE("boolean: turned boxes whose faces lie in each other's planes are mended, too") {
+    // Turned, no two faces are in one plane any more, but all are next to one.
+    test::random source(8);
+    for (int round = 0; round < 10; ++round) {
+        CAPTURE(round);
+        std::vector<tf::mesh> boxes, turned_boxes;
+        const tf::point3 axis{source.in(-1, 1), source.in(-1, 1), source.in(0.1, 1)};
+        const double angle = source.in(0, 3);
+        for (int k = 0; k < 4; ++k) {
+            boxes.push_back(lattice_box(source));
+            turned_boxes.push_back(rotated(boxes.back(), axis, angle));
+        }
+        const double volume =
+            lattice_volume(boxes, [](const auto& in) { return in[0] || in[1] || in[2] || in[3]; });
+        CHECK(std::abs(volume_of(turned_boxes, "a+b+c+d") - volume) <= 1e-11);
+        const tf::mesh single = solid_of(turned_boxes, "a+b+c+d", {.to_float = true});
+        CHECK(std::abs(tf::signed_volume(single) - volume) <= 1e-3);
+        const double symmetric = lattice_volume(
+            boxes, [](const auto& in) { return (in[0] != in[1]) != (in[2] != in[3]); });
+        CHECK(std::abs(volume_of(turned_boxes, "a^b^c^d") - symmetric) <= 1e-11);
+    }
+}
+
 TEST_CASE("boolean: nothing comes of nothing, and faces without an area bound nothing") {
     const tf::solid_result nothing = tf::boolean({}, boolean_expression::union_of(0));
     CHECK(nothing.certified);
