@@ -83,8 +83,8 @@ struct solid_result {
 /// touch in an edge or a point, they share it; an edge then has four faces or more.
 ///
 /// \throws std::invalid_argument when the expression has another number of operands, or naming a
-///         face with a corner that is no point, or a point with a coordinate that is not finite or
-///         beyond 2^1000, numbered through all operands
+///         face with a corner that is no point, or a corner with a coordinate that is not finite
+///         or beyond 2^1000
 /// \cost   as `arrange_faces`, `find_cells` and `round_surface`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API solid_result boolean(std::span<const mesh_view> operands,

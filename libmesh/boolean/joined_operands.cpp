@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace tf::detail {
 namespace {
@@ -23,6 +22,17 @@ void require_nameable(const char* function, std::size_t count, const char* what)
     if (count >= operand_element::none)
         throw std::invalid_argument("tf::" + std::string(function) + ": 2^32 - 1 " + what +
                                     " or more");
+}
+
+/// Ascending.
+std::vector<std::uint32_t> used_points(mesh_view mesh) {
+    std::vector<std::uint8_t> used(mesh.points.size(), 0);
+    for (const face& f : mesh.faces)
+        for (const std::uint32_t corner : f) used[corner] = 1;
+    std::vector<std::uint32_t> points;
+    for (std::uint32_t p = 0; p < used.size(); ++p)
+        if (used[p] != 0) points.push_back(p);
+    return points;
 }
 
 }  // namespace
@@ -63,13 +73,22 @@ joined_operands join_operands(const char* function, std::span<const mesh_view> o
     joined.first_point.push_back(static_cast<std::uint32_t>(points));
     joined.first_face.push_back(static_cast<std::uint32_t>(faces));
 
-    equal_points equal = find_equal_points(all.points);
-    for (std::size_t p = 0; p < equal.first_of_new.size(); ++p)
-        all.points[p] = all.points[equal.first_of_new[p]];  // ascending: none is read too late
-    all.points.resize(equal.first_of_new.size());
+    // Points that no face uses may be anything, also NaN, and are left out.
+    const std::vector<std::uint32_t> used = used_points(all);
+    std::vector<std::uint32_t> new_of_old(points, 0);
+    std::vector<point3> corners;
+    corners.reserve(used.size());
+    for (const std::uint32_t p : used) corners.push_back(all.points[p]);
+    const equal_points equal = find_equal_points(corners);
+    for (std::size_t i = 0; i < used.size(); ++i) new_of_old[used[i]] = equal.new_of_old[i];
+    all.points.clear();
+    joined.number_of_point.reserve(equal.first_of_new.size());
+    for (const std::uint32_t first : equal.first_of_new) {
+        all.points.push_back(corners[first]);
+        joined.number_of_point.push_back(used[first]);
+    }
     for (face& f : all.faces)
-        for (std::uint32_t& corner : f) corner = equal.new_of_old[corner];
-    joined.number_of_point = std::move(equal.first_of_new);
+        for (std::uint32_t& corner : f) corner = new_of_old[corner];
     return joined;
 }
 

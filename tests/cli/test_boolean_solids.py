@@ -147,6 +147,15 @@ class Solids(BooleanTest):
         self.made("difference", "a.ply", "b.obj", "--ascii", "--no-attributes", name="bare.ply")
         self.assertNotIn("red", self.read("bare.ply"))
 
+    def test_faces_without_finite_corners_are_left_out_and_counted(self):
+        points, faces = box((0, 0, 0), (2, 2, 2))
+        points = points + [(float("nan"), 0, 0), (float("inf"), 1, 0)]
+        self.mesh("nan.obj", (points, [(0, 1, 8)] + faces + [(9, 8, 8)]))
+        entry = self.made("union", "nan.obj", "b.obj")
+        self.assertEqual(entry["output"]["volume"], 15)
+        self.assertEqual(entry["inputs"][0]["skipped"]["non_finite"], 2)
+        self.assertIn("non-finite", [w["code"] for w in entry["warnings"]])
+
     def test_touching_parts_are_told(self):
         self.mesh("d.obj", box((2, 2, 0), (3, 3, 2)))
         entry = self.made("union", "a.obj", "d.obj")

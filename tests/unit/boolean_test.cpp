@@ -404,6 +404,9 @@ TEST_CASE("boolean: what cannot be meant is refused") {
     bad = b;
     bad.points[2].y = std::numeric_limits<double>::infinity();
     CHECK_THROWS_AS(static_cast<void>(evaluate({bad}, "a")), std::invalid_argument);
+    bad.points.push_back(bad.points[2]);  // now used by no face
+    bad.points[2] = b.points[2];
+    CHECK(evaluate({bad}, "a").surface == b);
     CHECK(
         evaluate({b, moved(b, {0.5, 0.5, 0.5})}, "a+b", {.progress = [](double) { return false; }})
             .cancelled);

@@ -12,7 +12,7 @@
 namespace tf::detail {
 
 struct joined_operands {
-    mesh all;                                    ///< no two points of it are equal
+    mesh all;                                    ///< no two points are equal, all are corners
     std::vector<std::uint32_t> operand_of_face;  ///< [F] of `all`
     std::vector<std::uint32_t> first_face;       ///< [k + 1] of each operand
     std::vector<std::uint32_t> first_point;      ///< [k + 1] of each, before equal ones were one
