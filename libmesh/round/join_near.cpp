@@ -1,5 +1,6 @@
 #include <libmesh/detail/stars.hpp>
 #include <libmesh/geometry/closest_point.hpp>
+#include <libmesh/round/detail/cancelled_faces.hpp>
 #include <libmesh/round/detail/face_pieces.hpp>
 #include <libmesh/round/detail/join_near.hpp>
 #include <libtree/build.hpp>
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -420,39 +420,9 @@ class joining {
         cancel();
     }
 
-    /// Of faces with the same corners, those of opposite orientation bound nothing between them.
+    /// Of faces that cover each other, what bounds nothing goes.
     void cancel() {
-        struct named_face {
-            face corners;  // ascending
-            std::uint32_t number;
-        };
-        std::vector<named_face> named;
-        for (std::uint32_t f = 0; f < surface().faces.size(); ++f) {
-            face corners = surface().faces[f];
-            std::sort(corners.begin(), corners.end());
-            named.push_back({corners, f});
-        }
-        std::sort(named.begin(), named.end(), [](const auto& x, const auto& y) {
-            return std::tie(x.corners, x.number) < std::tie(y.corners, y.number);
-        });
-        std::vector<std::uint8_t> gone(named.size(), 0);
-        bool any = false;
-        for (std::size_t begin = 0, end = 0; begin < named.size(); begin = end) {
-            while (end < named.size() && named[end].corners == named[begin].corners) ++end;
-            if (end - begin == 1) continue;
-            any = true;
-            int sum = 0;
-            for (std::size_t i = begin; i < end; ++i)
-                sum += is_even(surface().faces[named[i].number]) ? 1 : -1;
-            int left = solid_ ? std::abs(sum) : 1;
-            for (std::size_t i = begin; i < end; ++i) {
-                const bool even = is_even(surface().faces[named[i].number]);
-                const bool stays = left > 0 && (!solid_ || even == (sum > 0));
-                if (stays) --left;
-                gone[named[i].number] = stays ? 0 : 1;
-            }
-        }
-        if (!any) return;
+        const std::vector<std::uint8_t> gone = cancelled_faces(surface().faces, solid_);
         std::size_t kept = 0;
         for (std::size_t f = 0; f < gone.size(); ++f) {
             if (gone[f] != 0) continue;
@@ -463,11 +433,6 @@ class joining {
         surface().faces.resize(kept);
         result_.face_of.resize(kept);
         bad_.resize(kept);
-    }
-
-    /// Whether the corners ascend but for a cyclic shift.
-    static bool is_even(const face& f) {
-        return (f[0] < f[1]) + (f[1] < f[2]) + (f[2] < f[0]) == 2;
     }
 
     /// Edges and faces take corners from nearer than corners join: edges do not get short by it.
