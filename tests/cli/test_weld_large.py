@@ -209,6 +209,13 @@ class Large(WeldTest):
             self.run_tool("in.ply", *options, "-o", "memory.ply", "-f", status=0)
             self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
 
+    def test_an_output_that_exists_is_refused_before_anything_is_made(self):
+        self.write("in.ply", ply(cloud(500)))
+        self.write("out.ply", b"here")
+        self.run_tool("in.ply", "-t", "0.01", "-o", "out.ply", "--tile-points", 100, status=4)
+        self.assertEqual(self.read_bytes("out.ply"), b"here")
+        self.assert_no_folder()
+
     def test_a_folder_with_other_files_is_left_alone(self):
         self.write("in.ply", ply(cloud(300), ascii=False))
         os.mkdir(self.path("mine"))

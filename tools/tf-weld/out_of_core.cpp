@@ -357,6 +357,9 @@ void enter_source(job& work, const point_survey& survey, const fs::path& input) 
 
 exit_status weld_in_tiles(job& work, const weld_request& request, const tile_settings& tiles,
                           const fs::path& input, const tf::mesh_file& header) {
+    enter_blank_report(work, request);
+    check_outputs(work, request);
+    check_formats(work, request, header);
     work_folder folder(folder_for(work, request, tiles));
     remove_leftovers(folder);
     const tile_task task{.input = input,
@@ -365,9 +368,6 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_set
                          .points_per_tile = tiles.points_per_tile,
                          .stop_at = tiles.stop_at,
                          .identity = identity_of(work, input, request, tiles)};
-    enter_blank_report(work, request);
-    check_outputs(work, request);
-    check_formats(work, request, header);
     tile_steps steps(work, folder, task);
     const point_survey& survey = [&]() -> const point_survey& {
         const job::timer timing = work.time("read");
