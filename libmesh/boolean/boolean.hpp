@@ -50,7 +50,8 @@ struct solid_result {
     /// Faces counter-clockwise from outside, in the order of the operands' faces they lie in;
     /// points of operands in their order, then those that were cut.
     mesh surface;
-    std::vector<operand_element> source_face;   ///< [F] the lowest face that each lies in
+    /// [F] the lowest face that each lies in; where rounding was mended, perhaps one beside it.
+    std::vector<operand_element> source_face;
     std::vector<operand_element> source_point;  ///< [V] the lowest point that each is, or none
     double max_move = 0.0;  ///< bound of how far rounding moved a point, in each coordinate
     /// Checked on the coordinates above: two faces have a common corner, a common edge or nothing

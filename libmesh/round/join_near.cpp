@@ -1,4 +1,5 @@
 #include <libmesh/detail/stars.hpp>
+#include <libmesh/detail/union_find.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/round/detail/cancelled_faces.hpp>
 #include <libmesh/round/detail/face_pieces.hpp>
@@ -25,6 +26,9 @@ constexpr int most_rounds = 8;
 using edge_name = std::array<std::uint32_t, 2>;  // the lower end first
 
 point3 operator-(const point3& p, const point3& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
+point3 cross(const point3& u, const point3& v) {
+    return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+}
 double dot(const point3& u, const point3& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
 double length(const point3& v) { return std::sqrt(dot(v, v)); }
 
@@ -101,12 +105,14 @@ class joining {
             const bool corners = join_corners();
             const bool edges = split_edges();
             const bool faces = split_faces();
-            if (grows_) {
+            if (!grows_) flip();
+            // Common points ought to make faces the same, so that they go; else this leads nowhere.
+            if (grows_ || surface().faces.size() >
+                              before.surface.faces.size() + before.surface.faces.size() / 4 + 200) {
                 result_ = before;
                 bad_ = bad_before;
                 break;
             }
-            flip();
             if (!corners && !edges && !faces) break;
         }
         join_corners();  // no two points that are used are equal
@@ -322,7 +328,14 @@ class joining {
         });
     }
 
-    /// Offending faces get the corners next to them.
+    [[nodiscard]] bool is_near_edge(std::uint32_t p, const face& f) const {
+        const auto edges = edges_of(f);
+        return std::any_of(edges.begin(), edges.end(),
+                           [&](const edge_name& e) { return nearest_on(p, e).distance <= near(); });
+    }
+
+    /// Offending faces get the corners next to them. What is next to one of their edges waits for
+    /// the edge to be split: here it would turn a piece over.
     bool split_faces() {
         std::vector<std::uint32_t> faces;
         for (std::uint32_t f = 0; f < bad_.size(); ++f)
@@ -339,7 +352,7 @@ class joining {
                 const std::size_t first = part.size();
                 search(around, box, [&](std::uint32_t id) {
                     const std::uint32_t p = all[id];
-                    if (holds(f, p)) return;
+                    if (holds(f, p) || is_near_edge(p, f)) return;
                     const double distance = std::sqrt(closest_point(t, at(p)).squared_distance);
                     if (distance <= near()) part.emplace_back(faces[i], p, distance);
                 });
@@ -361,39 +374,67 @@ class joining {
         return true;
     }
 
-    /// The edges that are not between two faces of one source, ascending.
-    [[nodiscard]] std::vector<edge_name> borders() const {
+    /// Whether two faces at edge `e` lie in one plane but for what is near, facing the same way.
+    [[nodiscard]] bool flat(std::uint32_t f, std::uint32_t g, const edge_name& e) const {
+        if (source_[result_.face_of[f]] == source_[result_.face_of[g]]) return true;
+        const auto apex = [&](std::uint32_t face_number) {
+            for (const std::uint32_t c : surface().faces[face_number])
+                if (c != e[0] && c != e[1]) return c;
+            return e[0];
+        };
+        const point3 along = at(e[1]) - at(e[0]);
+        point3 large = at(apex(f)) - at(e[0]), small = at(apex(g)) - at(e[0]);
+        if (length(cross(along, large)) < length(cross(along, small))) std::swap(large, small);
+        // The apex of the smaller one as seen from the larger one: how high, and on which side.
+        const point3 normal = cross(along, large);
+        const double size = length(normal);
+        if (!(size > 0.0)) return false;
+        const double height = std::abs(dot(normal, small)) / size;
+        const double across = dot(normal, cross(along, small)) / size;
+        return height <= near() && across <= near() * length(along);
+    }
+
+    /// Offending faces that are flat with their neighbours, by patches; and the edges that are not
+    /// between two of one patch, ascending.
+    struct flat_patches {
+        std::vector<std::array<std::uint32_t, 2>> by_patch;  ///< patch, face
+        std::vector<edge_name> borders;
+    };
+    [[nodiscard]] flat_patches find_patches() const {
         std::vector<std::pair<edge_name, std::uint32_t>> edges;
-        for (std::size_t f = 0; f < surface().faces.size(); ++f)
-            for (const edge_name& e : edges_of(surface().faces[f]))
-                edges.emplace_back(e, source_[result_.face_of[f]]);
+        for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
+            for (const edge_name& e : edges_of(surface().faces[f])) edges.emplace_back(e, f);
         std::sort(edges.begin(), edges.end());
-        std::vector<edge_name> found;
+        union_find sets(surface().faces.size());
+        flat_patches found;
         for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
             while (end < edges.size() && edges[end].first == edges[begin].first) ++end;
-            if (end - begin != 2 || edges[begin].second != edges[begin + 1].second)
-                found.push_back(edges[begin].first);
+            const std::uint32_t f = edges[begin].second, g = edges[end - 1].second;
+            if (end - begin == 2 && bad_[f] != 0 && bad_[g] != 0 && flat(f, g, edges[begin].first))
+                sets.join(f, g);
+            else
+                found.borders.push_back(edges[begin].first);
         }
+        for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
+            if (bad_[f] != 0) found.by_patch.push_back({sets.root(f), f});
+        std::sort(found.by_patch.begin(), found.by_patch.end());
         return found;
     }
 
-    /// Offending pieces of one source get the triangles of Delaunay, so that sources that lie on
+    /// Flat patches of offending faces get the triangles of Delaunay, so that patches that lie on
     /// each other are cut in the same way where they have the same points.
     void flip() {
-        std::vector<std::array<std::uint32_t, 2>> by_source;
-        for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
-            if (bad_[f] != 0) by_source.push_back({source_[result_.face_of[f]], f});
-        std::sort(by_source.begin(), by_source.end());
-        const std::vector<edge_name> kept = borders();
-        for (std::size_t begin = 0, end = 0; begin < by_source.size(); begin = end) {
+        const flat_patches found = find_patches();
+        const auto& by_patch = found.by_patch;
+        for (std::size_t begin = 0, end = 0; begin < by_patch.size(); begin = end) {
             std::vector<face> faces;
-            for (; end < by_source.size() && by_source[end][0] == by_source[begin][0]; ++end)
-                faces.push_back(surface().faces[by_source[end][1]]);
+            for (; end < by_patch.size() && by_patch[end][0] == by_patch[begin][0]; ++end)
+                faces.push_back(surface().faces[by_patch[end][1]]);
             if (faces.size() == 1) continue;
             face_pieces pieces(std::move(faces), surface().points);
-            pieces.flip(kept);
+            pieces.flip(found.borders);
             for (std::size_t i = begin; i < end; ++i)
-                surface().faces[by_source[i][1]] = pieces.all()[i - begin];
+                surface().faces[by_patch[i][1]] = pieces.all()[i - begin];
         }
         cancel();
     }

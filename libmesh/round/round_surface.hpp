@@ -37,8 +37,9 @@ struct round_options {
 struct rounded_surface {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    mesh surface;                         ///< points and faces in the order of the exact ones
-    std::vector<std::uint32_t> face_of;   ///< [F] exact face that each one is, or is cut from
+    mesh surface;  ///< points and faces in the order of the exact ones
+    /// [F] exact face that each one is, or is cut from; where it was mended, perhaps one beside it.
+    std::vector<std::uint32_t> face_of;
     std::vector<std::uint32_t> point_of;  ///< [V] exact point that each one is, or `none`: where
                                           ///< rounded faces were cut
     /// Bound of how far rounding and mending moved a point, in each coordinate.

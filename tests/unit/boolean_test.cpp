@@ -326,6 +326,22 @@ TEST_CASE("boolean: turned boxes whose faces lie in each other's planes are mend
     }
 }
 
+TEST_CASE("boolean: a wall of turned bricks grows brick by brick") {
+    test::random source(9);
+    const tf::point3 axis{0.3, -0.8, 0.5};
+    tf::mesh wall;
+    for (int k = 0; k < 16; ++k) {
+        CAPTURE(k);
+        const auto whole = [&](std::size_t n) { return static_cast<double>(source.below(n)); };
+        const tf::mesh brick =
+            rotated(moved(box(1 + whole(2), 1, 1), {whole(6) / 2, whole(4), whole(5)}), axis, 0.7);
+        const double common = volume_of({wall, brick}, "a*b");
+        const double sum = tf::signed_volume(wall) + tf::signed_volume(brick);
+        wall = solid_of({wall, brick}, "a+b");
+        CHECK(std::abs(tf::signed_volume(wall) + common - sum) <= 1e-11);
+    }
+}
+
 TEST_CASE("boolean: nothing comes of nothing, and faces without an area bound nothing") {
     const tf::solid_result nothing = tf::boolean({}, boolean_expression::union_of(0));
     CHECK(nothing.certified);

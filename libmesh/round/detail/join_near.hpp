@@ -25,9 +25,10 @@ struct joint {
 
 /// Joins corners within reach of each other to the lower one; splits offending edges, with all
 /// faces at them, and offending faces at corners next to them, and edges where they pass each
-/// other, with new points at the end of the others if need be. Several times, as long as something
-/// is near. Faces that lose a corner by it vanish; of several with the same corners one stays, or,
-/// of a solid, what does not cancel.
+/// other, with new points at the end of the others if need be; flat patches of offending faces then
+/// get triangles that their points decide. Several times, as long as something is near. Faces that
+/// lose a corner by it vanish; of several with the same corners one stays, or, of a solid, what
+/// does not cancel.
 ///
 /// What the surface winds around changes near the joints only; it runs along its edges as often one
 /// way as the other if it did before. Nothing is decided here that would have to be right:
