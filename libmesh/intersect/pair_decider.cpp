@@ -4,16 +4,17 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 
 namespace tf::detail {
 namespace {
 
 /// Whether no coordinate is NaN or larger in magnitude than `limit`.
 bool within(const triangle3& t, double limit) {
-    bool all = true;
+    unsigned all = 1;  // not a bool: nothing is to branch here
     for (const point3& p : t)
-        all &= (std::abs(p.x) <= limit) & (std::abs(p.y) <= limit) & (std::abs(p.z) <= limit);
-    return all;
+        for (std::size_t k = 0; k < 3; ++k) all &= static_cast<unsigned>(std::abs(p[k]) <= limit);
+    return all != 0;
 }
 
 }  // namespace
