@@ -445,10 +445,14 @@ TEST_CASE("boolean: the same bytes on any number of threads") {
     const tf::mesh ball = test::ball(4, 1.0);
     const std::vector<tf::mesh> meshes{ball, rotated(moved(ball, {0.5, 0, 0}), {1, 2, 3}, 0.7),
                                        moved(box(1, 1, 1), {-0.5, -0.5, -0.5})};
+    const std::vector<tf::mesh> nearly{ball, rotated(ball, {1, 2, 3}, 3e-16)};
     const tf::solid_result expected = evaluate(meshes, "a+b-c");
+    const tf::solid_result mended = evaluate(nearly, "a+b");
+    CHECK(mended.rounding_steps > 0);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
         CHECK(same(evaluate(meshes, "a+b-c"), expected));
+        CHECK(same(evaluate(nearly, "a+b"), mended));
     }
 }
 
