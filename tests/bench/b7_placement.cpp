@@ -15,6 +15,8 @@
 #include <libtree/build.hpp>
 #include <libtree/search.hpp>
 
+#include <support/solids.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -140,7 +142,8 @@ contest contact_beside_distance(const setting& setting, const scene_name& name) 
     return contest;
 }
 
-/// A thousand bumpy balls in a lattice, nearly touching, and where one of them is moved to.
+/// A thousand balls of 2,048 triangles in a lattice, nearly touching, and where one of them is
+/// moved to.
 struct parts_scene {
     std::vector<mesh> parts;
     std::vector<aabb<double, 3>> boxes;
@@ -150,11 +153,11 @@ struct parts_scene {
 
 std::shared_ptr<const parts_scene> make_parts(const setting& setting) {
     const std::size_t side = setting.effort == effort::tiny ? 3 : 10;
-    const shared_mesh one = load(setting, model{"", "1k", 1'000});
-    const box3 box = bounding_box(one->points).value();
+    const mesh one = test::ball(4, 1.0);
+    const box3 box = bounding_box(one.points).value();
     auto scene = std::make_shared<parts_scene>();
     const auto at = [&](double x, double y, double z) {
-        mesh part = *one;
+        mesh part = one;
         for (point3& p : part.points)
             p = {p.x + x * (box.max.x - box.min.x), p.y + y * (box.max.y - box.min.y),
                  p.z + z * (box.max.z - box.min.z)};
