@@ -89,7 +89,30 @@ void face_pieces::split_inside(std::uint32_t p) {
     all_.push_back({c, a, p});
 }
 
-bool face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept) {
+/// Its volume over the area of its largest face: the least of its heights, between which the
+/// surfaces by either diagonal lie.
+double face_pieces::thickness(const std::array<std::uint32_t, 4>& corners) const {
+    const auto minus = [](const point3& p, const point3& q) {
+        return point3{p.x - q.x, p.y - q.y, p.z - q.z};
+    };
+    const auto cross = [](const point3& u, const point3& v) {
+        return point3{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+    };
+    double largest = 0.0, volume = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const point3& at = points_[corners[(k + 1) % 4]];
+        const point3 normal = cross(minus(points_[corners[(k + 2) % 4]], at),
+                                    minus(points_[corners[(k + 3) % 4]], at));
+        const double size = std::hypot(normal.x, normal.y, normal.z);
+        if (!(size > largest)) continue;
+        largest = size;
+        const point3 to = minus(points_[corners[k]], at);
+        volume = std::abs(normal.x * to.x + normal.y * to.y + normal.z * to.z);
+    }
+    return largest > 0.0 ? volume / largest : 0.0;
+}
+
+bool face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept, double reach) {
     struct half_edge {
         std::uint32_t a, b;  // the lower end first
         std::uint32_t piece;
@@ -123,6 +146,9 @@ bool face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept) 
         if (!(area(a, d, c) > 0.0) || !(area(d, b, c) > 0.0)) continue;
         const bool flat = !(area(a, b, c) > 0.0) || !(area(b, a, d) > 0.0);
         if (!flat && !in_circle(a, b, c, d)) continue;
+        const double thick = thickness({a, b, c, d});
+        if (!(thick <= reach)) continue;
+        moved_ = std::max(moved_, thick);
         f = {a, d, c};
         g = {d, b, c};
         changed[one.piece] = changed[two.piece] = true;
@@ -131,9 +157,10 @@ bool face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept) 
     return any;
 }
 
-void face_pieces::flip(std::span<const std::array<std::uint32_t, 2>> kept) {
+double face_pieces::flip(std::span<const std::array<std::uint32_t, 2>> kept, double reach) {
     constexpr int most_passes = 50;
-    for (int pass = 0; pass < most_passes && flip_once(kept); ++pass) continue;
+    for (int pass = 0; pass < most_passes && flip_once(kept, reach); ++pass) continue;
+    return moved_;
 }
 
 }  // namespace tf::detail
