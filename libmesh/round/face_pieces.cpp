@@ -112,7 +112,7 @@ double face_pieces::thickness(const std::array<std::uint32_t, 4>& corners) const
     return largest > 0.0 ? volume / largest : 0.0;
 }
 
-bool face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept, double reach) {
+bool face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept) {
     struct half_edge {
         std::uint32_t a, b;  // the lower end first
         std::uint32_t piece;
@@ -146,9 +146,7 @@ bool face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept, 
         if (!(area(a, d, c) > 0.0) || !(area(d, b, c) > 0.0)) continue;
         const bool flat = !(area(a, b, c) > 0.0) || !(area(b, a, d) > 0.0);
         if (!flat && !in_circle(a, b, c, d)) continue;
-        const double thick = thickness({a, b, c, d});
-        if (!(thick <= reach)) continue;
-        moved_ = std::max(moved_, thick);
+        moved_ = std::max(moved_, thickness({a, b, c, d}));
         f = {a, d, c};
         g = {d, b, c};
         changed[one.piece] = changed[two.piece] = true;
@@ -157,9 +155,9 @@ bool face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept, 
     return any;
 }
 
-double face_pieces::flip(std::span<const std::array<std::uint32_t, 2>> kept, double reach) {
+double face_pieces::flip(std::span<const std::array<std::uint32_t, 2>> kept) {
     constexpr int most_passes = 50;
-    for (int pass = 0; pass < most_passes && flip_once(kept, reach); ++pass) continue;
+    for (int pass = 0; pass < most_passes && flip_once(kept); ++pass) continue;
     return moved_;
 }
 

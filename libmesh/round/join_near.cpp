@@ -432,7 +432,7 @@ class joining {
                 faces.push_back(surface().faces[by_patch[end][1]]);
             if (faces.size() == 1) continue;
             face_pieces pieces(std::move(faces), surface().points);
-            note(pieces.flip(found.borders, near()));
+            note(pieces.flip(found.borders));
             for (std::size_t i = begin; i < end; ++i)
                 surface().faces[by_patch[i][1]] = pieces.all()[i - begin];
         }
