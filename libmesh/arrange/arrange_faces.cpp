@@ -1,8 +1,10 @@
+#include <libmesh/arrange/detail/arrange_pairs.hpp>
 #include <libmesh/arrange/detail/cluster.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/detail/stars.hpp>
 #include <libmesh/detail/union_find.hpp>
+#include <libmesh/exact/detail/filter.hpp>
 #include <libmesh/exact/predicates.hpp>
 #include <libmesh/intersect/detail/meetings.hpp>
 #include <libmesh/intersect/detail/same_points.hpp>
@@ -28,19 +30,42 @@ constexpr std::size_t grain = std::size_t{1} << 14;
 constexpr double largest_coordinate = 0x1p1000;
 
 bool is_degenerate(mesh_view mesh, const face& f) {
-    return !detail::has_three_corners(f) ||
-           collinear(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]);
+    if (!detail::has_three_corners(f)) return true;
+    const auto& [a, b, c] = f;
+    const int known = detail::collinear_filter(mesh.points[a], mesh.points[b], mesh.points[c]);
+    if (known != detail::undecided) return known == 0;
+    return collinear(mesh.points[a], mesh.points[b], mesh.points[c]);
+}
+
+std::vector<std::uint32_t> degenerate_faces(mesh_view mesh) {
+    std::vector<std::vector<std::uint32_t>> found(chunk_count(mesh.faces.size(), grain));
+    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t f = begin; f < end; ++f)
+            if (is_degenerate(mesh, mesh.faces[f]))
+                found[c].push_back(static_cast<std::uint32_t>(f));
+    });
+    std::vector<std::uint32_t> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+bool can_be_used(const point3& p) {
+    return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate &&
+           std::abs(p.z) <= largest_coordinate;
 }
 
 void check_points(mesh_view mesh) {
-    for (const face& f : mesh.faces)
-        for (const std::uint32_t c : f) {
-            const point3& p = mesh.points[c];
-            if (!(std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate &&
-                  std::abs(p.z) <= largest_coordinate))
-                throw std::invalid_argument("tf::arrange_faces: point " + std::to_string(c) +
-                                            " is not finite or beyond 2^1000");
-        }
+    std::vector<std::uint32_t> bad(chunk_count(mesh.faces.size(), grain), none);
+    for_chunks(mesh.faces.size(), grain,
+               [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                   for (std::size_t f = begin; f < end && bad[chunk] == none; ++f)
+                       for (const std::uint32_t c : mesh.faces[f])
+                           if (bad[chunk] == none && !can_be_used(mesh.points[c])) bad[chunk] = c;
+               });
+    for (const std::uint32_t c : bad)
+        if (c != none)
+            throw std::invalid_argument("tf::arrange_faces: point " + std::to_string(c) +
+                                        " is not finite or beyond 2^1000");
 }
 
 /// The meetings of each face.
@@ -74,7 +99,8 @@ struct clusters {
     }
 };
 
-/// Whether a meeting leaves face `f` whole: it has no point but a corner of the face.
+/// Whether a meeting leaves face `f` whole: it has no point but a corner of the face. No meeting
+/// leaves both faces whole: its points would be corners of both, and no two corners are equal.
 bool spares(const meeting& m, std::uint32_t f) {
     if (m.kind == overlap::area) return false;
     for (std::size_t k = 0; k < m.count; ++k)
@@ -153,14 +179,23 @@ numbering number_points(std::size_t given, const mesh_meetings& met,
     return result;
 }
 
-void emit(mesh_view mesh, std::span<const std::uint32_t> whole,
-          const std::vector<cut_cluster>& cuts, const numbering& numbers, mesh_arrangement& out) {
-    const std::size_t given = mesh.points.size();
-    struct piece {
-        std::uint32_t first_cover;
-        std::uint32_t cluster;  ///< or none
-        std::uint32_t index;    ///< of a face in the cluster
-    };
+/// A face of a cluster among all that are emitted.
+struct piece {
+    std::uint32_t first_cover;
+    std::uint32_t cluster;
+    std::uint32_t index;  ///< of a face in the cluster
+
+    [[nodiscard]] std::span<const covering_face> covers(
+        const std::vector<cut_cluster>& cuts) const {
+        const cut_cluster& c = cuts[cluster];
+        const std::size_t begin = c.faces[index].covers;
+        const std::size_t end =
+            index + 1 < c.faces.size() ? c.faces[index + 1].covers : c.covers.size();
+        return {c.covers.data() + begin, end - begin};
+    }
+};
+
+std::vector<piece> pieces_of(const std::vector<cut_cluster>& cuts) {
     std::vector<piece> pieces;
     for (std::uint32_t c = 0; c < cuts.size(); ++c)
         for (std::uint32_t i = 0; i < cuts[c].faces.size(); ++i)
@@ -168,85 +203,124 @@ void emit(mesh_view mesh, std::span<const std::uint32_t> whole,
     std::sort(pieces.begin(), pieces.end(), [](const piece& p, const piece& q) {
         return p.first_cover != q.first_cover ? p.first_cover < q.first_cover : p.index < q.index;
     });
-    const auto number = [&](std::uint32_t point, std::uint32_t cluster) {
+    return pieces;
+}
+
+/// Writes the faces of the arrangement in the order of their lowest input faces: those that are
+/// whole, and the pieces in between.
+class emitter {
+  public:
+    emitter(mesh_view mesh, const std::vector<char>& is_not_whole,
+            const std::vector<cut_cluster>& cuts, const numbering& numbers)
+        : mesh_(mesh),
+          is_not_whole_(is_not_whole),
+          cuts_(cuts),
+          numbers_(numbers),
+          pieces_(pieces_of(cuts)),
+          begin_(chunk_count(mesh.faces.size(), grain) + 1) {
+        place_chunks();
+    }
+
+    void write(mesh_arrangement& out) const {
+        const auto [faces, covers] = begin_.back();
+        out.faces.resize(faces);
+        out.cover_begin.resize(faces + 1);
+        out.covers.resize(covers);
+        out.whole.resize(faces);
+        for_chunks(mesh_.faces.size(), grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t c) {
+                       write(begin, end, begin_[c], out);
+                   });
+        out.cover_begin[faces] = covers;
+    }
+
+  private:
+    /// How much lies before.
+    struct place {
+        std::size_t face = 0;
+        std::size_t cover = 0;
+    };
+
+    using piece_iterator = std::vector<piece>::const_iterator;
+
+    [[nodiscard]] piece_iterator first_piece(std::size_t face) const {
+        return std::lower_bound(pieces_.begin(), pieces_.end(), face,
+                                [](const piece& p, std::size_t f) { return p.first_cover < f; });
+    }
+
+    void place_chunks() {
+        for_chunks(mesh_.faces.size(), grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t c) {
+                       place size;
+                       for (std::size_t f = begin; f < end; ++f)
+                           size.face += is_not_whole_[f] == 0 ? 1 : 0;
+                       size.cover = size.face;
+                       const auto last = first_piece(end);
+                       for (auto p = first_piece(begin); p != last; ++p) {
+                           ++size.face;
+                           size.cover += p->covers(cuts_).size();
+                       }
+                       begin_[c + 1] = size;
+                   });
+        for (std::size_t c = 1; c < begin_.size(); ++c) {
+            begin_[c].face += begin_[c - 1].face;
+            begin_[c].cover += begin_[c - 1].cover;
+        }
+    }
+
+    void write(std::size_t begin, std::size_t end, place at, mesh_arrangement& out) const {
+        auto next = first_piece(begin);
+        for (std::size_t f = begin; f < end; ++f) {
+            if (is_not_whole_[f] == 0) {
+                out.covers[at.cover] = {static_cast<std::uint32_t>(f), false};
+                put(mesh_.faces[f], 1, 1, at, out);
+            }
+            for (; next != pieces_.end() && next->first_cover == f; ++next) {
+                const auto covers = next->covers(cuts_);
+                std::copy(covers.begin(), covers.end(),
+                          out.covers.begin() + static_cast<std::ptrdiff_t>(at.cover));
+                const auto& [a, b, c] = cuts_[next->cluster].faces[next->index].corners;
+                put({number(a, next->cluster), number(b, next->cluster), number(c, next->cluster)},
+                    covers.size(), 0, at, out);
+            }
+        }
+    }
+
+    static void put(const face& f, std::size_t covers, std::uint8_t whole, place& at,
+                    mesh_arrangement& out) {
+        out.faces[at.face] = f;
+        out.cover_begin[at.face] = at.cover;
+        out.whole[at.face] = whole;
+        ++at.face;
+        at.cover += covers;
+    }
+
+    [[nodiscard]] std::uint32_t number(std::uint32_t point, std::uint32_t cluster) const {
+        const std::size_t given = mesh_.points.size();
         if (point < given) return point;
         const std::size_t item = point - given;
-        if (item < numbers.made_begin[0]) return numbers.of_item[item];
-        return numbers.of_item[item - numbers.made_begin[0] + numbers.made_begin[cluster]];
-    };
-    const std::size_t total = whole.size() + pieces.size();
-    out.faces.reserve(total);
-    out.cover_begin.reserve(total + 1);
-    out.covers.reserve(total);
-    auto next = pieces.begin();
-    const auto emit_pieces_before = [&](std::size_t face) {
-        for (; next != pieces.end() && next->first_cover < face; ++next) {
-            const cut_cluster& c = cuts[next->cluster];
-            const detail::cluster_face& f = c.faces[next->index];
-            const std::size_t end = next->index + 1 < c.faces.size()
-                                        ? c.faces[next->index + 1].covers
-                                        : c.covers.size();
-            out.cover_begin.push_back(out.covers.size());
-            out.faces.push_back({number(f.corners[0], next->cluster),
-                                 number(f.corners[1], next->cluster),
-                                 number(f.corners[2], next->cluster)});
-            out.covers.insert(out.covers.end(),
-                              c.covers.begin() + static_cast<std::ptrdiff_t>(f.covers),
-                              c.covers.begin() + static_cast<std::ptrdiff_t>(end));
-        }
-    };
-    for (const std::uint32_t f : whole) {
-        emit_pieces_before(f);
-        out.cover_begin.push_back(out.covers.size());
-        out.faces.push_back(mesh.faces[f]);
-        out.covers.push_back({f, false});
+        const std::size_t named = numbers_.made_begin[0];
+        if (item < named) return numbers_.of_item[item];
+        return numbers_.of_item[item - named + numbers_.made_begin[cluster]];
     }
-    emit_pieces_before(mesh.faces.size());
-    out.cover_begin.push_back(out.covers.size());
-}
+
+    mesh_view mesh_;
+    const std::vector<char>& is_not_whole_;
+    const std::vector<cut_cluster>& cuts_;
+    const numbering& numbers_;
+    std::vector<piece> pieces_;
+    std::vector<place> begin_;  ///< [chunks + 1]
+};
 
 }  // namespace
 
-arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {
-    detail::check_faces("tf::arrange_faces", mesh.points.size(), mesh.faces);
-    check_points(mesh);
+arrange_faces_result detail::arrange_pairs(mesh_view mesh, std::span<const face_pair> pairs,
+                                           std::vector<std::uint32_t> degenerate,
+                                           const progress_callback& progress) {
     arrange_faces_result result;
     const std::size_t count = mesh.faces.size();
-
-    std::vector<char> is_left_out(count);
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t f = begin; f < end; ++f)
-            is_left_out[f] = is_degenerate(mesh, mesh.faces[f]);
-    });
-    for (std::uint32_t f = 0; f < count; ++f)
-        if (is_left_out[f]) result.degenerate.push_back(f);
-
-    // Degenerate faces are shut out by hiding them: pairs are looked for among the others only.
-    std::vector<face> kept;
-    std::vector<std::uint32_t> kept_number;
-    mesh_view usable = mesh;
-    if (!result.degenerate.empty()) {
-        for (std::uint32_t f = 0; f < count; ++f)
-            if (!is_left_out[f]) {
-                kept.push_back(mesh.faces[f]);
-                kept_number.push_back(f);
-            }
-        usable.faces = kept;
-    }
-    self_intersection_options search;
-    if (options.progress)
-        search.progress = [&](double done) { return options.progress(0.5 * done); };
-    self_intersection_result found = self_intersections(usable, search);
-    result.cancelled = found.cancelled;
-    if (result.cancelled) return result;
-    if (!result.degenerate.empty())
-        for (face_pair& pair : found.pairs) {
-            pair.a = kept_number[pair.a];
-            pair.b = kept_number[pair.b];
-        }
-    result.pairs = found.pairs.size();
-
-    const mesh_meetings met = detail::meetings_of(mesh, found.pairs);
+    result.pairs = pairs.size();
+    const mesh_meetings met = detail::meetings_of(mesh, pairs);
     const meetings_by_face by_face(count, met.meetings);
     const clusters groups = gather(count, met, by_face);
     result.cut_faces = groups.members.size();
@@ -258,21 +332,60 @@ arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& 
             for (std::size_t i = begin; i < end; ++i)
                 cuts[i] = detail::cut({mesh, &met, groups[i], &by_face.begin, &by_face.which});
         });
-    if (options.progress && !options.progress(0.9)) {
+    if (progress && !progress(0.8)) {
         result.cancelled = true;
         return result;
     }
 
     numbering numbers = number_points(mesh.points.size(), met, cuts);
-    std::vector<std::uint32_t> whole;
-    for (const std::uint32_t f : groups.members) is_left_out[f] = 1;
-    for (std::uint32_t f = 0; f < count; ++f)
-        if (!is_left_out[f]) whole.push_back(f);
-    emit(mesh, whole, cuts, numbers, result.cut);
+    std::vector<char> is_not_whole(count, 0);
+    for (const std::uint32_t f : groups.members) is_not_whole[f] = 1;
+    for (const std::uint32_t f : degenerate) is_not_whole[f] = 1;
+    emitter(mesh, is_not_whole, cuts, numbers).write(result.cut);
     result.cut.given_points.assign(mesh.points.begin(), mesh.points.end());
     result.cut.constructed = std::move(numbers.constructed);
-    if (options.progress) options.progress(1.0);
+    result.degenerate = std::move(degenerate);
+    if (progress) progress(1.0);
     return result;
+}
+
+arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {
+    detail::check_faces("tf::arrange_faces", mesh.points.size(), mesh.faces);
+    check_points(mesh);
+    std::vector<std::uint32_t> degenerate = degenerate_faces(mesh);
+    // Degenerate faces are shut out by hiding them: pairs are looked for among the others only.
+    std::vector<face> kept;
+    std::vector<std::uint32_t> kept_number;
+    mesh_view usable = mesh;
+    if (!degenerate.empty()) {
+        auto hidden = degenerate.begin();
+        for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
+            if (hidden != degenerate.end() && *hidden == f) {
+                ++hidden;
+            } else {
+                kept.push_back(mesh.faces[f]);
+                kept_number.push_back(f);
+            }
+        usable.faces = kept;
+    }
+    self_intersection_options search;
+    const progress_callback& progress = options.progress;
+    if (progress) search.progress = [&](double done) { return progress(0.5 * done); };
+    self_intersection_result found = self_intersections(usable, search);
+    if (found.cancelled) {
+        arrange_faces_result result;
+        result.degenerate = std::move(degenerate);
+        result.cancelled = true;
+        return result;
+    }
+    if (!degenerate.empty())
+        for (face_pair& pair : found.pairs) {
+            pair.a = kept_number[pair.a];
+            pair.b = kept_number[pair.b];
+        }
+    progress_callback rest;
+    if (progress) rest = [&](double done) { return progress(0.5 + 0.5 * done); };
+    return detail::arrange_pairs(mesh, found.pairs, std::move(degenerate), rest);
 }
 
 }  // namespace tf

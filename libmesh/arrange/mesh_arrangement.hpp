@@ -34,6 +34,9 @@ struct mesh_arrangement {
     std::vector<std::size_t> cover_begin;        ///< [F' + 1] where a face's covers begin
     std::vector<covering_face> covers;  ///< face by face, ascending by face; the first is the
                                         ///< lowest and never opposite
+    /// [F'] 1 for input faces as they are, that no other cuts or covers. In the coordinates of the
+    /// input, they have an area, and two of them meet in common corners or a common edge only.
+    std::vector<std::uint8_t> whole{};
 
     [[nodiscard]] std::span<const covering_face> covers_of(std::size_t f) const {
         return {covers.data() + cover_begin[f], cover_begin[f + 1] - cover_begin[f]};

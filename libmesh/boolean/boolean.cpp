@@ -2,6 +2,7 @@
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/boolean/boolean.hpp>
 #include <libmesh/boolean/detail/joined_operands.hpp>
+#include <libmesh/boolean/detail/sound_pair.hpp>
 #include <libmesh/intersect/point_location.hpp>
 #include <libmesh/round/detail/solid_faces.hpp>
 #include <libmesh/round/round_surface.hpp>
@@ -74,12 +75,20 @@ solid_result with_counts(const arrange_faces_result& arranged) {
     return result;
 }
 
+/// Whether two faces are one, turned or not.
+bool same_corners(const face& f, const face& g) { return f == g || f == face{g[0], g[2], g[1]}; }
+
 /// `exact_faces` are faces of `cut`, `face_of` says which; both become the surface of `result`.
 void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact_faces,
             const std::vector<std::uint32_t>& face_of, const joined_operands& joined, bool solid,
             const boolean_options& options) {
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
-                        std::move(exact_faces)};
+                        std::move(exact_faces), std::vector<std::uint8_t>(face_of.size())};
+    for (std::size_t f = 0; f < face_of.size(); ++f) {
+        const std::uint32_t source = cut.covers_of(face_of[f]).front().face;
+        exact.sound[f] =
+            cut.whole[face_of[f]] != 0 && same_corners(exact.faces[f], joined.all.faces[source]);
+    }
     const std::size_t given = exact.given.size();
     rounded_surface r =
         round_surface(std::move(exact), {.to_float = options.to_float,
@@ -110,6 +119,9 @@ solid_result boolean(std::span<const mesh_view> operands, const boolean_expressi
         throw std::invalid_argument("tf::boolean: the expression has " +
                                     std::to_string(expression.operand_count()) +
                                     " operands, given are " + std::to_string(operands.size()));
+    if (options.sound_operands && operands.size() == 2)
+        if (auto result = detail::boolean_of_sound_pair(operands.first<2>(), expression, options))
+            return std::move(*result);
     const joined_operands joined = detail::join_operands("boolean", operands);
     arrange_faces_result arranged =
         arrange_faces(joined.all, {.progress = part_of(options.progress, 0.0, 0.5)});

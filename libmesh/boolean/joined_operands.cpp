@@ -1,8 +1,10 @@
 #include <libmesh/boolean/detail/joined_operands.hpp>
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/weld/equal_points.hpp>
+#include <libtree/parallel.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -24,15 +26,86 @@ void require_nameable(const char* function, std::size_t count, const char* what)
                                     " or more");
 }
 
+constexpr std::size_t grain = std::size_t{1} << 15;
+
 /// Ascending.
 std::vector<std::uint32_t> used_points(mesh_view mesh) {
     std::vector<std::uint8_t> used(mesh.points.size(), 0);
-    for (const face& f : mesh.faces)
-        for (const std::uint32_t corner : f) used[corner] = 1;
+    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f)
+            for (const std::uint32_t corner : mesh.faces[f])
+                std::atomic_ref(used[corner]).store(1, std::memory_order_relaxed);
+    });
     std::vector<std::uint32_t> points;
+    points.reserve(used.size());
     for (std::uint32_t p = 0; p < used.size(); ++p)
         if (used[p] != 0) points.push_back(p);
     return points;
+}
+
+void renumber(std::vector<face>& faces, const std::vector<std::uint32_t>& new_of_old) {
+    for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f)
+            for (std::uint32_t& corner : faces[f]) corner = new_of_old[corner];
+    });
+}
+
+/// All points and faces, one operand after the other.
+void append_all(std::span<const mesh_view> operands, joined_operands& joined) {
+    mesh& all = joined.all;
+    std::size_t point = 0, face_number = 0;
+    for (std::uint32_t k = 0; k < operands.size(); ++k) {
+        const mesh_view& operand = operands[k];
+        joined.first_point.push_back(static_cast<std::uint32_t>(point));
+        joined.first_face.push_back(static_cast<std::uint32_t>(face_number));
+        for_chunks(operand.points.size(), grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t p = begin; p < end; ++p)
+                           all.points[point + p] = operand.points[p];
+                   });
+        const auto offset = static_cast<std::uint32_t>(point);
+        for_chunks(operand.faces.size(), grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t f = begin; f < end; ++f) {
+                           const auto& [a, b, c] = operand.faces[f];
+                           all.faces[face_number + f] = {a + offset, b + offset, c + offset};
+                           joined.operand_of_face[face_number + f] = k;
+                       }
+                   });
+        point += operand.points.size();
+        face_number += operand.faces.size();
+    }
+    joined.first_point.push_back(static_cast<std::uint32_t>(point));
+    joined.first_face.push_back(static_cast<std::uint32_t>(face_number));
+}
+
+/// Leaves out points that no face uses, which may be anything, also NaN.
+void keep_used(joined_operands& joined) {
+    mesh& all = joined.all;
+    joined.number_of_point = used_points(all);
+    const std::vector<std::uint32_t>& used = joined.number_of_point;
+    if (used.size() == all.points.size()) return;
+    std::vector<std::uint32_t> new_of_old(all.points.size(), 0);
+    for (std::uint32_t i = 0; i < used.size(); ++i) {
+        new_of_old[used[i]] = i;
+        all.points[i] = all.points[used[i]];
+    }
+    all.points.resize(used.size());
+    renumber(all.faces, new_of_old);
+}
+
+void join_equal(joined_operands& joined) {
+    mesh& all = joined.all;
+    const equal_points equal = find_equal_points(all.points);
+    const std::size_t count = equal.first_of_new.size();
+    if (count == all.points.size()) return;
+    for (std::size_t i = 0; i < count; ++i) {
+        all.points[i] = all.points[equal.first_of_new[i]];
+        joined.number_of_point[i] = joined.number_of_point[equal.first_of_new[i]];
+    }
+    all.points.resize(count);
+    joined.number_of_point.resize(count);
+    renumber(all.faces, equal.new_of_old);
 }
 
 }  // namespace
@@ -57,38 +130,12 @@ joined_operands join_operands(const char* function, std::span<const mesh_view> o
     require_nameable(function, faces, "faces");
     require_nameable(function, operands.size(), "operands");
 
-    mesh& all = joined.all;
-    all.points.reserve(points);
-    all.faces.reserve(faces);
-    joined.operand_of_face.reserve(faces);
-    for (std::uint32_t k = 0; k < operands.size(); ++k) {
-        const auto offset = static_cast<std::uint32_t>(all.points.size());
-        joined.first_point.push_back(offset);
-        joined.first_face.push_back(static_cast<std::uint32_t>(all.faces.size()));
-        all.points.insert(all.points.end(), operands[k].points.begin(), operands[k].points.end());
-        for (const auto& [a, b, c] : operands[k].faces)
-            all.faces.push_back({a + offset, b + offset, c + offset});
-        joined.operand_of_face.resize(all.faces.size(), k);
-    }
-    joined.first_point.push_back(static_cast<std::uint32_t>(points));
-    joined.first_face.push_back(static_cast<std::uint32_t>(faces));
-
-    // Points that no face uses may be anything, also NaN, and are left out.
-    const std::vector<std::uint32_t> used = used_points(all);
-    std::vector<std::uint32_t> new_of_old(points, 0);
-    std::vector<point3> corners;
-    corners.reserve(used.size());
-    for (const std::uint32_t p : used) corners.push_back(all.points[p]);
-    const equal_points equal = find_equal_points(corners);
-    for (std::size_t i = 0; i < used.size(); ++i) new_of_old[used[i]] = equal.new_of_old[i];
-    all.points.clear();
-    joined.number_of_point.reserve(equal.first_of_new.size());
-    for (const std::uint32_t first : equal.first_of_new) {
-        all.points.push_back(corners[first]);
-        joined.number_of_point.push_back(used[first]);
-    }
-    for (face& f : all.faces)
-        for (std::uint32_t& corner : f) corner = new_of_old[corner];
+    joined.all.points.resize(points);
+    joined.all.faces.resize(faces);
+    joined.operand_of_face.resize(faces);
+    append_all(operands, joined);
+    keep_used(joined);
+    join_equal(joined);
     return joined;
 }
 

@@ -2,12 +2,11 @@
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/detail/stars.hpp>
-#include <libmesh/intersect/point_location.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libmesh/round/detail/join_near.hpp>
 #include <libmesh/round/detail/solid_faces.hpp>
+#include <libmesh/round/detail/surface_faults.hpp>
 #include <libmesh/round/round_surface.hpp>
-#include <libmesh/validate.hpp>
 #include <libmesh/weld/equal_points.hpp>
 #include <libtree/parallel.hpp>
 
@@ -160,33 +159,50 @@ class rounding {
         std::vector<std::uint32_t> new_of_old(point_of_.size(), 0);
         for (std::size_t i = 0; i < points.size(); ++i) new_of_old[points[i]] = equal.new_of_old[i];
         now.faces.clear();
+        sound_.clear();
         std::vector<std::uint32_t> face_of;
         for (std::size_t f = 0; f < exact_.faces.size(); ++f) {
             const auto [a, b, c] = exact_.faces[f];
             const face joined{new_of_old[a], new_of_old[b], new_of_old[c]};
             if (!detail::has_three_corners(joined)) continue;
             now.faces.push_back(joined);
+            if (!exact_.sound.empty()) sound_.push_back(stays_sound(f, now.points, joined));
             face_of.push_back(result_.face_of[f]);
         }
         point_of_ = std::move(point_of);
         result_.face_of = std::move(face_of);
     }
 
+    /// Whether what is known of an exact face holds of it as `rounded`: no corner has moved.
+    [[nodiscard]] std::uint8_t stays_sound(std::size_t f, points_view points,
+                                           const face& rounded) const {
+        if (exact_.sound[f] == 0) return 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t p = exact_.faces[f][i];
+            if (p >= exact_.given.size() || !(exact_.given[p] == points[rounded[i]])) return 0;
+        }
+        return 1;
+    }
+
     /// Whether the rounded surface is as promised; else which faces are not.
+    ///
+    /// Faces that were found to be sound in these very coordinates are not held against each other
+    /// again: nothing that is asked of two faces depends on a third. Their common corners have one
+    /// number as before, as points with equal coordinates have. Joining points keeps a closed
+    /// surface closed, whichever faces vanish by it; that is looked at again all the same, at the
+    /// edges of all other faces.
     bool check() {
         const mesh& now = result_.surface;
         result_.meeting.clear();
         result_.meeting_count = 0;
         offending_.assign(now.faces.size(), 0);
-        const auto found = self_intersections(now, {.progress = next_phase()});
-        if (found.cancelled) {
-            result_.cancelled = true;
-            return false;
-        }
-        for (const std::uint32_t f : find_defects(now).degenerate_faces) complain(f, f);
-        for (const face_pair& pair : found.pairs) complain(pair.a, pair.b);
-        if (result_.meeting_count > 0) return false;
-        return !options_.solid || !find_open_edge(now);
+        const detail::surface_faults faults = detail::find_faults(
+            now, {.sound = sound_, .closed = options_.solid, .progress = next_phase()});
+        result_.cancelled = faults.cancelled;
+        if (faults.cancelled) return false;
+        for (const std::uint32_t f : faults.degenerate) complain(f, f);
+        for (const face_pair& pair : faults.pairs) complain(pair.a, pair.b);
+        return result_.meeting_count == 0 && !faults.open;
     }
 
     void complain(std::uint32_t f, std::uint32_t g) {
@@ -220,6 +236,9 @@ class rounding {
             std::iota(face_of_cut.begin(), face_of_cut.end(), 0U);
             exact_.faces = std::move(cut.faces);
         }
+        exact_.sound.resize(face_of_cut.size());
+        for (std::size_t f = 0; f < face_of_cut.size(); ++f)
+            exact_.sound[f] = cut.whole[face_of_cut[f]];
         std::vector<std::uint32_t> face_of(face_of_cut.size());
         for (std::size_t f = 0; f < face_of.size(); ++f)
             face_of[f] = result_.face_of[near.face_of[cut.covers_of(face_of_cut[f]).front().face]];
@@ -258,6 +277,7 @@ class rounding {
     const round_options& options_;
     exact_surface exact_;
     std::vector<std::uint32_t> point_of_;  ///< by point, of the original surface
+    std::vector<std::uint8_t> sound_;      ///< by face, or empty
     std::vector<std::uint8_t> offending_;  ///< by face
     std::size_t most_faces_;
     std::uint64_t first_meeting_count_ = 0;

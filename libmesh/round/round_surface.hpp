@@ -21,6 +21,10 @@ struct exact_surface {
     std::vector<point3> given;
     std::vector<constructed_point> constructed;
     std::vector<face> faces;
+    /// [F], or empty: 1 for faces that have been found, in the coordinates given, to have an area
+    /// and to meet each other in common corners and edges only; their corners are given points. As
+    /// long as they stay where they are, they are not held against each other again.
+    std::vector<std::uint8_t> sound{};
 };
 
 struct round_options {
@@ -58,7 +62,8 @@ struct rounded_surface {
 /// `exact` in rounded coordinates, without the points that no face uses.
 ///
 /// Every point is rounded once, to nearest; given points stay bit for bit unless floats are asked
-/// for. Then the surface is checked with the exact predicates. Where it is broken, it is mended,
+/// for. Then the surface is checked with the exact predicates: every face that has moved, or is not
+/// known to be sound, against all others. Where it is broken, it is mended,
 /// step by step: corners, edges and faces next to each other are joined where faces meet, the
 /// surface is cut along itself (`arrange_faces`), of a solid what it does not wind around any more
 /// is left out, and what was cut is rounded. Next to each other is what is nearer than 2^-48 of the
@@ -71,7 +76,8 @@ struct rounded_surface {
 ///
 /// \pre    faces have three different corners and, as exact ones, meet in common corners and edges
 ///         only; of a solid, they run along every edge as often one way as the other
-/// \cost   as `self_intersections` for the check; as `arrange_faces` and `find_cells` for each
+/// \cost   as `self_intersections` of the faces to be checked and those near them; as
+/// `arrange_faces` and `find_cells` for each
 ///         step, if any
 /// \same   on any number of threads
 /// \source CGAL 6.1's iterative snap rounding has the same aim and ends in the same check; here

@@ -1,0 +1,21 @@
+#pragma once
+/// \file
+/// The arrangement of faces of which it is known how they meet.
+
+#include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/mesh.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tf::detail {
+
+/// As `arrange_faces`, where the pairs of faces that meet beyond their shared corners are known,
+/// and so are the faces without an area, which are in no pair; both ascending.
+[[nodiscard]] arrange_faces_result arrange_pairs(mesh_view mesh, std::span<const face_pair> pairs,
+                                                 std::vector<std::uint32_t> degenerate,
+                                                 const progress_callback& progress);
+
+}  // namespace tf::detail

@@ -1,0 +1,302 @@
+#include <libmesh/arrange/detail/arrange_pairs.hpp>
+#include <libmesh/boolean/detail/mutual_insides.hpp>
+#include <libmesh/boolean/detail/near_faces.hpp>
+#include <libmesh/boolean/detail/sound_pair.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libmesh/intersect/detail/classify_pair.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/round/round_surface.hpp>
+#include <libtree/detail/buffer.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace tf::detail {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 15;
+
+using ids = std::vector<std::uint32_t>;
+
+/// Pairs of a face of each operand that meet beyond the corners they share.
+std::vector<face_pair> meeting_pairs(const near_faces& near) {
+    const mesh_view local = near.local;
+    const mesh_view a{local.points, local.faces.first(near.first_of_b)};
+    const mesh_view b{local.points, local.faces.subspan(near.first_of_b)};
+    std::vector<face_pair> pairs = mesh_intersections(a, b).pairs;
+    predicate_counters counters;
+    std::size_t left = 0;
+    for (face_pair pair : pairs) {
+        pair.b += near.first_of_b;
+        const face &f = local.faces[pair.a], &g = local.faces[pair.b];
+        if (std::find_first_of(f.begin(), f.end(), g.begin(), g.end()) != f.end()) {
+            const auto kind = classify_pair(local.points, f, g, counters);
+            if (!kind) continue;
+            pair.kind = *kind;
+        }
+        pairs[left++] = pair;
+    }
+    pairs.resize(left);
+    return pairs;
+}
+
+/// Which side of a face is in the solid, if one is.
+enum class kept : std::uint8_t { no, as_it_is, turned };
+
+/// The solid that an expression makes of two.
+class choice {
+  public:
+    explicit choice(const boolean_expression& expression) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const std::array<bool, 2> in{(i & 1) != 0, (i & 2) != 0};
+            solid_[i] = expression(in);
+        }
+    }
+
+    /// By the operands that hold what is in front of the face and what is behind it, as bits.
+    [[nodiscard]] kept operator()(unsigned front, unsigned behind) const {
+        if (solid_[front] == solid_[behind]) return kept::no;
+        return solid_[behind] ? kept::as_it_is : kept::turned;
+    }
+    /// Of a face that one operand covers.
+    [[nodiscard]] kept of(std::size_t operand, bool in_other) const {
+        const unsigned own = 1U << operand;
+        const unsigned other = in_other ? 3U - own : 0U;
+        return (*this)(other, other | own);
+    }
+
+  private:
+    std::array<bool, 4> solid_{};
+};
+
+face turned_if(bool turn, const face& f) { return turn ? face{f[0], f[2], f[1]} : f; }
+
+/// Faces of the arrangement that bound the solid.
+struct chosen_faces {
+    std::vector<face> faces;
+    ids face_of;
+};
+
+chosen_faces choose(const near_faces& near, const mesh_arrangement& cut,
+                    const std::vector<std::uint8_t>& inside, const choice& choice) {
+    chosen_faces result;
+    for (std::size_t f = 0; f < cut.faces.size(); ++f) {
+        const auto covers = cut.covers_of(f);
+        kept keeps = kept::no;
+        if (covers.size() == 1) {
+            keeps = choice.of(near.operand_of(covers[0].face), inside[f] != 0);
+        } else {
+            unsigned front = 0, behind = 0;
+            for (const covering_face& cover : covers)
+                (cover.opposite ? front : behind) |= 1U << near.operand_of(cover.face);
+            keeps = choice(front, behind);
+        }
+        if (keeps == kept::no) continue;
+        result.faces.push_back(turned_if(keeps == kept::turned, cut.faces[f]));
+        result.face_of.push_back(static_cast<std::uint32_t>(f));
+    }
+    return result;
+}
+
+/// Puts together the faces that were looked at and those that need not be, of both operands counted
+/// through.
+class assembly {
+  public:
+    assembly(std::span<const mesh_view, 2> operands, const near_faces& near, const choice& choice)
+        : operands_(operands),
+          near_(near),
+          keeps_{choice.of(0, false), choice.of(1, false)},
+          faces_{0, operands[0].faces.size(), operands[0].faces.size() + operands[1].faces.size()},
+          points_{0, operands[0].points.size(),
+                  operands[0].points.size() + operands[1].points.size()},
+          number_(points_[2]) {}
+
+    /// `source` are faces of operands, ascending, one for each face of `rounded`, whose points are
+    /// those of `near_` and others.
+    void write(const rounded_surface& rounded, const ids& source, solid_result& result) {
+        number_points(rounded, result);
+        ids corner(rounded.point_of.size());
+        const auto first_made = static_cast<std::uint32_t>(given_);
+        for (std::size_t p = 0, made = 0; p < corner.size(); ++p)
+            corner[p] = is_made(rounded.point_of[p])
+                            ? first_made + static_cast<std::uint32_t>(made++)
+                            : number_[near_.point_of[rounded.point_of[p]]];
+        write_faces(rounded, corner, source, result);
+    }
+
+  private:
+    [[nodiscard]] bool is_made(std::uint32_t local_point) const {
+        return local_point >= near_.point_of.size();
+    }
+    [[nodiscard]] std::size_t operand_of(std::size_t face) const {
+        return face < faces_[1] ? 0 : 1;
+    }
+    [[nodiscard]] const face& corners(std::size_t face) const {
+        const std::size_t k = operand_of(face);
+        return operands_[k].faces[face - faces_[k]];
+    }
+
+    /// Calls `visit(face)` for the faces from `begin` to `end` that were not looked at and stay.
+    template <class Visit>
+    void for_far_faces(std::size_t begin, std::size_t end, const Visit& visit) const {
+        auto near = std::lower_bound(near_.face_of.begin(), near_.face_of.end(), begin);
+        for (std::size_t f = begin; f < end; ++f) {
+            if (near != near_.face_of.end() && *near == f)
+                ++near;
+            else if (keeps_[operand_of(f)] != kept::no)
+                visit(f);
+        }
+    }
+
+    /// Numbers the points in use, those of operands first.
+    void number_points(const rounded_surface& rounded, solid_result& result) {
+        const auto use = [&](std::size_t p) {
+            std::atomic_ref(number_[p]).store(1, std::memory_order_relaxed);
+        };
+        for_chunks(points_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            std::fill(number_.data() + begin, number_.data() + end, 0U);
+        });
+        for_chunks(faces_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for_far_faces(begin, end, [&](std::size_t f) {
+                for (const std::uint32_t p : corners(f)) use(points_[operand_of(f)] + p);
+            });
+        });
+        std::size_t made = 0;
+        for (const std::uint32_t p : rounded.point_of)
+            if (is_made(p))
+                ++made;
+            else
+                number_[near_.point_of[p]] = 1;
+
+        std::vector<std::size_t> first(chunk_count(points_[2], grain) + 1, 0);
+        for_chunks(points_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            for (std::size_t p = begin; p < end; ++p) first[c + 1] += number_[p];
+        });
+        for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+        given_ = first.back();
+        std::vector<point3>& points = result.surface.points;
+        points.resize(given_ + made);
+        result.source_point.resize(given_ + made);
+        for_chunks(points_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            std::size_t next = first[c];
+            for (std::size_t p = begin; p < end; ++p) {
+                if (number_[p] == 0) continue;
+                const std::size_t k = p < points_[1] ? 0 : 1;
+                const auto index = static_cast<std::uint32_t>(p - points_[k]);
+                number_[p] = static_cast<std::uint32_t>(next);
+                points[next] = operands_[k].points[index];
+                result.source_point[next++] = {static_cast<std::uint32_t>(k), index};
+            }
+        });
+        std::size_t next = given_;
+        for (std::size_t p = 0; p < rounded.point_of.size(); ++p)
+            if (is_made(rounded.point_of[p])) points[next++] = rounded.surface.points[p];
+    }
+
+    void write_faces(const rounded_surface& rounded, const ids& corner, const ids& source,
+                     solid_result& result) const {
+        const auto looked_at = [&](std::size_t face) {
+            return static_cast<std::size_t>(std::lower_bound(source.begin(), source.end(), face) -
+                                            source.begin());
+        };
+        std::vector<std::size_t> first(chunk_count(faces_[2], grain) + 1, 0);
+        for_chunks(faces_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            std::size_t count = looked_at(end) - looked_at(begin);
+            for_far_faces(begin, end, [&](std::size_t) { ++count; });
+            first[c + 1] = count;
+        });
+        for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+        std::vector<face>& faces = result.surface.faces;
+        faces.resize(first.back());
+        result.source_face.resize(first.back());
+        for_chunks(faces_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            std::size_t next = first[c];
+            const auto put = [&](std::size_t f, const face& corners) {
+                const std::size_t k = operand_of(f);
+                faces[next] = corners;
+                result.source_face[next++] = {static_cast<std::uint32_t>(k),
+                                              static_cast<std::uint32_t>(f - faces_[k])};
+            };
+            std::size_t piece = looked_at(begin);
+            const auto put_pieces_before = [&](std::size_t f) {
+                for (; piece < source.size() && source[piece] < f; ++piece) {
+                    const auto& [p, q, r] = rounded.surface.faces[piece];
+                    put(source[piece], {corner[p], corner[q], corner[r]});
+                }
+            };
+            for_far_faces(begin, end, [&](std::size_t f) {
+                put_pieces_before(f);
+                const std::size_t k = operand_of(f);
+                const std::uint32_t* const number = number_.data() + points_[k];
+                const auto& [p, q, r] = corners(f);
+                put(f, turned_if(keeps_[k] == kept::turned, {number[p], number[q], number[r]}));
+            });
+            put_pieces_before(end);
+        });
+    }
+
+    std::span<const mesh_view, 2> operands_;
+    const near_faces& near_;
+    std::array<kept, 2> keeps_;          ///< faces that were not looked at, by operand
+    std::array<std::size_t, 3> faces_;   ///< where those of each operand begin
+    std::array<std::size_t, 3> points_;  ///< likewise
+    buffer<std::uint32_t> number_;       ///< of points of operands, in the result
+    std::size_t given_ = 0;
+};
+
+bool can_be_counted_through(std::span<const mesh_view, 2> operands) {
+    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max() / 4;
+    return operands[0].points.size() + operands[1].points.size() < most &&
+           operands[0].faces.size() + operands[1].faces.size() < most;
+}
+
+}  // namespace
+
+std::optional<solid_result> boolean_of_sound_pair(std::span<const mesh_view, 2> operands,
+                                                  const boolean_expression& expression,
+                                                  const boolean_options& options) {
+    if (options.to_float || !can_be_counted_through(operands)) return std::nullopt;
+    solid_result result;
+    const auto goes_on = [&](double done) {
+        result.cancelled = options.progress && !options.progress(done);
+        return !result.cancelled;
+    };
+    const auto near = find_near_faces(operands);
+    if (!near) return std::nullopt;
+    if (!goes_on(0.2)) return result;
+    const auto pairs = meeting_pairs(*near);
+    if (!goes_on(0.4)) return result;
+    arrange_faces_result arranged = arrange_pairs(near->local, pairs, {}, {});
+    mesh_arrangement& cut = arranged.cut;
+    const auto inside = find_insides(operands, *near, cut);
+    if (!inside) return std::nullopt;
+    if (!goes_on(0.6)) return result;
+
+    const choice choice(expression);
+    chosen_faces chosen = choose(*near, cut, *inside, choice);
+    exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
+                        std::move(chosen.faces)};
+    for (const std::uint32_t f : chosen.face_of) exact.sound.push_back(cut.whole[f]);
+    // What was left out meets no box of what was cut, and so no piece of it either, rounded or not:
+    // rounding to nearest takes no coordinate out of a box of doubles.
+    rounded_surface rounded = round_surface(std::move(exact), {.steps = 0});
+    if (!rounded.certified) return std::nullopt;
+    if (!goes_on(0.8)) return result;
+    ids source;
+    for (const std::uint32_t f : rounded.face_of)
+        source.push_back(near->face_of[cut.covers_of(chosen.face_of[f]).front().face]);
+    assembly(operands, *near, choice).write(rounded, source, result);
+    result.max_move = rounded.max_move;
+    result.certified = true;
+    result.pairs = arranged.pairs;
+    result.cut_faces = arranged.cut_faces;
+    goes_on(1.0);
+    return result;
+}
+
+}  // namespace tf::detail

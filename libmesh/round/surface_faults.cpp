@@ -1,0 +1,138 @@
+#include <libmesh/face_tree.hpp>
+#include <libmesh/intersect/point_location.hpp>
+#include <libmesh/round/detail/surface_faults.hpp>
+#include <libmesh/validate.hpp>
+#include <libtree/aabb.hpp>
+#include <libtree/parallel.hpp>
+#include <libtree/search.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <tuple>
+
+namespace tf::detail {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 13;
+
+using ids = std::vector<std::uint32_t>;
+
+surface_faults all_faults(mesh_view surface, const surface_check& check) {
+    surface_faults result;
+    self_intersection_result found = self_intersections(surface, {.progress = check.progress});
+    result.cancelled = found.cancelled;
+    if (result.cancelled) return result;
+    result.pairs = std::move(found.pairs);
+    result.degenerate = find_defects(surface).degenerate_faces;
+    result.open = check.closed && find_open_edge(surface).has_value();
+    return result;
+}
+
+ids all_of(std::size_t count) {
+    ids all(count);
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+}
+
+std::vector<face> faces_of(mesh_view surface, const ids& which) {
+    std::vector<face> faces;
+    faces.reserve(which.size());
+    for (const std::uint32_t f : which) faces.push_back(surface.faces[f]);
+    return faces;
+}
+
+aabb<double, 3> box_of(points_view points, const face& f) {
+    aabb<double, 3> box;
+    for (const std::uint32_t corner : f) box.include(points[corner]);
+    return box;
+}
+
+/// `doubted` and the faces whose boxes meet one of theirs, ascending: all others meet none of
+/// them, not even in a corner.
+ids with_neighbours(mesh_view surface, const ids& doubted, std::span<const std::uint8_t> sound) {
+    const std::vector<face> asked = faces_of(surface, doubted);
+    const tree<3> tree = face_tree({surface.points, asked});
+    aabb<double, 3> reach;
+    for (const face& f : asked) reach.include(box_of(surface.points, f));
+    std::vector<ids> found(chunk_count(surface.faces.size(), grain));
+    for_chunks(surface.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t f = begin; f < end; ++f) {
+            if (sound[f] != 0) {
+                const auto box = box_of(surface.points, surface.faces[f]);
+                if (!overlaps(box, reach)) continue;
+                if (!search_any(tree, box, [](std::uint32_t) { return true; })) continue;
+            }
+            found[c].push_back(static_cast<std::uint32_t>(f));
+        }
+    });
+    ids all;
+    for (const ids& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+/// A face's edge, the lower end first.
+struct edge_use {
+    std::uint32_t low, high;
+    int way;       ///< 1 when the face runs from the lower end to the higher, else -1
+    bool doubted;  ///< the face is not sound
+};
+
+/// Whether an edge of a face that is not sound is open. At edges of sound faces alone nothing has
+/// changed.
+bool is_open(mesh_view surface, const ids& faces, std::span<const std::uint8_t> sound) {
+    std::vector<std::uint8_t> at_doubted(surface.points.size(), 0);
+    for (const std::uint32_t f : faces)
+        if (sound[f] == 0)
+            for (const std::uint32_t corner : surface.faces[f]) at_doubted[corner] = 1;
+    std::vector<edge_use> uses;
+    for (const std::uint32_t f : faces)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = surface.faces[f][i];
+            const std::uint32_t b = surface.faces[f][i == 2 ? 0 : i + 1];
+            if (at_doubted[a] == 0 || at_doubted[b] == 0) continue;
+            uses.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1, sound[f] == 0});
+        }
+    std::sort(uses.begin(), uses.end(), [](const edge_use& x, const edge_use& y) {
+        return std::tie(x.low, x.high) < std::tie(y.low, y.high);
+    });
+    for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+        std::int64_t sum = 0;
+        bool doubted = false;
+        for (; end < uses.size() && uses[end].low == uses[begin].low &&
+               uses[end].high == uses[begin].high;
+             ++end) {
+            sum += uses[end].way;
+            doubted = doubted || uses[end].doubted;
+        }
+        if (doubted && sum != 0) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+surface_faults find_faults(mesh_view surface, const surface_check& check) {
+    if (check.sound.empty()) return all_faults(surface, check);
+    const std::size_t count = surface.faces.size();
+    ids doubted;
+    for (std::uint32_t f = 0; f < count; ++f)
+        if (check.sound[f] == 0) doubted.push_back(f);
+    surface_faults result;
+    if (doubted.empty()) return result;
+    const ids near =
+        doubted.size() > count / 2 ? all_of(count) : with_neighbours(surface, doubted, check.sound);
+    const std::vector<face> faces = faces_of(surface, near);
+    const mesh_view part{surface.points, faces};
+    const self_intersection_result found = self_intersections(part, {.progress = check.progress});
+    result.cancelled = found.cancelled;
+    if (result.cancelled) return result;
+    for (const face_pair& pair : found.pairs)
+        result.pairs.push_back({near[pair.a], near[pair.b], pair.kind});
+    for (const std::uint32_t f : find_defects(part).degenerate_faces)
+        result.degenerate.push_back(near[f]);
+    result.open = check.closed && is_open(surface, near, check.sound);
+    return result;
+}
+
+}  // namespace tf::detail

@@ -1,0 +1,92 @@
+#include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/round/detail/surface_faults.hpp>
+#include <libmesh/validate.hpp>
+#include <libtree/parallel.hpp>
+
+#include <doctest/doctest.h>
+#include <support/random.hpp>
+#include <support/solids.hpp>
+#include <support/soups.hpp>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using bytes = std::vector<std::uint8_t>;
+
+/// As many faces as may be called sound: none is degenerate, no two of them meet.
+bytes soundness(const tf::mesh& mesh, const std::vector<tf::face_pair>& pairs) {
+    bytes sound(mesh.faces.size(), 1);
+    for (const std::uint32_t f : tf::find_defects(mesh).degenerate_faces) sound[f] = 0;
+    for (const tf::face_pair& pair : pairs)
+        if (sound[pair.a] != 0) sound[pair.b] = 0;
+    return sound;
+}
+
+}  // namespace
+
+TEST_CASE("faults: of a surface of which nothing is known, all are found") {
+    tf::mesh two =
+        test::together(test::box(1, 1, 1), test::moved(test::box(1, 1, 1), {0.5, 0.5, 0.5}));
+    CHECK(tf::detail::find_faults(two, {}).pairs == tf::self_intersections(two).pairs);
+    CHECK_FALSE(tf::detail::find_faults(two, {}).open);
+    two.faces.pop_back();
+    CHECK(tf::detail::find_faults(two, {}).open);
+    CHECK_FALSE(tf::detail::find_faults(two, {.closed = false}).open);
+    CHECK(tf::detail::find_faults({}, {}).pairs.empty());
+}
+
+TEST_CASE("faults: what is sound is not looked at, and all else is found against everything") {
+    std::size_t doubted = 0, met = 0;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        tf::mesh mesh = test::ball(4, 1.0);  // and small faces across it, here and there
+        for (int i = 0; i < 40; ++i) {
+            const auto first = static_cast<std::uint32_t>(mesh.points.size());
+            const tf::point3 at = mesh.points[source.below(500)];
+            for (int k = 0; k < 3; ++k)
+                mesh.points.push_back({at.x + source.in(-0.1, 0.1), at.y + source.in(-0.1, 0.1),
+                                       at.z + source.in(-0.1, 0.1)});
+            mesh.faces.push_back({first, first + 1, first + 2});
+        }
+        mesh.faces.push_back({0, 1, 1});
+        const auto pairs = tf::self_intersections(mesh).pairs;
+        const bytes sound = soundness(mesh, pairs);
+        for (const std::uint8_t s : sound) doubted += s == 0 ? 1 : 0;
+        for (const unsigned threads : {1U, 2U, 8U}) {
+            const tf::thread_scope scope(threads);
+            const auto found = tf::detail::find_faults(mesh, {.sound = sound, .closed = false});
+            CHECK(found.pairs == pairs);
+            CHECK(found.degenerate == tf::find_defects(mesh).degenerate_faces);
+        }
+        met += pairs.size();
+    }
+    CHECK(doubted > 100);
+    CHECK(met > 1000);
+}
+
+TEST_CASE("faults: edges of faces that are not sound are looked at, and no others") {
+    tf::mesh mesh = test::ball(3, 1.0);
+    mesh.faces.erase(mesh.faces.begin() + 100);
+    bytes sound(mesh.faces.size(), 1);
+    CHECK_FALSE(tf::detail::find_faults(mesh, {.sound = sound}).open);
+    sound[0] = 0;  // not at the hole
+    const auto shared = [&](std::size_t f) {
+        std::size_t count = 0;
+        for (const std::uint32_t p : mesh.faces[f])
+            for (const std::uint32_t q : test::ball(3, 1.0).faces[100]) count += p == q ? 1 : 0;
+        return count;
+    };
+    REQUIRE(shared(0) < 2);
+    CHECK_FALSE(tf::detail::find_faults(mesh, {.sound = sound}).open);
+    CHECK_FALSE(
+        tf::detail::find_faults(mesh, {.sound = bytes(sound.size(), 0), .closed = false}).open);
+    CHECK(tf::detail::find_faults(mesh, {.sound = bytes(sound.size(), 0)}).open);
+    std::size_t beside = 0;
+    while (shared(beside) != 2) ++beside;
+    sound[beside] = 0;
+    CHECK(tf::detail::find_faults(mesh, {.sound = sound}).open);
+}
