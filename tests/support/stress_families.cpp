@@ -1,87 +1,17 @@
 #include "support/stress_families.hpp"
 
+#include "support/stress_parts.hpp"
+#include "support/stress_placement.hpp"
+
+#include <array>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <utility>
 
 namespace tf::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-point3 operator+(const point3& p, const point3& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
-point3 operator-(const point3& p, const point3& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-point3 operator*(double s, const point3& p) { return {s * p.x, s * p.y, s * p.z}; }
-point3 cross(const point3& p, const point3& q) {
-    return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
-}
-
-/// By repeated multiplication, since std::pow may differ in the last bit.
-double power_of_ten(int exponent) {
-    double result = 1.0;
-    for (int i = 0; i < std::abs(exponent); ++i) result *= 10.0;
-    return exponent < 0 ? 1.0 / result : result;
-}
-
-template <class Change>
-triangle3 changed(const triangle3& t, Change change) {
-    return {change(t[0]), change(t[1]), change(t[2])};
-}
-
-// --- points and triangles; numbers are drawn in an order that the language fixes ---
-
-point3 random_point(random_source& random) { return {random.unit(), random.unit(), random.unit()}; }
-triangle3 random_triangle(random_source& random) {
-    return {random_point(random), random_point(random), random_point(random)};
-}
-point3 lattice_point(random_source& random, int low, int high) {
-    return {random.whole(low, high), random.whole(low, high), random.whole(low, high)};
-}
-triangle3 lattice_triangle(random_source& random, int low, int high) {
-    return {lattice_point(random, low, high), lattice_point(random, low, high),
-            lattice_point(random, low, high)};
-}
-/// Coordinates of 10 bits, so that points with small dyadic weights are exact.
-triangle3 dyadic_triangle(random_source& random) {
-    return changed(lattice_triangle(random, 0, 1024), [](const point3& p) { return 0x1p-10 * p; });
-}
-
-/// A point of the plane of `t`: half the time with weights of whole eighths, which are exact for
-/// dyadic corners and often lie on an edge or a corner, else with any weights.
-point3 point_on_plane(const triangle3& t, random_source& random) {
-    const bool eighths = random.one_in(2);
-    const auto weight = [&] {
-        return eighths ? random.whole(-2, 10) / 8 : 1.25 * random.unit() - 0.125;
-    };
-    const double u = weight();
-    const double v = weight();
-    return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
-}
-
-/// A corner, a point of an edge, or any point of the closed triangle.
-point3 point_of(const triangle3& t, random_source& random) {
-    const std::size_t i = random.below(3);
-    const point3& p = t[i];
-    const point3& q = t[(i + 1) % 3];
-    const double u = random.whole(1, 7) / 8;
-    switch (random.below(3)) {
-        case 0:
-            return p;
-        case 1:
-            return p + u * (q - p);
-        default:
-            return p + u * (q - p) + (1 - u) / 2 * (t[(i + 2) % 3] - p);
-    }
-}
-
-point3 moved_by_ulps(point3 p, int ulps, random_source& random) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double towards = random.one_in(2) ? infinity : -infinity;
-        const auto steps = random.below(static_cast<std::uint64_t>(ulps) + 1);
-        for (std::uint64_t i = 0; i < steps; ++i) p[axis] = std::nextafter(p[axis], towards);
-    }
-    return p;
-}
+using namespace stress;
 
 // --- families, about unit size at the origin ---
 
@@ -179,12 +109,12 @@ triangle_pair mixed_scales(random_source& random) {
 }
 
 triangle_pair extreme_range(random_source& random) {
-    constexpr std::array<double, 7> units{0x1p-1074, 0x1p-1023, 1e-310, 1e-150, 1.0, 1e150, 1e300};
-    const double common = units[random.below(units.size())];
+    constexpr std::size_t units = std::size(extreme_units);
+    const double common = extreme_units[random.below(units)];
     const bool mixed = random.one_in(2);
     const auto coordinate = [&] {
-        const double unit = mixed && random.one_in(4) ? units[random.below(units.size())] : common;
-        return random.whole(-3, 3) * unit;  // gives zeros of either sign
+        const bool other = mixed && random.one_in(4);
+        return extreme_coordinate(other ? extreme_units[random.below(units)] : common, random);
     };
     const auto corner = [&] { return point3{coordinate(), coordinate(), coordinate()}; };
     triangle_pair pair{{corner(), corner(), corner()}, {corner(), corner(), corner()}};
@@ -314,6 +244,29 @@ triangle_pair on_plane_by_ulp(random_source& random) {
     return {a, b};
 }
 
+/// Faces side by side as scans and careless programs leave them: the edge of one ends within that
+/// of the other, corners are written with few digits, a face is folded back, or nothing fits.
+triangle_pair broken_surfaces(random_source& random) {
+    const triangle3 a = random.one_in(2) ? dyadic_triangle(random) : random_triangle(random);
+    const point3 third = random_point(random);
+    const double weight = random.one_in(2) ? random.whole(1, 7) / 8 : random.unit();
+    const point3 on_edge = a[0] + weight * (a[1] - a[0]);
+    switch (random.below(6)) {
+        case 0:
+            return {a, {on_edge, a[1], third}};
+        case 1:
+            return {a, {a[1], on_edge, third}};
+        case 2:
+            return {changed(a, with_three_digits), {a[1], a[0], third}};
+        case 3:
+            return {changed(a, with_three_digits), {on_edge, a[1], third}};
+        case 4:
+            return {a, {a[1], a[0], point_on_plane(a, random)}};
+        default:
+            return {a, changed(a, [&](const point3& p) { return p + 0x1p-2 * third; })};
+    }
+}
+
 triangle_pair shape_of(stress_family family, random_source& random) {
     switch (family) {
         case stress_family::near_coplanar:
@@ -344,55 +297,15 @@ triangle_pair shape_of(stress_family family, random_source& random) {
             return soup(random);
         case stress_family::on_plane_by_ulp:
             return on_plane_by_ulp(random);
+        case stress_family::broken_surfaces:
+            return broken_surfaces(random);
     }
     return {};
 }
 
-// --- placement ---
-
-using matrix = std::array<point3, 3>;  // rows
-
-/// From a random quaternion; orthogonal up to rounding.
-matrix random_rotation(random_source& random) {
-    const double w = random.unit() + 0x1p-10;
-    const double x = random.unit() - 0.5;
-    const double y = random.unit() - 0.5;
-    const double z = random.unit() - 0.5;
-    const double s = 2 / (w * w + x * x + y * y + z * z);
-    return {{{1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)},
-             {s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)},
-             {s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)}}};
-}
-
-matrix random_exchange_of_axes(random_source& random) {
-    matrix rows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    std::swap(rows[0], rows[random.below(3)]);
-    std::swap(rows[1], rows[1 + random.below(2)]);
-    return rows;
-}
-
-point3 times(const matrix& m, const point3& p) {
-    const auto row = [&](const point3& r) { return r.x * p.x + r.y * p.y + r.z * p.z; };
-    return {row(m[0]), row(m[1]), row(m[2])};
-}
-
-double as_float(double x) {
-    return std::abs(x) > std::numeric_limits<float>::max() ? x : static_cast<float>(x);
-}
-
 triangle_pair placed(const triangle_pair& pair, random_source& random) {
-    constexpr std::array<double, 5> distances{0, 1, 1e3, 1e6, 1e9};
-    const bool exact = random.one_in(2);
-    const bool single = random.one_in(2);
-    const matrix turn = exact ? random_exchange_of_axes(random) : random_rotation(random);
-    const double scale = exact ? std::ldexp(1.0, static_cast<int>(random.below(201)) - 100)
-                               : power_of_ten(static_cast<int>(random.below(61)) - 30);
-    const double distance = distances[random.below(distances.size())];
-    const point3 away = distance * lattice_point(random, -1, 1);
-    const auto place = [&](const point3& p) {
-        const point3 q = scale * (times(turn, p) + away);
-        return single ? point3{as_float(q.x), as_float(q.y), as_float(q.z)} : q;
-    };
+    const placement where = random_placement(random);
+    const auto place = [&](const point3& p) { return placed(p, where); };
     return {changed(pair.a, place), changed(pair.b, place)};
 }
 
@@ -406,10 +319,16 @@ triangle3 reordered(triangle3 t, random_source& random) {
 
 std::string_view name_of(stress_family family) {
     constexpr std::array<std::string_view, stress_family_count> names{
-        "near_coplanar", "slivers",       "coplanar_grid", "cad_grid",       "large_offsets",
-        "mixed_scales",  "extreme_range", "fans",          "duplicates",     "one_ulp",
-        "thin_shells",   "pencils",       "soup",          "on_plane_by_ulp"};
+        "near_coplanar", "slivers",       "coplanar_grid", "cad_grid",        "large_offsets",
+        "mixed_scales",  "extreme_range", "fans",          "duplicates",      "one_ulp",
+        "thin_shells",   "pencils",       "soup",          "on_plane_by_ulp", "broken_surfaces"};
     return names[static_cast<std::size_t>(family)];
+}
+
+std::optional<stress_family> stress_family_named(std::string_view name) {
+    for (std::size_t f = 0; f < stress_family_count; ++f)
+        if (name_of(static_cast<stress_family>(f)) == name) return static_cast<stress_family>(f);
+    return {};
 }
 
 triangle_pair stress_stream::next() {

@@ -11,56 +11,40 @@
 
 #include <libmesh/geometry/triangle_triangle.hpp>
 
-#include <array>
+#include <support/stress_random.hpp>
+
+#include <cstddef>
 #include <cstdint>
-#include <random>
+#include <optional>
 #include <string_view>
 
 namespace tf::test {
 
 enum class stress_family : std::uint8_t {
-    near_coplanar,   ///< tilted against each other by 1e-1 to 1e-16, or not at all
-    slivers,         ///< needles of an aspect up to 1e12 through a point of the other
-    coplanar_grid,   ///< lattice triangles in one plane, faces of stacked cubes
-    cad_grid,        ///< corners on a coarse grid of step 1/8, 0.1 or 1e-3
-    large_offsets,   ///< small shapes up to 1e15 away from the origin
-    mixed_scales,    ///< one triangle 1e12 times the other's size
-    extreme_range,   ///< denormals, 1e-150, 1e150, 1e300, zeros of either sign, side by side
-    fans,            ///< neighbours and others around a corner of up to 1e5 triangles
-    duplicates,      ///< copies, flipped copies, copies with a corner moved
-    one_ulp,         ///< neighbours on a sheet, one of them rotated by about one ulp
-    thin_shells,     ///< copies moved by 1 to 10 ulps
-    pencils,         ///< planes through one line or point
-    soup,            ///< random corners
-    on_plane_by_ulp  ///< corners put on the other's features, then moved by 0 or 1 ulp
+    near_coplanar,    ///< tilted against each other by 1e-1 to 1e-16, or not at all
+    slivers,          ///< needles of an aspect up to 1e12 through a point of the other
+    coplanar_grid,    ///< lattice triangles in one plane, faces of stacked cubes
+    cad_grid,         ///< corners on a coarse grid of step 1/8, 0.1 or 1e-3
+    large_offsets,    ///< small shapes up to 1e15 away from the origin
+    mixed_scales,     ///< one triangle 1e12 times the other's size
+    extreme_range,    ///< denormals, 1e-150, 1e150, 1e300, zeros of either sign, side by side
+    fans,             ///< neighbours and others around a corner of up to 1e5 triangles
+    duplicates,       ///< copies, flipped copies, copies with a corner moved
+    one_ulp,          ///< neighbours on a sheet, one of them rotated by about one ulp
+    thin_shells,      ///< copies moved by 1 to 10 ulps
+    pencils,          ///< planes through one line or point
+    soup,             ///< random corners
+    on_plane_by_ulp,  ///< corners put on the other's features, then moved by 0 or 1 ulp
+    broken_surfaces   ///< neighbours that do not fit, fold back or have few digits
 };
-inline constexpr std::size_t stress_family_count = 14;
+inline constexpr std::size_t stress_family_count = 15;
 
 [[nodiscard]] std::string_view name_of(stress_family family);
+[[nodiscard]] std::optional<stress_family> stress_family_named(std::string_view name);
 
 struct triangle_pair {
     triangle3 a;
     triangle3 b;
-};
-
-/// Random numbers that every standard library makes alike.
-class random_source {
-  public:
-    explicit random_source(std::uint64_t seed) : engine_(seed) {}
-
-    /// 0 to n - 1, n > 0. Off from uniform by less than n / 2^64.
-    std::uint64_t below(std::uint64_t n) { return engine_() % n; }
-    /// A multiple of 2^-53 in [0, 1).
-    double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-    /// A whole number from low to high.
-    double whole(int low, int high) {
-        return static_cast<double>(
-            low + static_cast<int>(below(static_cast<std::uint64_t>(high - low + 1))));
-    }
-    bool one_in(std::uint64_t n) { return below(n) == 0; }
-
-  private:
-    std::mt19937_64 engine_;
 };
 
 class stress_stream {
