@@ -1,13 +1,16 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/boolean/boolean.hpp>
+#include <libmesh/boolean/detail/inside_of_cells.hpp>
 #include <libmesh/boolean/detail/joined_operands.hpp>
+#include <libmesh/boolean/detail/merged_faces.hpp>
 #include <libmesh/boolean/detail/sound_pair.hpp>
 #include <libmesh/intersect/point_location.hpp>
 #include <libmesh/round/detail/solid_faces.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libtree/parallel.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <numeric>
@@ -24,36 +27,6 @@ using detail::joined_operands;
 progress_callback part_of(const progress_callback& callback, double begin, double end) {
     if (!callback) return {};
     return [&callback, begin, end](double done) { return callback(begin + (end - begin) * done); };
-}
-
-bool is_inside(inside_rule rule, std::int32_t winding) {
-    switch (rule) {
-        case inside_rule::odd:
-            return winding % 2 != 0;
-        case inside_rule::positive:
-            return winding > 0;
-        case inside_rule::nonzero:
-            break;
-    }
-    return winding != 0;
-}
-
-/// By cell: whether the solid holds it.
-std::vector<std::uint8_t> inside_of_cells(const arrangement_cells& cells, inside_rule rule,
-                                          const boolean_expression& expression) {
-    const std::size_t operands = cells.operands;
-    const std::size_t count = operands == 0 ? 1 : cells.winding.size() / operands;
-    std::vector<std::uint8_t> inside(count, 0);
-    constexpr std::size_t grain = std::size_t{1} << 10;
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        const auto in = std::make_unique<bool[]>(operands);
-        for (std::size_t c = begin; c < end; ++c) {
-            const auto windings = cells.winding_of(static_cast<std::uint32_t>(c));
-            for (std::size_t k = 0; k < operands; ++k) in[k] = is_inside(rule, windings[k]);
-            inside[c] = expression({in.get(), operands}) ? 1 : 0;
-        }
-    });
-    return inside;
 }
 
 std::vector<open_operand_edge> open_edges(const arrangement_cells& cells,
@@ -77,10 +50,35 @@ solid_result with_counts(const arrange_faces_result& arranged) {
 
 /// Whether two faces are one, turned or not.
 bool same_corners(const face& f, const face& g) { return f == g || f == face{g[0], g[2], g[1]}; }
+/// Merges coplanar faces of the surface. By point that was cut, a face of before that it lies in.
+std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uint32_t>& face_of,
+                                      const mesh_arrangement& cut, const joined_operands& joined,
+                                      const boolean_options& options) {
+    if (!options.face_groups.empty() && options.face_groups.size() != joined.all.faces.size())
+        throw std::invalid_argument("tf::boolean: not as many face groups as faces");
+    std::vector<operand_element> face_of_point(exact.constructed.size());
+    for (std::size_t f = exact.faces.size(); f-- > 0;)
+        for (const std::uint32_t p : exact.faces[f])
+            if (p >= exact.given.size())
+                face_of_point[p - exact.given.size()] =
+                    joined.face_source(cut.covers_of(face_of[f]).front().face);
+    std::vector<std::uint32_t> plane_of;
+    for (const std::uint32_t f : face_of) plane_of.push_back(cut.covers_of(f).front().face);
+    detail::merged_faces merged =
+        detail::merge_coplanar(exact, {joined.all, plane_of, options.face_groups});
+    std::vector<std::uint8_t> sound(merged.faces.size());
+    for (std::size_t f = 0; f < sound.size(); ++f)
+        sound[f] = merged.is_new[f] != 0 ? std::uint8_t{0} : exact.sound[merged.face_of[f]];
+    exact.sound = std::move(sound);
+    for (std::uint32_t& f : merged.face_of) f = face_of[f];
+    exact.faces = std::move(merged.faces);
+    face_of = std::move(merged.face_of);
+    return face_of_point;
+}
 
 /// `exact_faces` are faces of `cut`, `face_of` says which; both become the surface of `result`.
 void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact_faces,
-            const std::vector<std::uint32_t>& face_of, const joined_operands& joined, bool solid,
+            std::vector<std::uint32_t> face_of, const joined_operands& joined, bool solid,
             const boolean_options& options) {
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(exact_faces), std::vector<std::uint8_t>(face_of.size())};
@@ -90,6 +88,8 @@ void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact
             cut.whole[face_of[f]] != 0 && same_corners(exact.faces[f], joined.all.faces[source]);
     }
     const std::size_t given = exact.given.size();
+    std::vector<operand_element> face_of_point;
+    if (options.simplify) face_of_point = simplify(exact, face_of, cut, joined, options);
     rounded_surface r =
         round_surface(std::move(exact), {.to_float = options.to_float,
                                          .solid = solid,
@@ -109,17 +109,93 @@ void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact
     result.source_point.reserve(r.point_of.size());
     for (const std::uint32_t p : r.point_of)
         result.source_point.push_back(p < given ? joined.point_source(p) : operand_element{});
+    if (!options.simplify) return;
+    for (const std::uint32_t p : r.point_of)
+        result.face_of_cut_point.push_back(
+            p < given || p == rounded_surface::none ? operand_element{} : face_of_point[p - given]);
+}
+
+void check_expression(const char* function, std::span<const mesh_view> operands,
+                      const boolean_expression& expression) {
+    if (expression.operand_count() != operands.size())
+        throw std::invalid_argument("tf::" + std::string(function) + ": the expression has " +
+                                    std::to_string(expression.operand_count()) +
+                                    " operands, given are " + std::to_string(operands.size()));
+}
+
+/// Faces with an area no piece of which is the lowest face's there.
+std::uint64_t count_covered(const arrange_faces_result& arranged, std::size_t faces) {
+    std::vector<std::uint8_t> is_lowest(faces, 0);
+    for (std::size_t f = 0; f < arranged.cut.faces.size(); ++f)
+        is_lowest[arranged.cut.covers_of(f).front().face] = 1;
+    for (const std::uint32_t f : arranged.degenerate) is_lowest[f] = 1;
+    return static_cast<std::uint64_t>(std::count(is_lowest.begin(), is_lowest.end(), 0));
+}
+
+/// [F'] 0 for faces of `cut` that are not of the sheet, 1 for those oriented as the lowest of its
+/// faces there, 2 for those oriented the other way.
+std::vector<std::uint8_t> sheet_faces(const mesh_arrangement& cut, const joined_operands& joined,
+                                      std::uint32_t sheet) {
+    std::vector<std::uint8_t> way(cut.faces.size(), 0);
+    for (std::size_t f = 0; f < way.size(); ++f)
+        for (const auto& [face, opposite] : cut.covers_of(f))
+            if (joined.operand_of_face[face] == sheet) {
+                way[f] = opposite ? 2 : 1;
+                break;
+            }
+    return way;
+}
+
+/// Faces of the sheet become covers both ways: then it is closed and bounds nothing, and cells are
+/// those of the others.
+void cover_from_both_sides(mesh_arrangement& cut, const joined_operands& joined,
+                           std::uint32_t sheet) {
+    std::vector<covering_face> covers;
+    covers.reserve(2 * cut.covers.size());
+    for (std::size_t f = 0; f < cut.faces.size(); ++f) {
+        const auto before = cut.covers_of(f);
+        cut.cover_begin[f] = covers.size();
+        for (const covering_face& cover : before) {
+            covers.push_back(cover);
+            if (joined.operand_of_face[cover.face] == sheet)
+                covers.push_back({cover.face, !cover.opposite});
+        }
+    }
+    cut.cover_begin.back() = covers.size();
+    cut.covers = std::move(covers);
+}
+
+/// The faces that the expression keeps, now first covered by the sheet. A piece is in a solid when
+/// one of its sides is.
+detail::solid_faces kept_of_sheet(mesh_arrangement& cut, const arrangement_cells& cells,
+                                  const joined_operands& joined,
+                                  const std::vector<std::uint8_t>& way, std::uint32_t sheet,
+                                  const boolean_expression& expression, inside_rule rule) {
+    detail::solid_faces kept;
+    const auto in = std::make_unique<bool[]>(cells.operands);
+    for (std::size_t f = 0; f < way.size(); ++f) {
+        if (way[f] == 0) continue;
+        const auto [front, behind] = cells.cell_of_side[f];
+        for (std::size_t k = 0; k < cells.operands; ++k)
+            in[k] = k == sheet || detail::is_inside(rule, cells.winding_of(front)[k]) ||
+                    detail::is_inside(rule, cells.winding_of(behind)[k]);
+        if (!expression({in.get(), cells.operands})) continue;
+        auto first = cut.covers.begin() + static_cast<std::ptrdiff_t>(cut.cover_begin[f]);
+        for (auto at = first; joined.operand_of_face[first->face] != sheet; ++at)
+            if (joined.operand_of_face[at->face] == sheet) std::iter_swap(first, at);
+        const auto [a, b, c] = cut.faces[f];
+        kept.faces.push_back(way[f] == 1 ? face{a, b, c} : face{a, c, b});
+        kept.face_of.push_back(static_cast<std::uint32_t>(f));
+    }
+    return kept;
 }
 
 }  // namespace
 
 solid_result boolean(std::span<const mesh_view> operands, const boolean_expression& expression,
                      const boolean_options& options) {
-    if (expression.operand_count() != operands.size())
-        throw std::invalid_argument("tf::boolean: the expression has " +
-                                    std::to_string(expression.operand_count()) +
-                                    " operands, given are " + std::to_string(operands.size()));
-    if (options.sound_operands && operands.size() == 2)
+    check_expression("boolean", operands, expression);
+    if (options.sound_operands && operands.size() == 2 && !options.simplify && !options.volumes)
         if (auto result = detail::boolean_of_sound_pair(operands.first<2>(), expression, options))
             return std::move(*result);
     const joined_operands joined = detail::join_operands("boolean", operands);
@@ -134,10 +210,41 @@ solid_result boolean(std::span<const mesh_view> operands, const boolean_expressi
         result.open_count = cells.open_count;
         return result;
     }
-    const auto inside = inside_of_cells(cells, options.inside, expression);
+    if (options.volumes && operands.size() == 2)
+        result.volumes = detail::find_volumes(operands, arranged.cut, cells, options.inside);
+    const auto inside = detail::inside_of_cells(cells, options.inside, expression);
     result.cells = inside.size();
     detail::solid_faces chosen = detail::faces_around(arranged.cut, cells, inside);
-    finish(result, arranged.cut, std::move(chosen.faces), chosen.face_of, joined, true, options);
+    finish(result, arranged.cut, std::move(chosen.faces), std::move(chosen.face_of), joined, true,
+           options);
+    return result;
+}
+
+solid_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
+                  const boolean_expression& expression, const boolean_options& options) {
+    check_expression("clip", operands, expression);
+    if (sheet >= operands.size()) throw std::invalid_argument("tf::clip: the sheet is no operand");
+    if (!expression.needs(sheet))
+        throw std::invalid_argument("tf::clip: the expression holds more than of the sheet");
+    const joined_operands joined = detail::join_operands("clip", operands);
+    arrange_faces_result arranged =
+        arrange_faces(joined.all, {.progress = part_of(options.progress, 0.0, 0.5)});
+    solid_result result = with_counts(arranged);
+    if (result.cancelled) return result;
+    mesh_arrangement& cut = arranged.cut;
+    const std::vector<std::uint8_t> way = sheet_faces(cut, joined, sheet);
+    cover_from_both_sides(cut, joined, sheet);
+    const arrangement_cells cells =
+        find_cells(joined.all, cut, joined.operand_of_face, operands.size());
+    if (!cells.open.empty()) {
+        result.open = open_edges(cells, cut, joined);
+        result.open_count = cells.open_count;
+        return result;
+    }
+    result.cells = cells.winding.size() / operands.size();
+    detail::solid_faces chosen =
+        kept_of_sheet(cut, cells, joined, way, sheet, expression, options.inside);
+    finish(result, cut, std::move(chosen.faces), std::move(chosen.face_of), joined, false, options);
     return result;
 }
 
@@ -149,7 +256,11 @@ solid_result split(std::span<const mesh_view> operands, const boolean_options& o
     if (result.cancelled) return result;
     std::vector<std::uint32_t> all(arranged.cut.faces.size());
     std::iota(all.begin(), all.end(), 0U);
-    finish(result, arranged.cut, std::move(arranged.cut.faces), all, joined, false, options);
+    result.covered = count_covered(arranged, joined.all.faces.size());
+    boolean_options as_cut = options;
+    as_cut.simplify = false;
+    finish(result, arranged.cut, std::move(arranged.cut.faces), std::move(all), joined, false,
+           as_cut);
     return result;
 }
 

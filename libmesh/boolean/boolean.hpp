@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,14 @@ struct boolean_options {
     bool to_float = false;
     /// Steps of mending what rounding has broken before it is reported; see `round_surface`.
     int rounding_steps = 4;
+    /// Of the result, faces in one plane are merged: corners go that nothing but such faces, or
+    /// faces along one straight edge, has in common, exactly and before rounding.
+    bool simplify = false;
+    /// With `simplify`, [faces of all operands, one after the other], or empty: only faces with
+    /// equal values are merged.
+    std::span<const std::uint32_t> face_groups{};
+    /// Of two operands, find `solid_result::volumes`.
+    bool volumes = false;
     /// Of each operand it is known that it bounds a solid as a certified `solid_result` does: two
     /// of its faces have a common corner, a common edge or nothing in common, none is degenerate,
     /// corners with equal coordinates are one, every edge is closed, and what is behind the faces
@@ -52,6 +61,17 @@ struct boolean_options {
     progress_callback progress{};
 };
 
+/// The volumes of two operands and of what they make, for the identity
+/// first + second = either + both.
+struct operand_volumes {
+    /// Of operands that wind once around what is inside, as `signed_volume` without the sign; of
+    /// others, from the cells, as all below.
+    double first = 0.0;
+    double second = 0.0;
+    double either = 0.0;  ///< in the first or the second
+    double both = 0.0;    ///< in the first and in the second
+};
+
 /// A solid's surface in rounded coordinates, and what is certain about it.
 struct solid_result {
     /// Faces counter-clockwise from outside, in the order of the operands' faces they lie in;
@@ -60,6 +80,8 @@ struct solid_result {
     /// [F] the lowest face that each lies in; where rounding was mended, perhaps one beside it.
     std::vector<operand_element> source_face;
     std::vector<operand_element> source_point;  ///< [V] the lowest point that each is, or none
+    /// [V] with `simplify`, a face that each point that was cut lies in, else none; or empty.
+    std::vector<operand_element> face_of_cut_point{};
     double max_move = 0.0;  ///< bound of how far rounding moved a point, in each coordinate
     /// Checked on the coordinates above: two faces have a common corner, a common edge or nothing
     /// in common, no face is degenerate, every edge runs as often one way as the other.
@@ -74,8 +96,10 @@ struct solid_result {
     std::uint64_t pairs = 0;       ///< of input faces that meet beyond their shared corners
     std::uint64_t cut_faces = 0;   ///< input faces that were cut or covered by others
     std::uint64_t degenerate = 0;  ///< input faces without an area, which bound nothing
-    std::uint64_t cells = 0;       ///< parts of space that the operands' surfaces separate; 0
-                                   ///< where they were not looked for
+    std::uint64_t cells = 0;       ///< parts of space that the operands' surfaces separate; 0 where
+                                   ///< they were not looked for
+    std::uint64_t covered = 0;     ///< of `split`, input faces that lie on lower ones altogether
+    std::optional<operand_volumes> volumes{};
     bool cancelled = false;
 };
 
@@ -101,10 +125,28 @@ struct solid_result {
                                                 const boolean_expression& expression,
                                                 const boolean_options& options = {});
 
+/// The part of an open surface that `expression` keeps, in one arrangement with the solids that
+/// cut it: the pieces for which the expression is true when in operand `sheet`. A piece is in a
+/// solid also when it lies on its surface; so a sheet without a solid and what it has in common
+/// with it are the sheet, in two parts.
+///
+/// The sheet may end anywhere, overlap itself, and be closed, too. Pieces are oriented as the
+/// sheet's lowest faces they lie in. `certified` says nothing of edges. Where another operand is
+/// open, that is named as in `boolean`, and the rest is empty.
+///
+/// \throws std::invalid_argument as `boolean`, when `sheet` is no operand, or when the expression
+///         may be true outside of it (`boolean_expression::needs`), as that of a union
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API solid_result clip(std::span<const mesh_view> operands,
+                                             std::uint32_t sheet,
+                                             const boolean_expression& expression,
+                                             const boolean_options& options = {});
+
 /// All faces of the operands, cut along each other and along themselves, every piece once: two of
 /// them have a common corner, a common edge or nothing in common. Operands need not bound solids;
 /// `certified` says nothing of edges, and `open` stays empty. Where faces of several operands lie
-/// on each other, one piece stands for all; its source is the lowest of them.
+/// on each other, one piece stands for all; its source is the lowest of them. Nothing is
+/// simplified.
 ///
 /// \throws std::invalid_argument as `boolean`
 /// \same   on any number of threads

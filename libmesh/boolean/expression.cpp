@@ -137,6 +137,24 @@ class reader {
     std::vector<std::int32_t> postfix_{};
 };
 
+/// What can be said of a value before all operands are known.
+struct outlook {
+    bool may_be_false = true;
+    bool may_be_true = true;
+};
+
+outlook apply(std::int32_t operation, const outlook& left, const outlook& right) {
+    outlook result{false, false};
+    for (const bool l : {false, true})
+        for (const bool r : {false, true}) {
+            if (!(l ? left.may_be_true : left.may_be_false) ||
+                !(r ? right.may_be_true : right.may_be_false))
+                continue;
+            (apply(operation, l, r) ? result.may_be_true : result.may_be_false) = true;
+        }
+    return result;
+}
+
 }  // namespace
 
 boolean_expression::boolean_expression(std::string_view text, std::size_t operand_count)
@@ -180,6 +198,20 @@ bool boolean_expression::operator()(std::span<const bool> in_operand) const {
         values.back() = apply(token, values.back(), right);
     }
     return !values.empty() && values.back();
+}
+
+bool boolean_expression::needs(std::size_t operand) const {
+    std::vector<outlook> values;
+    for (const std::int32_t token : postfix_) {
+        if (token >= 0) {
+            values.push_back({true, static_cast<std::size_t>(token) != operand});
+            continue;
+        }
+        const outlook right = values.back();
+        values.pop_back();
+        values.back() = apply(token, values.back(), right);
+    }
+    return values.empty() || !values.back().may_be_true;
 }
 
 }  // namespace tf

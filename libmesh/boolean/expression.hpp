@@ -36,6 +36,10 @@ class TREEFORM_API boolean_expression {
     /// \pre `in_operand` has a value for each operand
     [[nodiscard]] bool operator()(std::span<const bool> in_operand) const;
 
+    /// Whether it is false for all points outside of that operand, whatever others they are in, as
+    /// far as going through it once tells: of `a-b` for a, of `a+b` for none.
+    [[nodiscard]] bool needs(std::size_t operand) const;
+
   private:
     boolean_expression(std::size_t operand_count, std::int32_t operation);
 

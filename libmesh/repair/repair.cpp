@@ -20,6 +20,7 @@ repaired_mesh from(solid_result&& made) {
     result.meeting_count = made.meeting_count;
     result.open = std::move(made.open);
     result.open_count = made.open_count;
+    result.covered = made.covered;
     result.cancelled = made.cancelled;
     return result;
 }
@@ -37,7 +38,8 @@ void count_losses(mesh_view mesh, repaired_mesh& result) {
         is_left[f] = 1;
         has_face[component[f]] = 1;
     }
-    result.removed = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
+    const auto gone = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
+    result.removed = gone - std::min(gone, result.covered);
     result.lost_components = static_cast<std::uint64_t>(std::ranges::count(has_face, 0));
 }
 

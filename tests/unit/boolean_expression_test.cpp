@@ -141,3 +141,19 @@ TEST_CASE("expression: random formulas have the values they were made with") {
         CHECK(boolean_expression(made.text, in.size())({in.data(), in.size()}) == made.value);
     }
 }
+
+TEST_CASE("boolean expression: what it needs is false without it") {
+    const auto needs = [](const char* text, std::size_t operand) {
+        return tf::boolean_expression(text, 3).needs(operand);
+    };
+    CHECK(needs("a-b", 0));
+    CHECK_FALSE(needs("a-b", 1));
+    CHECK(needs("a*b", 0));
+    CHECK(needs("a*b", 1));
+    CHECK_FALSE(needs("a+b", 0));
+    CHECK_FALSE(needs("a^b", 0));
+    CHECK(needs("(b+c)*a-c", 0));
+    CHECK(needs("(a-b)+(a-c)", 0));
+    CHECK_FALSE(needs("(a-b)+(c-b)", 0));
+    CHECK(tf::boolean_expression::union_of(0).needs(0));
+}

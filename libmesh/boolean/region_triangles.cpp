@@ -1,0 +1,198 @@
+#include <libmesh/arrange/detail/planar_triangulation.hpp>
+#include <libmesh/boolean/detail/region_triangles.hpp>
+#include <libmesh/exact/constructed_point.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+namespace tf::detail {
+namespace {
+
+constexpr std::uint32_t frame_size = 3;  ///< vertices that hold the region, and are not of it
+
+class triangulator {
+  public:
+    triangulator(const exact_surface& surface, const flat_region& region)
+        : surface_(surface), region_(region), ids_(region.points) {
+        std::sort(ids_.begin(), ids_.end());
+        ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+    }
+
+    std::vector<face> run() {
+        project();
+        planar_triangulation plane = start();
+        for (std::uint32_t i = 0; i < ids_.size(); ++i)
+            if (plane.insert(frame_size + i) != frame_size + i) fail();
+        force_rim(plane);
+        return inside(plane);
+    }
+
+  private:
+    using edge = std::array<std::uint32_t, 2>;
+
+    [[noreturn]] static void fail() {
+        throw std::logic_error("tf::boolean: a flat part of the surface has no rim");
+    }
+
+    [[nodiscard]] constructed_point point(std::uint32_t p) const {
+        return p < surface_.given.size() ? constructed_point(surface_.given[p])
+                                         : surface_.constructed[p - surface_.given.size()];
+    }
+
+    [[nodiscard]] std::uint32_t vertex_of(std::uint32_t p) const {
+        const auto at = std::lower_bound(ids_.begin(), ids_.end(), p);
+        if (at == ids_.end() || *at != p) fail();
+        return frame_size + static_cast<std::uint32_t>(at - ids_.begin());
+    }
+
+    /// An axis along which the plane's projection has an area, the largest as far as doubles tell.
+    void project() {
+        const std::array<constructed_point, 3> corners{
+            point(region_.plane[0]), point(region_.plane[1]), point(region_.plane[2])};
+        const point3 &a = corners[0].centre(), &b = corners[1].centre(), &c = corners[2].centre();
+        const point3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
+        const std::array<double, 3> normal{std::abs(u.y * v.z - u.z * v.y),
+                                           std::abs(u.z * v.x - u.x * v.z),
+                                           std::abs(u.x * v.y - u.y * v.x)};
+        std::array<int, 3> axes{0, 1, 2};
+        std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) {
+            return normal[static_cast<std::size_t>(i)] > normal[static_cast<std::size_t>(j)];
+        });
+        for (const int axis : axes) {
+            axis_ = axis;
+            orientation_ = orient2d(axis, corners[0], corners[1], corners[2]);
+            if (orientation_ != 0) return;
+        }
+        fail();
+    }
+
+    planar_triangulation start() {
+        std::vector<constructed_point> points;
+        points.reserve(frame_size + ids_.size());
+        points.resize(frame_size);
+        for (const std::uint32_t id : ids_) points.push_back(point(id));
+        const std::array<point3, 3> around = frame(points);
+        std::copy(around.begin(), around.end(), points.begin());
+        std::vector<std::vector<std::uint32_t>> lines(points.size());
+        name_lines();
+        for (std::size_t s = 0; s < region_.rim.size(); ++s)
+            for (const std::uint32_t end : {region_.rim[s].from, region_.rim[s].to})
+                lines[vertex_of(end)].push_back(line_of_side_[s]);
+        for (auto& of_point : lines) {
+            std::sort(of_point.begin(), of_point.end());
+            of_point.erase(std::unique(of_point.begin(), of_point.end()), of_point.end());
+        }
+        return {std::move(points), std::move(lines), axis_, orientation_,
+                [](std::uint32_t, std::uint32_t) -> constructed_point { fail(); }};
+    }
+
+    /// Lines with a name are those of the sides that have it, each other side has one of its own.
+    void name_lines() {
+        std::vector<std::uint32_t> names;
+        for (const flat_region::side& side : region_.rim) names.push_back(side.line);
+        std::sort(names.begin(), names.end());
+        names.erase(std::unique(names.begin(), names.end()), names.end());
+        auto own = static_cast<std::uint32_t>(names.size());
+        for (const flat_region::side& side : region_.rim)
+            line_of_side_.push_back(
+                side.line == flat_region::no_line
+                    ? own++
+                    : static_cast<std::uint32_t>(
+                          std::lower_bound(names.begin(), names.end(), side.line) - names.begin()));
+    }
+
+    /// A triangle that strictly holds all points in projection. Its legs are 6 d for the sum d of
+    /// the extents of the box of the points' balls, which lies d away from its right angle.
+    [[nodiscard]] std::array<point3, 3> frame(const std::vector<constructed_point>& points) const {
+        const auto x = static_cast<std::size_t>((axis_ + 1) % 3);
+        const auto y = static_cast<std::size_t>((axis_ + 2) % 3);
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        std::array<double, 2> low{infinity, infinity}, high{-infinity, -infinity};
+        for (std::size_t i = frame_size; i < points.size(); ++i) {
+            const point3& p = points[i].centre();
+            const double r = 2 * points[i].radius();
+            low = {std::min(low[0], p[x] - r), std::min(low[1], p[y] - r)};
+            high = {std::max(high[0], p[x] + r), std::max(high[1], p[y] + r)};
+        }
+        const double d = (high[0] - low[0]) + (high[1] - low[1]);
+        const double left = std::nextafter(low[0] - d, -infinity);
+        const double bottom = std::nextafter(low[1] - d, -infinity);
+        std::array<point3, 3> result{};
+        for (point3& p : result) {
+            p[x] = left;
+            p[y] = bottom;
+        }
+        result[1][x] = left + 6.0 * d;
+        result[2][y] = bottom + 6.0 * d;
+        if (orientation_ < 0) std::swap(result[1], result[2]);
+        return result;
+    }
+
+    void force_rim(planar_triangulation& plane) {
+        for (std::size_t s = 0; s < region_.rim.size(); ++s) {
+            const auto way = plane.constrain(vertex_of(region_.rim[s].from),
+                                             vertex_of(region_.rim[s].to), line_of_side_[s]);
+            for (std::size_t i = 0; i + 1 < way.size(); ++i) rim_.push_back({way[i], way[i + 1]});
+        }
+        std::sort(rim_.begin(), rim_.end());
+    }
+
+    [[nodiscard]] bool is_rim(std::uint32_t a, std::uint32_t b) const {
+        return std::binary_search(rim_.begin(), rim_.end(), edge{a, b}) ||
+               std::binary_search(rim_.begin(), rim_.end(), edge{b, a});
+    }
+
+    /// What is reached from the left of the rim without crossing it.
+    [[nodiscard]] std::vector<face> inside(const planar_triangulation& plane) const {
+        std::vector<std::uint8_t> seen(plane.triangle_count(), 0);
+        std::vector<std::uint32_t> open;
+        const auto enter = [&](std::uint32_t t) {
+            if (seen[t] == 0) open.push_back(t);
+            seen[t] = 1;
+        };
+        for (const auto& [from, to] : rim_) enter(plane.left_of(from, to));
+        while (!open.empty()) {
+            const std::uint32_t t = open.back();
+            open.pop_back();
+            const auto corners = plane.corners(t);
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (is_rim(corners[i], corners[(i + 1) % 3])) continue;
+                const std::uint32_t beyond = plane.across(t, i);
+                if (beyond == planar_triangulation::none) fail();
+                enter(beyond);
+            }
+        }
+        std::vector<face> result;
+        for (std::uint32_t t = 0; t < seen.size(); ++t) {
+            if (seen[t] == 0) continue;
+            face made{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::uint32_t vertex = plane.corners(t)[i];
+                if (vertex < frame_size) fail();
+                made[i] = ids_[vertex - frame_size];
+            }
+            result.push_back(made);
+        }
+        return result;
+    }
+
+    const exact_surface& surface_;
+    const flat_region& region_;
+    std::vector<std::uint32_t> ids_;  ///< of the points, ascending
+    std::vector<std::uint32_t> line_of_side_{};
+    std::vector<edge> rim_{};  ///< vertices, from and to, ascending
+    int axis_ = 2;
+    int orientation_ = 1;
+};
+
+}  // namespace
+
+std::vector<face> triangles_of(const exact_surface& surface, const flat_region& region) {
+    return triangulator(surface, region).run();
+}
+
+}  // namespace tf::detail

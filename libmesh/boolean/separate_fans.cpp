@@ -1,0 +1,237 @@
+#include <libmesh/arrange/detail/radial_order.hpp>
+#include <libmesh/boolean/separate_fans.hpp>
+#include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/union_find.hpp>
+#include <libmesh/weld/detail/edge_uses.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+namespace tf {
+namespace {
+
+using detail::face_side;
+
+/// An edge of more than two faces.
+struct touching_edge {
+    std::uint32_t low;
+    std::uint32_t high;
+    std::vector<face_side> sides;  ///< counter-clockwise, the first seen from behind where they do
+    bool alternates = false;       ///< between inside and outside, as around a solid
+    bool by_space = false;         ///< which faces stay together, see `separate_fans`
+};
+
+/// The faces at some edges as an arrangement of their own: all that sorting them needs.
+class few_faces {
+  public:
+    few_faces(mesh_view solid, const std::vector<touching_edge>& edges) {
+        for (const touching_edge& e : edges)
+            for (const face_side side : e.sides) ids_.push_back(detail::face_of(side));
+        std::sort(ids_.begin(), ids_.end());
+        ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+        for (const std::uint32_t f : ids_) {
+            face few{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                few[i] = static_cast<std::uint32_t>(mesh_.points.size());
+                mesh_.points.push_back(solid.points[solid.faces[f][i]]);
+            }
+            mesh_.faces.push_back(few);
+        }
+        cut_.given_points = mesh_.points;
+        cut_.faces = mesh_.faces;
+        for (std::uint32_t f = 0; f < ids_.size(); ++f) {
+            cut_.cover_begin.push_back(f);
+            cut_.covers.push_back({f, false});
+        }
+        cut_.cover_begin.push_back(ids_.size());
+    }
+
+    [[nodiscard]] mesh_view mesh() const { return mesh_; }
+    [[nodiscard]] const mesh_arrangement& cut() const { return cut_; }
+    [[nodiscard]] std::uint32_t number(std::uint32_t f) const {
+        return static_cast<std::uint32_t>(std::lower_bound(ids_.begin(), ids_.end(), f) -
+                                          ids_.begin());
+    }
+    [[nodiscard]] std::uint32_t face_of(std::uint32_t few) const { return ids_[few]; }
+    [[nodiscard]] std::uint32_t corner(std::uint32_t f, std::uint32_t i) const {
+        return cut_.faces[number(f)][i];
+    }
+
+  private:
+    std::vector<std::uint32_t> ids_;
+    tf::mesh mesh_;
+    mesh_arrangement cut_;
+};
+
+class separator {
+  public:
+    explicit separator(mesh_view solid)
+        : solid_(solid),
+          edges_(solid.points.size(), solid.faces, detail::repeated_corners::left_out) {}
+
+    separated_fans run() {
+        find_touching_edges();
+        sort_around_edges();
+        detail::union_find fans = find_fans();
+        const std::uint64_t shared = count_shared(fans);
+        if (shared == 0) return number_points(fans, 0);
+        for (touching_edge& e : touching_) e.by_space = e.alternates && is_shared(e, fans);
+        detail::union_find other_fans = find_fans();
+        const std::uint64_t shared_then = count_shared(other_fans);
+        return shared_then < shared ? number_points(other_fans, shared_then)
+                                    : number_points(fans, shared);
+    }
+
+  private:
+    [[nodiscard]] bool runs_up(std::uint32_t f, std::uint32_t low, std::uint32_t high) const {
+        const face& c = solid_.faces[f];
+        return (c[0] == low && c[1] == high) || (c[1] == low && c[2] == high) ||
+               (c[2] == low && c[0] == high);
+    }
+
+    void find_touching_edges() {
+        std::vector<std::vector<touching_edge>> found(edges_.chunks());
+        edges_.for_each([&](const detail::used_edge& edge, std::size_t chunk) {
+            if (edge.uses.size() <= 2) return;
+            touching_edge e{edge.low, edge.high, {}};
+            for (std::size_t i = 0; i < edge.uses.size(); ++i) {
+                const std::uint32_t f = edge.face(i);
+                e.sides.push_back(runs_up(f, e.low, e.high) ? detail::front_of(f)
+                                                            : detail::behind(f));
+            }
+            found[chunk].push_back(std::move(e));
+        });
+        for (auto& part : found)
+            touching_.insert(touching_.end(), std::make_move_iterator(part.begin()),
+                             std::make_move_iterator(part.end()));
+    }
+
+    void sort_around_edges() {
+        const few_faces few(solid_, touching_);
+        detail::radial_order radial(few.mesh(), few.cut());
+        for (touching_edge& e : touching_) {
+            std::vector<face_side> sides;
+            for (const face_side side : e.sides)
+                sides.push_back(2 * few.number(detail::face_of(side)) + (side & 1U));
+            const std::uint32_t f = detail::face_of(e.sides[0]);
+            const std::array<std::uint32_t, 2> ends{few.corner(f, i_of(f, e.low)),
+                                                    few.corner(f, i_of(f, e.high))};
+            if (!radial.sort(ends, sides) || !alternate(sides)) continue;
+            // What looks on from a face that is seen from behind is a wedge of the solid.
+            if (!detail::is_behind(sides[0]))
+                std::rotate(sides.begin(), sides.begin() + 1, sides.end());
+            for (std::size_t i = 0; i < sides.size(); ++i)
+                e.sides[i] = 2 * few.face_of(detail::face_of(sides[i])) + (sides[i] & 1U);
+            e.alternates = true;
+        }
+    }
+
+    static bool alternate(const std::vector<face_side>& sides) {
+        for (std::size_t i = 0; i < sides.size(); ++i)
+            if (detail::is_behind(sides[i]) == detail::is_behind(sides[(i + 1) % sides.size()]))
+                return false;
+        return true;
+    }
+
+    [[nodiscard]] std::uint32_t i_of(std::uint32_t f, std::uint32_t point) const {
+        const face& c = solid_.faces[f];
+        return c[0] == point ? 0 : c[1] == point ? 1 : 2;
+    }
+    [[nodiscard]] std::uint32_t corner(std::uint32_t f, std::uint32_t point) const {
+        return 3 * f + i_of(f, point);
+    }
+
+    /// The pairs of faces that stay together at an edge.
+    template <class Visit>
+    static void for_each_pair(const touching_edge& e, const Visit& visit) {
+        const std::size_t count = e.sides.size();
+        for (std::size_t i = e.by_space ? 1 : 0; i < count; i += 2)
+            visit(detail::face_of(e.sides[i]), detail::face_of(e.sides[(i + 1) % count]));
+    }
+
+    /// Sets of the 3 F corners: those that become one point.
+    [[nodiscard]] detail::union_find find_fans() const {
+        detail::union_find fans(3 * solid_.faces.size());
+        const auto join = [&](std::uint32_t f, std::uint32_t g, std::uint32_t low,
+                              std::uint32_t high) {
+            fans.join(corner(f, low), corner(g, low));
+            fans.join(corner(f, high), corner(g, high));
+        };
+        edges_.for_each([&](const detail::used_edge& edge, std::size_t) {
+            if (edge.uses.size() == 2) join(edge.face(0), edge.face(1), edge.low, edge.high);
+        });
+        for (const touching_edge& e : touching_) {
+            if (e.alternates)
+                for_each_pair(e,
+                              [&](std::uint32_t f, std::uint32_t g) { join(f, g, e.low, e.high); });
+            else
+                for (const face_side side : e.sides)
+                    join(detail::face_of(e.sides[0]), detail::face_of(side), e.low, e.high);
+        }
+        return fans;
+    }
+
+    /// Whether more than two faces have the edge between the same points.
+    [[nodiscard]] bool is_shared(const touching_edge& e, detail::union_find& fans) const {
+        if (!e.alternates) return true;
+        std::vector<std::array<std::uint32_t, 2>> ends;
+        for_each_pair(e, [&](std::uint32_t f, std::uint32_t) {
+            ends.push_back({fans.root(corner(f, e.low)), fans.root(corner(f, e.high))});
+        });
+        std::sort(ends.begin(), ends.end());
+        return std::adjacent_find(ends.begin(), ends.end()) != ends.end();
+    }
+
+    [[nodiscard]] std::uint64_t count_shared(detail::union_find& fans) const {
+        return static_cast<std::uint64_t>(
+            std::count_if(touching_.begin(), touching_.end(),
+                          [&](const touching_edge& e) { return is_shared(e, fans); }));
+    }
+
+    /// A point's first fan keeps its number.
+    [[nodiscard]] separated_fans number_points(detail::union_find& fans,
+                                               std::uint64_t shared_edges) const {
+        separated_fans result;
+        mesh& surface = result.surface;
+        surface.points.assign(solid_.points.begin(), solid_.points.end());
+        surface.faces.assign(solid_.faces.begin(), solid_.faces.end());
+        result.point_of.resize(surface.points.size());
+        std::iota(result.point_of.begin(), result.point_of.end(), 0U);
+        std::vector<std::uint8_t> is_taken(surface.points.size(), 0);
+        std::vector<std::uint32_t> point_of_corner(fans.size());
+        for (std::uint32_t c = 0; c < fans.size(); ++c) {
+            const std::uint32_t point = solid_.faces[c / 3][c % 3];
+            if (const std::uint32_t root = fans.root(c); root != c) {
+                point_of_corner[c] = point_of_corner[root];
+            } else if (is_taken[point] == 0) {
+                is_taken[point] = 1;
+                point_of_corner[c] = point;
+            } else {
+                point_of_corner[c] = static_cast<std::uint32_t>(surface.points.size());
+                surface.points.push_back(solid_.points[point]);
+                result.point_of.push_back(point);
+                ++result.doubled_points;
+            }
+            surface.faces[c / 3][c % 3] = point_of_corner[c];
+        }
+        result.shared_edges = shared_edges;
+        return result;
+    }
+
+    mesh_view solid_;
+    detail::edge_uses edges_;
+    std::vector<touching_edge> touching_{};
+};
+
+}  // namespace
+
+separated_fans separate_fans(mesh_view solid) {
+    detail::check_faces("separate_fans", solid.points.size(), solid.faces);
+    return separator(solid).run();
+}
+
+}  // namespace tf
