@@ -2,15 +2,17 @@
 /// `tf::intersect` against exact rational geometry on every family of hard pairs:
 ///   - `CGAL::do_intersect` of the exact kernel says whether the pair meets;
 ///   - the reference (half-space clipping in GMP integers) says how, end by end, by name;
-///   - `CGAL::intersection` says which points the ends are, and the reference must agree.
+///   - `CGAL::intersection` says which points the ends are, and the reference must agree;
+///   - the library's integers alone, by which tests/stress judges the filters, say the same.
 ///
 /// Pairs a family: 2000, or $TREEFORM_STRESS_COUNT. The long run, after building this target:
 ///   TREEFORM_STRESS_COUNT=100000000 TREEFORM_STRESS_SEED=7 tests/oracle/triangle_triangle_oracle
 /// $TREEFORM_STRESS_FAMILY (a name below) confines it to one family, so that families can run side
 /// by side. CGAL::intersection is asked about the first 10^5 pairs of each.
 
-#include "support/reference_intersection.hpp"
+#include "support/gmp_lattice.hpp"
 #include "support/stress_families.hpp"
+#include "support/unfiltered.hpp"
 #include <libmesh/geometry/triangle_triangle.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -21,11 +23,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -33,65 +33,17 @@
 #include <variant>
 #include <vector>
 
-namespace tf::test {
-inline void reduce(homogeneous<mpz_class>&) {}  // numbers stay short enough
-}  // namespace tf::test
-
 namespace {
 
 using tf::overlap;
 using tf::triangle3;
 using tf::triangle_contact;
+using tf::test::lattice_pair;
 using tf::test::reference_contact;
 using tf::test::stress_family;
 using tf::test::triangle_pair;
-using exact_reference = tf::test::reference_intersection<mpz_class>;
-using exact_triangle = tf::test::triangle_of<mpz_class>;
-
-// --- coordinates as integers on one power-of-two lattice ---
-
-/// x = mantissa * 2^exponent, mantissa odd or 0.
-struct binary {
-    std::int64_t mantissa = 0;
-    int exponent = std::numeric_limits<int>::max();
-};
-
-binary decoded(double x) {
-    const auto bits = std::bit_cast<std::uint64_t>(x);
-    const int biased = static_cast<int>(bits >> 52 & 0x7ff);
-    std::uint64_t mantissa = bits & ((std::uint64_t{1} << 52) - 1);
-    if (biased != 0) mantissa |= std::uint64_t{1} << 52;
-    if (mantissa == 0) return {};
-    const int shift = std::countr_zero(mantissa);
-    const auto magnitude = static_cast<std::int64_t>(mantissa >> shift);
-    return {x < 0 ? -magnitude : magnitude, std::max(biased, 1) - 1075 + shift};
-}
-
-struct lattice_pair {
-    exact_triangle a;
-    exact_triangle b;
-    int exponent;  ///< of the lattice step
-};
-
-lattice_pair on_lattice(const triangle_pair& pair) {
-    int step = std::numeric_limits<int>::max();
-    for (const triangle3* t : {&pair.a, &pair.b})
-        for (const tf::point3& p : *t)
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                step = std::min(step, decoded(p[axis]).exponent);
-    const auto integral = [&](const triangle3& t) {
-        exact_triangle result;
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const binary x = decoded(t[i][axis]);
-                if (x.mantissa != 0)
-                    result[i][axis] = mpz_class(static_cast<long>(x.mantissa))
-                                      << static_cast<unsigned long>(x.exponent - step);
-            }
-        return result;
-    };
-    return {integral(pair.a), integral(pair.b), step == std::numeric_limits<int>::max() ? 0 : step};
-}
+using exact_reference = tf::test::gmp_reference;
+using exact_triangle = tf::test::gmp_triangle;
 
 // --- CGAL's view of a pair ---
 
@@ -217,6 +169,9 @@ void check_pair(const triangle_pair& pair, bool with_points, tally& sum) {
     if (std::visit(cgal_meet{}, a, b) != (found.kind != overlap::none))
         fail(sum.wrong_verdicts, "verdict");
     if (!agrees(found, expected)) fail(sum.wrong_classes, "class");
+    if (const auto truth = tf::test::unfiltered_contacts::of(pair.a, pair.b);
+        truth.has_value() == expected.degenerate || (truth && !truth->agrees(found)))
+        fail(sum.wrong_classes, "the library's integers alone");
     if (!mirrors(tf::intersect(pair.b, pair.a), found)) fail(sum.wrong_swapped, "swapped");
     if (with_points && !expected.degenerate &&
         !same_points(cgal_corners(std::get<kernel::Triangle_3>(a), std::get<kernel::Triangle_3>(b)),
