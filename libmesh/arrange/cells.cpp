@@ -21,8 +21,21 @@ using detail::face_side;
 using detail::numbered_sets;
 using detail::surface_patches;
 
+constexpr std::size_t grain = std::size_t{1} << 16;
+
 [[noreturn]] void refuse(const std::string& why) {
     throw std::invalid_argument("tf::find_cells: " + why);
+}
+
+/// Lowest i in [0, count) that `bad` holds for, or `count`.
+template <class Bad>
+std::size_t first_bad(std::size_t count, const Bad& bad) {
+    std::vector<std::size_t> first(chunk_count(count, grain), count);
+    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        for (std::size_t i = begin; i < end && first[chunk] == count; ++i)
+            if (bad(i)) first[chunk] = i;
+    });
+    return first.empty() ? count : *std::min_element(first.begin(), first.end());
 }
 
 void check(mesh_view mesh, const mesh_arrangement& cut,
@@ -33,17 +46,21 @@ void check(mesh_view mesh, const mesh_arrangement& cut,
     if (cut.faces.size() > std::numeric_limits<std::uint32_t>::max() / 2)
         refuse("more than 2^31 - 1 faces");
     detail::check_faces("find_cells", cut.given_points.size() + cut.constructed.size(), cut.faces);
-    for (std::size_t f = 0; f < cut.faces.size(); ++f)
-        if (cut.cover_begin[f] >= cut.cover_begin[f + 1] ||
-            cut.cover_begin[f + 1] > cut.covers.size())
-            refuse("nothing covers face " + std::to_string(f) + " of the arrangement");
-    for (const covering_face& cover : cut.covers)
-        if (cover.face >= mesh.faces.size())
-            refuse("a cover is no face: " + std::to_string(cover.face));
+    const std::size_t bad_face = first_bad(cut.faces.size(), [&](std::size_t f) {
+        return cut.cover_begin[f] >= cut.cover_begin[f + 1] ||
+               cut.cover_begin[f + 1] > cut.covers.size();
+    });
+    if (bad_face != cut.faces.size())
+        refuse("nothing covers face " + std::to_string(bad_face) + " of the arrangement");
+    const std::size_t bad_cover = first_bad(
+        cut.covers.size(), [&](std::size_t i) { return cut.covers[i].face >= mesh.faces.size(); });
+    if (bad_cover != cut.covers.size())
+        refuse("a cover is no face: " + std::to_string(cut.covers[bad_cover].face));
     if (operand_of_face.size() != mesh.faces.size()) refuse("not as many operands as faces");
-    for (std::size_t f = 0; f < operand_of_face.size(); ++f)
-        if (operand_of_face[f] >= operand_count)
-            refuse("face " + std::to_string(f) + " is of no operand");
+    const std::size_t bad_operand = first_bad(
+        operand_of_face.size(), [&](std::size_t f) { return operand_of_face[f] >= operand_count; });
+    if (bad_operand != operand_of_face.size())
+        refuse("face " + std::to_string(bad_operand) + " is of no operand");
 }
 
 /// What crossing the surface from front to behind adds to the windings.
@@ -247,7 +264,6 @@ arrangement_cells find_cells(mesh_view mesh, const mesh_arrangement& cut,
     const numbered_sets cells = joined.number();
     result.winding = winding_flood(patches, cells, labels, operand_count).run();
     result.cell_of_side.resize(cut.faces.size());
-    constexpr std::size_t grain = std::size_t{1} << 16;
     for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
             const std::size_t p = patches.patch[f];

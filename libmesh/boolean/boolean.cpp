@@ -23,6 +23,8 @@ namespace {
 
 using detail::joined_operands;
 
+constexpr std::size_t grain = std::size_t{1} << 15;
+
 /// `callback` as it is told of a step that does the share from `begin` to `end` of the work.
 progress_callback part_of(const progress_callback& callback, double begin, double end) {
     if (!callback) return {};
@@ -50,6 +52,7 @@ solid_result with_counts(const arrange_faces_result& arranged) {
 
 /// Whether two faces are one, turned or not.
 bool same_corners(const face& f, const face& g) { return f == g || f == face{g[0], g[2], g[1]}; }
+
 /// Merges coplanar faces of the surface. By point that was cut, a face of before that it lies in.
 std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uint32_t>& face_of,
                                       const mesh_arrangement& cut, const joined_operands& joined,
@@ -77,19 +80,28 @@ std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uin
 }
 
 /// `exact_faces` are faces of `cut`, `face_of` says which; both become the surface of `result`.
+/// What is not needed any more is let go on the way: `cut` and `joined.all` are empty then.
 void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact_faces,
-            std::vector<std::uint32_t> face_of, const joined_operands& joined, bool solid,
+            std::vector<std::uint32_t> face_of, joined_operands& joined, bool solid,
             const boolean_options& options) {
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(exact_faces), std::vector<std::uint8_t>(face_of.size())};
-    for (std::size_t f = 0; f < face_of.size(); ++f) {
-        const std::uint32_t source = cut.covers_of(face_of[f]).front().face;
-        exact.sound[f] =
-            cut.whole[face_of[f]] != 0 && same_corners(exact.faces[f], joined.all.faces[source]);
-    }
+    for_chunks(face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const std::uint32_t source = cut.covers_of(face_of[f]).front().face;
+            exact.sound[f] = cut.whole[face_of[f]] != 0 &&
+                             same_corners(exact.faces[f], joined.all.faces[source]);
+        }
+    });
     const std::size_t given = exact.given.size();
     std::vector<operand_element> face_of_point;
     if (options.simplify) face_of_point = simplify(exact, face_of, cut, joined, options);
+    for_chunks(face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f)
+            face_of[f] = cut.covers_of(face_of[f]).front().face;  // of the input from here on
+    });
+    cut = {};
+    joined.all = {};
     rounded_surface r =
         round_surface(std::move(exact), {.to_float = options.to_float,
                                          .solid = solid,
@@ -103,12 +115,16 @@ void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact
     result.meeting_faces = std::move(r.meeting);
     result.meeting_count = r.meeting_count;
     result.rounding_steps = r.steps;
-    result.source_face.reserve(r.face_of.size());
-    for (const std::uint32_t f : r.face_of)
-        result.source_face.push_back(joined.face_source(cut.covers_of(face_of[f]).front().face));
-    result.source_point.reserve(r.point_of.size());
-    for (const std::uint32_t p : r.point_of)
-        result.source_point.push_back(p < given ? joined.point_source(p) : operand_element{});
+    result.source_face.resize(r.face_of.size());
+    for_chunks(r.face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f)
+            result.source_face[f] = joined.face_source(face_of[r.face_of[f]]);
+    });
+    result.source_point.resize(r.point_of.size());
+    for_chunks(r.point_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t p = begin; p < end; ++p)
+            if (r.point_of[p] < given) result.source_point[p] = joined.point_source(r.point_of[p]);
+    });
     if (!options.simplify) return;
     for (const std::uint32_t p : r.point_of)
         result.face_of_cut_point.push_back(
@@ -198,12 +214,12 @@ solid_result boolean(std::span<const mesh_view> operands, const boolean_expressi
     if (options.sound_operands && operands.size() == 2 && !options.simplify && !options.volumes)
         if (auto result = detail::boolean_of_sound_pair(operands.first<2>(), expression, options))
             return std::move(*result);
-    const joined_operands joined = detail::join_operands("boolean", operands);
+    joined_operands joined = detail::join_operands("boolean", operands);
     arrange_faces_result arranged =
         arrange_faces(joined.all, {.progress = part_of(options.progress, 0.0, 0.5)});
     solid_result result = with_counts(arranged);
     if (result.cancelled) return result;
-    const arrangement_cells cells =
+    arrangement_cells cells =
         find_cells(joined.all, arranged.cut, joined.operand_of_face, operands.size());
     if (!cells.open.empty()) {
         result.open = open_edges(cells, arranged.cut, joined);
@@ -215,6 +231,7 @@ solid_result boolean(std::span<const mesh_view> operands, const boolean_expressi
     const auto inside = detail::inside_of_cells(cells, options.inside, expression);
     result.cells = inside.size();
     detail::solid_faces chosen = detail::faces_around(arranged.cut, cells, inside);
+    cells = {};  // nearly as large as the surface
     finish(result, arranged.cut, std::move(chosen.faces), std::move(chosen.face_of), joined, true,
            options);
     return result;
@@ -226,7 +243,7 @@ solid_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
     if (sheet >= operands.size()) throw std::invalid_argument("tf::clip: the sheet is no operand");
     if (!expression.needs(sheet))
         throw std::invalid_argument("tf::clip: the expression holds more than of the sheet");
-    const joined_operands joined = detail::join_operands("clip", operands);
+    joined_operands joined = detail::join_operands("clip", operands);
     arrange_faces_result arranged =
         arrange_faces(joined.all, {.progress = part_of(options.progress, 0.0, 0.5)});
     solid_result result = with_counts(arranged);
@@ -249,7 +266,7 @@ solid_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
 }
 
 solid_result split(std::span<const mesh_view> operands, const boolean_options& options) {
-    const joined_operands joined = detail::join_operands("split", operands);
+    joined_operands joined = detail::join_operands("split", operands);
     arrange_faces_result arranged =
         arrange_faces(joined.all, {.progress = part_of(options.progress, 0.0, 0.7)});
     solid_result result = with_counts(arranged);

@@ -1,10 +1,10 @@
 #include <libmesh/boolean/detail/joined_operands.hpp>
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/used_points.hpp>
 #include <libmesh/weld/equal_points.hpp>
 #include <libtree/parallel.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -27,21 +27,6 @@ void require_nameable(const char* function, std::size_t count, const char* what)
 }
 
 constexpr std::size_t grain = std::size_t{1} << 15;
-
-/// Ascending.
-std::vector<std::uint32_t> used_points(mesh_view mesh) {
-    std::vector<std::uint8_t> used(mesh.points.size(), 0);
-    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t f = begin; f < end; ++f)
-            for (const std::uint32_t corner : mesh.faces[f])
-                std::atomic_ref(used[corner]).store(1, std::memory_order_relaxed);
-    });
-    std::vector<std::uint32_t> points;
-    points.reserve(used.size());
-    for (std::uint32_t p = 0; p < used.size(); ++p)
-        if (used[p] != 0) points.push_back(p);
-    return points;
-}
 
 void renumber(std::vector<face>& faces, const std::vector<std::uint32_t>& new_of_old) {
     for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -82,7 +67,7 @@ void append_all(std::span<const mesh_view> operands, joined_operands& joined) {
 /// Leaves out points that no face uses, which may be anything, also NaN.
 void keep_used(joined_operands& joined) {
     mesh& all = joined.all;
-    joined.number_of_point = used_points(all);
+    joined.number_of_point = used_points(all.points.size(), all.faces);
     const std::vector<std::uint32_t>& used = joined.number_of_point;
     if (used.size() == all.points.size()) return;
     std::vector<std::uint32_t> new_of_old(all.points.size(), 0);

@@ -2,6 +2,7 @@
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/detail/stars.hpp>
+#include <libmesh/detail/used_points.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libmesh/round/detail/join_near.hpp>
 #include <libmesh/round/detail/solid_faces.hpp>
@@ -21,6 +22,7 @@ namespace tf {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 12;
+constexpr std::size_t face_grain = std::size_t{1} << 15;
 constexpr std::size_t listed_pairs = 100;
 
 bool is_finite(const point3& p) {
@@ -104,20 +106,10 @@ class rounding {
         return options_.to_float ? rounded_to_float(made) : rounded(made);
     }
 
-    /// The numbers of the points that faces use, ascending.
-    [[nodiscard]] std::vector<std::uint32_t> used_points() const {
-        std::vector<std::uint8_t> used(exact_.given.size() + exact_.constructed.size(), 0);
-        for (const face& f : exact_.faces)
-            for (const std::uint32_t corner : f) used[corner] = 1;
-        std::vector<std::uint32_t> points;
-        for (std::uint32_t p = 0; p < used.size(); ++p)
-            if (used[p] != 0) points.push_back(p);
-        return points;
-    }
-
     /// The exact surface becomes the rounded one; false when a coordinate is too large for it.
     bool settle() {
-        const std::vector<std::uint32_t> points = used_points();
+        const std::vector<std::uint32_t> points =
+            detail::used_points(exact_.given.size() + exact_.constructed.size(), exact_.faces);
         std::vector<point3> at(points.size());
         std::vector<double> moves(chunk_count(points.size(), grain), 0.0);
         for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
@@ -128,7 +120,7 @@ class rounding {
         });
         if (!moves.empty()) result_.max_move += *std::max_element(moves.begin(), moves.end());
         const bool finite = std::all_of(at.begin(), at.end(), is_finite);
-        join_equal(points, at);
+        join_equal(points, std::move(at));
         return finite;
     }
 
@@ -145,31 +137,56 @@ class rounding {
 
     /// Equal points become one, under the number of the lowest of them; faces that repeat a corner
     /// then go: what is left of them runs back and forth.
-    void join_equal(const std::vector<std::uint32_t>& points, const std::vector<point3>& at) {
-        const equal_points equal = find_equal_points(at);
-        const std::size_t count = equal.first_of_new.size();
-        mesh& now = result_.surface;
-        now.points.resize(count);
-        std::vector<std::uint32_t> point_of(count);
-        for (std::size_t p = 0; p < count; ++p) {
-            const std::uint32_t first = equal.first_of_new[p];
-            now.points[p] = at[first];
-            point_of[p] = point_of_[points[first]];
-        }
+    void join_equal(const std::vector<std::uint32_t>& points, std::vector<point3> at) {
         std::vector<std::uint32_t> new_of_old(point_of_.size(), 0);
-        for (std::size_t i = 0; i < points.size(); ++i) new_of_old[points[i]] = equal.new_of_old[i];
-        now.faces.clear();
-        sound_.clear();
-        std::vector<std::uint32_t> face_of;
-        for (std::size_t f = 0; f < exact_.faces.size(); ++f) {
-            const auto [a, b, c] = exact_.faces[f];
-            const face joined{new_of_old[a], new_of_old[b], new_of_old[c]};
-            if (!detail::has_three_corners(joined)) continue;
-            now.faces.push_back(joined);
-            if (!exact_.sound.empty()) sound_.push_back(stays_sound(f, now.points, joined));
-            face_of.push_back(result_.face_of[f]);
+        std::vector<std::uint32_t> point_of(points.size());
+        {
+            const equal_points equal = find_equal_points(at);
+            const std::size_t count = equal.first_of_new.size();
+            for (std::size_t p = 0; p < count; ++p) {  // in place: a first point is no earlier
+                const std::uint32_t first = equal.first_of_new[p];
+                at[p] = at[first];
+                point_of[p] = point_of_[points[first]];
+            }
+            at.resize(count);
+            point_of.resize(count);
+            for (std::size_t i = 0; i < points.size(); ++i)
+                new_of_old[points[i]] = equal.new_of_old[i];
         }
+        result_.surface.points = std::move(at);
         point_of_ = std::move(point_of);
+        take_faces(new_of_old);
+    }
+
+    /// The exact faces in new numbers, without those that repeat a corner.
+    void take_faces(const std::vector<std::uint32_t>& new_of_old) {
+        const std::vector<face>& exact = exact_.faces;
+        const auto renumbered = [&](std::size_t f) {
+            const auto [a, b, c] = exact[f];
+            return face{new_of_old[a], new_of_old[b], new_of_old[c]};
+        };
+        std::vector<std::size_t> first(chunk_count(exact.size(), face_grain) + 1, 0);
+        for_chunks(exact.size(), face_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                       for (std::size_t f = begin; f < end; ++f)
+                           first[chunk + 1] += detail::has_three_corners(renumbered(f)) ? 1 : 0;
+                   });
+        for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+        mesh& now = result_.surface;
+        now.faces.resize(first.back());
+        sound_.resize(exact_.sound.empty() ? 0 : first.back());
+        std::vector<std::uint32_t> face_of(first.back());
+        for_chunks(exact.size(), face_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                       std::size_t next = first[chunk];
+                       for (std::size_t f = begin; f < end; ++f) {
+                           const face joined = renumbered(f);
+                           if (!detail::has_three_corners(joined)) continue;
+                           now.faces[next] = joined;
+                           if (!sound_.empty()) sound_[next] = stays_sound(f, now.points, joined);
+                           face_of[next++] = result_.face_of[f];
+                       }
+                   });
         result_.face_of = std::move(face_of);
     }
 

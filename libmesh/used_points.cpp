@@ -1,0 +1,32 @@
+#include <libmesh/detail/used_points.hpp>
+#include <libtree/parallel.hpp>
+
+#include <atomic>
+
+namespace tf::detail {
+
+std::vector<std::uint32_t> used_points(std::size_t point_count, std::span<const face> faces) {
+    constexpr std::size_t grain = std::size_t{1} << 15;
+    std::vector<std::uint8_t> used(point_count, 0);
+    for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f)
+            for (const std::uint32_t corner : faces[f])
+                std::atomic_ref(used[corner]).store(1, std::memory_order_relaxed);
+    });
+    std::vector<std::size_t> first(chunk_count(point_count, grain) + 1, 0);
+    for_chunks(point_count, grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::size_t count = 0;
+        for (std::size_t p = begin; p < end; ++p) count += used[p];
+        first[c + 1] = count;
+    });
+    for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+    std::vector<std::uint32_t> points(first.back());
+    for_chunks(point_count, grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::size_t next = first[c];
+        for (std::size_t p = begin; p < end; ++p)
+            if (used[p] != 0) points[next++] = static_cast<std::uint32_t>(p);
+    });
+    return points;
+}
+
+}  // namespace tf::detail
