@@ -33,4 +33,7 @@ namespace tf {
 [[nodiscard]] TREEFORM_API mesh_file read_mesh(std::span<const std::byte> bytes,
                                                std::string_view name, std::string_view format);
 
+/// Whether scenes (GLB, 3MF, DAE, ...) are read: not by builds without assimp.
+[[nodiscard]] TREEFORM_API bool reads_scenes();
+
 }  // namespace tf

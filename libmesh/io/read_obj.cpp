@@ -59,7 +59,7 @@ class obj_reader {
         if (file_.mesh.points.size() > std::numeric_limits<std::uint32_t>::max() ||
             file_.mesh.faces.size() > std::numeric_limits<std::uint32_t>::max())
             text_.file.fail("more vertices or triangles than 32-bit numbers can name");
-        if (file_.mesh.points.empty() && file_.mesh.faces.empty())
+        if (file_.mesh.points.empty() && file_.mesh.faces.empty() && has_other_lines_)
             text_.file.fail("no vertex and no face found: not an OBJ file?");
     }
 
@@ -93,6 +93,7 @@ class obj_reader {
         if ((first == 'o' || first == 'g') && one_letter) return name(first);
         if (first == 'u' && text_.starts_with("usemtl")) return name(first);
         if (first == '\0') text_.fail("a zero byte: binary data, not text");
+        has_other_lines_ = true;
         // Anything else is left out. Where such a statement is continued, the next line starts with
         // a number and is left out in its turn.
     }
@@ -206,6 +207,7 @@ class obj_reader {
     std::uint64_t largest_index_ = 0;
     std::size_t skipped_elements_ = 0;
     bool has_more_indices_ = false;
+    bool has_other_lines_ = false;  ///< than comments, vertices, faces, elements and names
     bool has_colours_ = false;
     std::vector<double> colours_{};  ///< [3 * vertices] as long as every vertex has one
 };

@@ -1,5 +1,6 @@
 #include <libmesh/io/detail/face_sink.hpp>
 #include <libmesh/io/detail/readers.hpp>
+#include <libmesh/io/read.hpp>
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -155,3 +156,5 @@ mesh_file read_scene(const source& in, const std::filesystem::path& path,
 }
 
 }  // namespace tf::detail
+
+bool tf::reads_scenes() { return true; }

@@ -1,4 +1,5 @@
 #include <libmesh/io/detail/readers.hpp>
+#include <libmesh/io/read.hpp>
 
 #include <string>
 
@@ -11,3 +12,5 @@ mesh_file read_scene(const source& in, const std::filesystem::path&, std::string
 }
 
 }  // namespace tf::detail
+
+bool tf::reads_scenes() { return false; }

@@ -39,8 +39,11 @@ struct write_result {
 /// OFF normals, colours and texture coordinates, OBJ parts and vertex colours, STL its header, the
 /// names of solids and the column "stl_attribute", XYZ and CSV further columns, PCD these and the
 /// lines "num_cols", "num_rows" and "viewpoint" of `obj_info`, GLB one primitive for each
-/// colour of faces (columns red, green, blue and alpha, if any, of the element "face"). Polygons
-/// are written as such where the format has them.
+/// colour of faces (columns red, green, blue and alpha, if any, of the element "face"), and of the
+/// other columns of faces those of whole numbers from 0 on, as accessors that the primitive's
+/// `extras.face_properties` names. Polygons are written as such where the format has them.
+///
+/// A mesh without points and faces can be written in every format but GLB, and read again.
 ///
 /// \throws io_error when the format cannot hold the file or the file cannot be written
 /// \throws std::invalid_argument when a corner is no point, or an element "vertex" or "face" has

@@ -67,6 +67,27 @@ struct primitive {
     return largest;
 }
 
+/// Columns of faces that glTF has a type for: whole numbers from 0 on. Colours have become
+/// materials.
+[[nodiscard]] std::vector<const column*> numbers_of_faces(const mesh_file& file) {
+    std::vector<const column*> numbers;
+    const element* const faces = find_element(file.attributes, "face");
+    if (faces == nullptr) return numbers;
+    const auto colours = colour_columns(file, "face");
+    for (const column& c : faces->columns) {
+        if (c.role != column_role::data || c.list_length ||
+            std::find(colours.begin(), colours.end(), &c) != colours.end())
+            continue;
+        bool fits = c.type != scalar_type::float32 && c.type != scalar_type::float64;
+        for (std::size_t i = 0; fits && i < value_count(c); ++i) {
+            const double value = number_at(c, i);
+            fits = value >= 0.0 && value <= std::numeric_limits<std::uint32_t>::max();
+        }
+        if (fits) numbers.push_back(&c);
+    }
+    return numbers;
+}
+
 struct box {
     point3 min;
     point3 max;
@@ -98,8 +119,11 @@ struct box {
 }
 
 [[nodiscard]] json describe(const std::vector<primitive>& primitives, const write_job& job,
-                            const box& b, const point3& offset, std::size_t position_bytes,
-                            std::size_t index_bytes) {
+                            const std::vector<const column*>& numbers, const box& b,
+                            const point3& offset) {
+    const std::size_t position_bytes = 12 * job.file.mesh.points.size();
+    const std::size_t index_bytes = 12 * job.file.mesh.faces.size();
+    const std::size_t number_bytes = 4 * job.file.mesh.faces.size();
     json root;
     root["asset"] = {{"version", "2.0"}, {"generator", "treeform"}};
     root["scene"] = 0;
@@ -113,13 +137,19 @@ struct box {
             xyz.push_back(nearest_float(p[axis] - offset[axis]));
         return xyz;
     };
-    root["buffers"] = json::array({{{"byteLength", position_bytes + index_bytes}}});
-    root["bufferViews"] = json::array(
+    root["buffers"] = json::array(
+        {{{"byteLength", position_bytes + index_bytes + numbers.size() * number_bytes}}});
+    json views = json::array(
         {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", position_bytes}, {"target", 34962}},
          {{"buffer", 0},
           {"byteOffset", position_bytes},
           {"byteLength", index_bytes},
           {"target", 34963}}});
+    for (std::size_t n = 0; n < numbers.size(); ++n)
+        views.push_back({{"buffer", 0},
+                         {"byteOffset", position_bytes + index_bytes + n * number_bytes},
+                         {"byteLength", number_bytes}});
+    root["bufferViews"] = std::move(views);
     json accessors = json::array({{{"bufferView", 0},
                                    {"componentType", 5126},
                                    {"count", job.file.mesh.points.size()},
@@ -138,6 +168,16 @@ struct box {
                              {"componentType", 5125},
                              {"count", 3 * p.triangles.size()},
                              {"type", "SCALAR"}});
+        json properties;
+        for (std::size_t n = 0; n < numbers.size(); ++n) {
+            properties[numbers[n]->name] = accessors.size();
+            accessors.push_back({{"bufferView", 2 + n},
+                                 {"byteOffset", first / 3},
+                                 {"componentType", 5125},
+                                 {"count", p.triangles.size()},
+                                 {"type", "SCALAR"}});
+        }
+        if (!numbers.empty()) shapes.back()["extras"]["face_properties"] = std::move(properties);
         first += 12 * p.triangles.size();
         json material = {{"doubleSided", true}};
         material["pbrMetallicRoughness"] = {
@@ -157,20 +197,21 @@ struct box {
 
 void write_glb(const write_job& job) {
     const auto& mesh = job.file.mesh;
-    const std::size_t position_bytes = 12 * mesh.points.size();
-    const std::size_t index_bytes = 12 * mesh.faces.size();
     json root = {{"asset", {{"version", "2.0"}, {"generator", "treeform"}}}};
     std::vector<primitive> primitives;
+    std::vector<const column*> numbers;
     point3 offset;
     if (!mesh.faces.empty()) {
         const box b = box_of(mesh.points);
         offset = choose_offset(job, b);
         primitives = by_colour(job);
-        root = describe(primitives, job, b, offset, position_bytes, index_bytes);
+        numbers = numbers_of_faces(job.file);
+        root = describe(primitives, job, numbers, b, offset);
     }
     std::string text = root.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
-    const std::size_t binary = position_bytes + index_bytes;
+    const std::size_t binary =
+        12 * mesh.points.size() + (12 + 4 * numbers.size()) * mesh.faces.size();
     const std::size_t total = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
     if (total > std::numeric_limits<std::uint32_t>::max())
         throw io_error("GLB cannot be larger than 4 GiB");
@@ -193,6 +234,11 @@ void write_glb(const write_job& job) {
         for (const std::uint32_t f : p.triangles)
             for (const std::uint32_t corner : mesh.faces[f])
                 job.out.raw<std::endian::little>(corner);
+    for (const column* const c : numbers)
+        for (const primitive& p : primitives)
+            for (const std::uint32_t f : p.triangles)
+                job.out.raw<std::endian::little>(
+                    static_cast<std::uint32_t>(number_at(*c, face_row(job.file, f))));
 }
 
 }  // namespace tf::detail

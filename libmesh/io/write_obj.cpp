@@ -31,6 +31,8 @@ void put_names(sink& out, const part& now, const part& before) {
 }  // namespace
 
 void write_obj(const write_job& job) {
+    // A file of no bytes would be taken for one that was cut off.
+    if (job.file.mesh.points.empty()) job.out.put("# no vertices\n");
     put_vertices(job);
     const auto& parts = job.file.attributes.parts;
     std::size_t part_index = 0;

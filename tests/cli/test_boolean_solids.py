@@ -115,11 +115,11 @@ class Solids(BooleanTest):
         text = "ply\nformat ascii 1.0\nelement vertex %d\n" % len(points)
         text += "".join("property double %s\n" % axis for axis in "xyz")
         text += "".join("property uchar %s\n" % c for c in ("red", "green", "blue"))
-        text += "property float nx\n"
+        text += "".join("property float n%s\n" % axis for axis in "xyz")
         text += "element face %d\nproperty list uchar int vertex_indices\n" % len(faces)
         text += "property int id\nend_header\n"
         for p, c in zip(points, colours):
-            text += " ".join(map(repr, p)) + " %d %d %d 1\n" % c
+            text += " ".join(map(repr, p)) + " %d %d %d 0 0 1\n" % c
         for i, f in enumerate(faces):
             text += "3 %d %d %d %d\n" % (*f, 100 + i)
         with open(self.path(name), "w") as file:
@@ -129,17 +129,17 @@ class Solids(BooleanTest):
         points, faces = box((0, 0, 0), (2, 2, 2))
         self.ply("a.ply", points, faces, [(100 * p[0], 50 * p[1], 7) for p in points])
         entry = self.made("difference", "a.ply", "b.obj", "--ascii", name="out.ply")
-        self.assertIn("attributes", [w["code"] for w in entry["warnings"]])  # the normals
         head, body = self.read("out.ply").split("end_header\n")
-        self.assertNotIn("nx", head)
         rows = [line.split() for line in body.splitlines()]
         vertices = entry["output"]["vertices"]
         inside = 0
-        for x, y, z, red, green, blue in (map(float, row) for row in rows[:vertices]):
+        for x, y, z, red, green, blue, *normal in (map(float, row) for row in rows[:vertices]):
             if (x, y, z) == (1, 1, 1):  # of the other, which has no colours
                 inside += 1
                 self.assertEqual((red, green, blue), (0, 0, 0))
+                self.assertEqual(sorted(normal), [0, 0, 1])  # of a face, which looks that way
             else:
+                self.assertEqual(normal, [0, 0, 1])
                 self.assertEqual((red, green, blue), (100 * x, 50 * y, 7))
         self.assertEqual(inside, 1)
         for _, *_, number, mesh, face in (map(int, row) for row in rows[vertices:]):
@@ -156,11 +156,13 @@ class Solids(BooleanTest):
         self.assertEqual(entry["inputs"][0]["skipped"]["non_finite"], 2)
         self.assertIn("non-finite", [w["code"] for w in entry["warnings"]])
 
-    def test_touching_parts_are_told(self):
+    def test_touching_parts_have_points_of_their_own(self):
         self.mesh("d.obj", box((2, 2, 0), (3, 3, 2)))
         entry = self.made("union", "a.obj", "d.obj")
-        self.assertEqual(entry["output"]["nonmanifold_edges"], 1)
-        self.assertIn("nonmanifold", [w["code"] for w in entry["warnings"]])
+        self.assertEqual(entry["output"]["nonmanifold_edges"], 0)
+        self.assertEqual(entry["separated_points"], 2)
+        self.assertEqual((entry["output"]["vertices"], entry["output"]["components"]), (16, 2))
+        self.assertEqual(len(set(self.solid("out.obj")[0])), 14)
 
     def test_a_dry_run_writes_no_mesh(self):
         entry = self.entry("union", "a.obj", "b.obj", "-o", "out.obj", "-n", status=0)
@@ -168,6 +170,113 @@ class Solids(BooleanTest):
         self.assertIsNone(entry["output"]["file"])
         self.assertNotIn("out.obj", self.listing())
 
+    def test_normals_turn_around_with_what_is_cut_away(self):
+        points, faces = box((1, 1, 1), (3, 3, 3))
+        self.ply("b.ply", points, faces, [(0, 0, 0)] * 8)
+        self.made("difference", "a.obj", "b.ply", "--ascii", name="out.ply")
+        head, body = self.read("out.ply").split("end_header\n")
+        vertices = int(head.split("element vertex ")[1].split()[0])
+        rows = [list(map(float, line.split())) for line in body.splitlines()[:vertices]]
+        corner, = [row for row in rows if row[:3] == [1, 1, 1]]
+        self.assertEqual(corner[-3:], [0, 0, -1])
+
+    def test_simplifying_leaves_few_faces(self):
+        self.mesh("right.obj", box((2, 0, 0), (3, 2, 2)))
+        entry = self.made("union", "a.obj", "right.obj", "--simplify")
+        self.assertEqual((entry["output"]["faces"], entry["output"]["vertices"]), (12, 8))
+        self.assertEqual(volume(*self.solid("out.obj")), 12)
+        entry = self.made("union", "a.obj", "right.obj", "--simplify", "--source", "from",
+                          name="out.ply")
+        self.assertEqual(entry["output"]["faces"], 20)
+        # Faces with values of their own stay apart, but for --no-attributes.
+        points, faces = box((0, 0, 0), (2, 2, 2))
+        self.ply("a.ply", points, faces, [(0, 0, 0)] * 8)
+        entry = self.made("union", "a.ply", "--simplify")
+        self.assertEqual(entry["output"]["faces"], 12)
+        entry = self.made("union", "a.ply", "right.obj", "--simplify", "--no-attributes",
+                          name="out.ply")
+        self.assertEqual(entry["output"]["faces"], 12)
+
+    def sheet(self, name, height):
+        self.mesh(name, ([(-1, -1, height), (3, -1, height), (3, 3, height), (-1, 3, height)],
+                         [(0, 1, 2), (0, 2, 3)]))
+
+    def test_an_open_surface_is_cut_where_that_is_accepted(self):
+        self.sheet("sheet.obj", 1)
+        self.run_tool("difference", "sheet.obj", "a.obj", status=1)
+        for words, area in ((["difference"], 12), (["intersection"], 4), (["--expr", "a-b"], 12)):
+            entry = self.made(*words, "sheet.obj", "a.obj", "--accept-open")
+            points, faces = self.solid("out.obj")
+            found = sum(abs((points[b][0] - points[a][0]) * (points[c][1] - points[a][1]) -
+                            (points[b][1] - points[a][1]) * (points[c][0] - points[a][0])) / 2
+                        for a, b, c in faces)
+            self.assertEqual(found, area)
+            output = entry["output"]
+            self.assertEqual((output["closed"], output["volume"], output["oriented"]),
+                             (False, None, None))
+            self.assertEqual([i["closed"] for i in entry["inputs"]], [False, True])
+            self.assertIn("ends at 4 edges", entry["inputs"][0]["reason"])
+            self.assertIn("open", [w["code"] for w in entry["warnings"]])
+        # Closed inputs are what they are; and what cannot be is told.
+        self.assertTrue(self.made("union", "a.obj", "b.obj", "--accept-open")["output"]["closed"])
+        run = self.run_tool("union", "sheet.obj", "a.obj", "--accept-open", "-o", "no.obj",
+                            status=1)
+        self.assertIn("not united", run.text)
+        self.run_tool("difference", "a.obj", "sheet.obj", "--accept-open", "-o", "no.obj",
+                      status=1)
+        self.sheet("other.obj", 0.5)
+        run = self.run_tool("intersection", "sheet.obj", "other.obj", "--accept-open", status=1)
+        self.assertIn("one may", run.text)
+        self.assertNotIn("no.obj", self.listing())
+
+    def test_the_report_has_the_volumes_of_two_inputs(self):
+        volumes = self.made("difference", "a.obj", "b.obj")["volumes"]
+        self.assertEqual(volumes, {"first": 8, "second": 8, "union": 15, "intersection": 1,
+                                   "error": 0})
+        self.assertIsNone(self.made("union", "a.obj", "b.obj", "c.obj")["volumes"])
+
+    def test_an_empty_result_is_an_empty_solid(self):
+        for extension in ("obj", "stl", "ply", "off"):
+            name = "out." + extension
+            entry = self.made("difference", "c.obj", "a.obj", name=name)
+            self.assertEqual((entry["output"]["faces"], entry["output"]["volume"]), (0, 0))
+            entry = self.entry("union", "a.obj", name, status=0)
+            self.assertEqual(entry["output"]["volume"], 8)
+            self.assertEqual(entry["inputs"][1]["volume"], 0)
+            run = subprocess.run([TOOL, name], cwd=self.folder, capture_output=True)
+            self.assertEqual(run.returncode, 3)
+            self.assertIn(b"no triangle", run.stderr)
+        self.made("difference", "c.obj", "a.obj", "--ascii", name="out.stl")
+        self.run_tool("union", "a.obj", "out.stl", status=0)
+        self.entry("difference", "c.obj", "a.obj", "-o", "out.glb", status=0)
+
+    def test_a_glb_holds_sources_and_is_read_again(self):
+        self.made("union", "a.obj", "b.obj", "--source", "from", name="out.glb")
+        data = self.read_bytes("out.glb")
+        length, = struct.unpack("<I", data[12:16])
+        text, binary = json.loads(data[20:20 + length]), data[28 + length:]
+        primitive, = text["meshes"][0]["primitives"]
+        values = {}
+        for name, number in primitive["extras"]["face_properties"].items():
+            accessor = text["accessors"][number]
+            view = text["bufferViews"][accessor["bufferView"]]
+            at = view["byteOffset"] + accessor["byteOffset"]
+            values[name] = struct.unpack(f"<{accessor['count']}I",
+                                         binary[at:at + 4 * accessor["count"]])
+        self.assertEqual(set(values["from_mesh"]), {0, 1})
+        self.assertLess(max(values["from_face"]), 12)
+        self.assertEqual(len(values["from_mesh"]) * 3,
+                         text["accessors"][primitive["indices"]]["count"])
+        entry = self.entry("union", "out.glb", status=0)
+        self.assertEqual(entry["output"]["volume"], 15)
+
+    def test_curves_are_where_inputs_meet(self):
+        self.made("union", "a.obj", "b.obj", "--curves", "curves.obj")
+        points = read_obj(self.read("curves.obj"))
+        # Six sides of a hexagon around the corner they have in common.
+        self.assertTrue(all(1 in p and 2 in p or p.count(2) == 2 for p in points), msg=points)
+        self.made("union", "a.obj", "b.obj", "--curves", "curves.ply")
+        self.assertIn("property int source_mesh1", self.read("curves.ply"))
 
 if __name__ == "__main__":
     main()

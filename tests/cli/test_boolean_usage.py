@@ -6,7 +6,8 @@ NUMBER = (int, float)
 NULL = type(None)
 FILE = {"input": (str, NULL), "error": NULL, "operation": (str, NULL), "inside": str,
         "check": bool, "inputs": list, "pairs": (int, NULL), "cut_faces": (int, NULL),
-        "cells": (int, NULL), "skipped": dict, "max_move": dict, "output": (dict, NULL),
+        "cells": (int, NULL), "volumes": (dict, NULL), "separated_points": (int, NULL),
+        "skipped": dict, "max_move": dict, "output": (dict, NULL),
         "warnings": list, "exit": int}
 INPUT = {"file": str, "format": str, "sha256": str, "precision_in": str, "matrix": (str, NULL),
          "faces": int, "triangles": int, "volume": NUMBER, "closed": (bool, NULL),
@@ -31,7 +32,8 @@ class Usage(BooleanTest):
         self.assertTrue(run.text.startswith("Usage: tf-boolean OP [OPTIONS] INPUT..."))
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
         for word in ("union", "intersection", "difference", "xor", "split", "--expr", "--matrix",
-                     "--inside", "--check", "--max-move", "--source", "--no-attributes",
+                     "--inside", "--check", "--accept-open", "--simplify", "--max-move",
+                     "--source", "--no-attributes", "--curves",
                      "Common options:", "Examples:", "Exit status:"):
             self.assertIn(word, run.text)
 
@@ -48,14 +50,30 @@ class Usage(BooleanTest):
             self.refused("union", *both, "-o", "out.obj", *options)
 
     def test_what_is_not_there_is_refused_plainly(self):
-        for option in ("--accept-open", "--simplify"):
-            self.assertIn("not built yet", self.refused("union", "a.obj", option))
         self.refused("union", "a.obj", "--html", "out.html")
+
+    def test_common_options_are_taken(self):
+        run = self.run_tool("union", "a.obj", "b.obj", "-o", "out", "--output-format", "ply",
+                            "--ascii", "--precision", "double", "--units", "mm", "--format", "obj",
+                            "-j", 2, "--memory", "1G", "--timeout", 60, "-v", "--log", "out.log",
+                            "-r", "out.json", "--exit-zero", "--progress", status=0)
+        self.assertIn("volume 15", run.text)
+        self.assertTrue(self.read("out").startswith("ply\nformat ascii"))
+        self.assertIn("faces meet", self.read("out.log"))
+        self.assertEqual(json.loads(self.read("out.json"))["unit"], "mm")
+        self.run_tool("union", "a.obj", "b.obj", "-o", "out", "--output-format", "stl", "--binary",
+                      "-f", "-q", status=0)
+        self.assertEqual(self.read_bytes("out")[:5], b"treef")
+        self.assertIn("tf-boolean", self.run_tool("--version", status=0).text)
 
     def test_what_would_do_nothing_is_refused(self):
         self.refused("--check", "a.obj", "-o", "out.obj")
         self.refused("--check", "a.obj", "--max-move", "1")
+        self.refused("--check", "a.obj", "--simplify")
+        self.refused("--check", "a.obj", "--accept-open")
         self.refused("split", "a.obj", "--inside", "odd")
+        self.refused("split", "a.obj", "--simplify")
+        self.refused("union", "a.obj", "--curves", "out.stl")
         self.refused("union", "a.obj", "--ascii")
         self.refused("union", "a.obj", "-o", "out.obj", "--source", "from")
         self.refused("union", "a.obj", "-o", "out.xyz")

@@ -225,6 +225,29 @@ TEST_CASE("glb: coordinates, one primitive a colour, and an offset that loses no
     std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("glb: whole numbers of faces are in the order of the faces") {
+    tf::mesh_file file = tetrahedron(3);
+    auto& columns = tf::obtain_element(file.attributes, "face", 4).columns;
+    columns.push_back(tf::make_column<std::uint32_t>("id", std::vector<std::uint32_t>{4, 5, 6, 7}));
+    columns.push_back(tf::make_column<float>("heat", std::vector<float>{4, 5, 6, 7}));
+    columns.push_back(tf::make_column<std::int8_t>("sign", std::vector<std::int8_t>{1, -1, 1, 1}));
+    const std::string bytes = written(file, "glb");
+    CHECK(bytes.find("\"face_properties\":{\"id\":2}") != std::string::npos);
+    CHECK(bytes.substr(bytes.size() - 16) == std::string("\4\0\0\0\5\0\0\0\6\0\0\0\7\0\0\0", 16));
+}
+
+TEST_CASE("writing: a mesh of nothing is read again as one") {
+    for (const char* format : {"obj", "stl", "ply", "off"})
+        for (const bool ascii : {false, true}) {
+            CAPTURE(format);
+            const std::string bytes = written({}, format, ascii);
+            CHECK(!bytes.empty());
+            CHECK(reread(bytes, std::string("a.") + format).mesh == tf::mesh{});
+        }
+    CHECK_THROWS_AS(static_cast<void>(reread("hello\n", "a.obj")), tf::io_error);
+    CHECK_THROWS_AS(static_cast<void>(reread("", "a.obj")), tf::io_error);
+}
+
 TEST_CASE("writing: a file appears whole or not at all") {
     const auto folder = scratch();
     const tf::mesh_file good = tetrahedron(4);

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -19,9 +20,18 @@ using weights = std::array<double, 3>;
 
 bool is_normal(const std::string& name) { return name == "nx" || name == "ny" || name == "nz"; }
 
-bool can_be_carried(const tf::element& e, const tf::column& c) {
-    return c.role == tf::column_role::data && !c.list_length &&
-           !(e.name == "vertex" && is_normal(c.name));
+/// Whether points have all three coordinates of a normal; they are carried together.
+bool has_normals(const tf::element& e) {
+    return e.name == "vertex" && tf::find_column(e, "nx") != nullptr &&
+           tf::find_column(e, "ny") != nullptr && tf::find_column(e, "nz") != nullptr;
+}
+
+bool can_be_carried(const tf::column& c) {
+    return c.role == tf::column_role::data && !c.list_length;
+}
+
+bool is_single_value(const tf::element& e, const tf::column& c) {
+    return can_be_carried(c) && !(has_normals(e) && is_normal(c.name));
 }
 
 /// A property by its name, and where each input has it.
@@ -37,7 +47,7 @@ std::vector<property> properties_of(std::span<const property_source> inputs, con
         const tf::element* e = tf::find_element(inputs[k].file->attributes, element);
         if (e == nullptr) continue;
         for (const tf::column& c : e->columns) {
-            if (!can_be_carried(*e, c)) continue;
+            if (!is_single_value(*e, c)) continue;
             auto at = std::find_if(all.begin(), all.end(),
                                    [&](const property& p) { return p.name == c.name; });
             if (at == all.end()) {
@@ -104,27 +114,36 @@ struct mixture {
     weights shares{1.0, 0.0, 0.0};
 };
 
+/// Between the corners of a face of an input.
+mixture mixture_at(const tf::point3& p, std::span<const property_source> inputs,
+                   const tf::operand_element& face) {
+    const tf::mesh& mesh = inputs[face.operand].file->mesh;
+    const tf::face& corners = mesh.faces[face.index];
+    return {
+        face.operand, corners,
+        weights_of(p, mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]])};
+}
+
 std::vector<mixture> mixtures_of(std::span<const property_source> inputs, const tf::mesh& surface,
-                                 std::span<const tf::operand_element> source_face,
-                                 std::span<const tf::operand_element> source_point) {
+                                 const carried_to& made) {
     std::vector<mixture> all(surface.points.size());
     std::vector<std::uint8_t> known(all.size(), 0);
     for (std::size_t p = 0; p < all.size(); ++p) {
-        const tf::operand_element source = source_point[p];
-        if (source == tf::operand_element{}) continue;
-        all[p] = {source.operand, {source.index, source.index, source.index}};
+        const tf::operand_element source = made.source_point[p];
+        if (source != tf::operand_element{})
+            all[p] = {source.operand, {source.index, source.index, source.index}};
+        else if (!made.face_of_cut_point.empty() &&
+                 made.face_of_cut_point[p] != tf::operand_element{})
+            all[p] = mixture_at(surface.points[p], inputs, made.face_of_cut_point[p]);
+        else
+            continue;
         known[p] = 1;
     }
     for (std::size_t f = 0; f < surface.faces.size(); ++f)
         for (const std::uint32_t p : surface.faces[f]) {
             if (known[p] != 0) continue;
-            const auto [operand, index] = source_face[f];
-            if (operand == tf::operand_element::none) continue;
-            const tf::mesh& mesh = inputs[operand].file->mesh;
-            const tf::face& corners = mesh.faces[index];
-            all[p] = {operand, corners,
-                      weights_of(surface.points[p], mesh.points[corners[0]],
-                                 mesh.points[corners[1]], mesh.points[corners[2]])};
+            if (made.source_face[f] == tf::operand_element{}) continue;
+            all[p] = mixture_at(surface.points[p], inputs, made.source_face[f]);
             known[p] = 1;
         }
     return all;
@@ -139,25 +158,88 @@ double value_of(const property& p, const mixture& m) {
     return sum;
 }
 
+tf::point3 normal_of(const tf::mesh& mesh, const tf::face& f) {
+    const tf::point3 &a = mesh.points[f[0]], &b = mesh.points[f[1]], &c = mesh.points[f[2]];
+    return cross(difference(b, a), difference(c, a));
+}
+
+tf::point3 with_length_one(const tf::point3& v) {
+    const double length = std::sqrt(dot(v, v));
+    return length > 0.0 ? tf::point3{v.x / length, v.y / length, v.z / length} : v;
+}
+
+/// The normal of a point where face `f` of the surface has it.
+tf::point3 carried_normal(std::span<const property_source> inputs, const tf::mesh& surface,
+                          const carried_to& made, const mixture& m, std::uint32_t f) {
+    const tf::element* points = tf::find_element(inputs[m.input].file->attributes, "vertex");
+    const tf::point3 flat = normal_of(surface, surface.faces[f]);
+    if (points == nullptr || !has_normals(*points)) return with_length_one(flat);
+    tf::point3 normal{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const tf::column& c = *tf::find_column(*points, std::array{"nx", "ny", "nz"}[axis]);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (m.shares[k] > 0.0) normal[axis] += m.shares[k] * tf::number_at(c, m.points[k]);
+    }
+    if (m.shares[0] < 1.0) normal = with_length_one(normal);
+    const tf::operand_element source = made.source_face[f];
+    if (source.operand != m.input) return normal;
+    const tf::mesh& mesh = inputs[m.input].file->mesh;
+    const bool turned = dot(flat, normal_of(mesh, mesh.faces[source.index])) < 0.0;
+    return turned ? tf::point3{-normal.x, -normal.y, -normal.z} : normal;
+}
+
+/// A point's normal is seen from the lowest of its faces that come from the same input as the
+/// point, or else from the lowest.
+void carry_normals(tf::element& rows, std::span<const property_source> inputs,
+                   const tf::mesh& surface, const carried_to& made,
+                   const std::vector<mixture>& mixtures) {
+    constexpr auto none = tf::operand_element::none;
+    std::vector<std::uint32_t> seen_from(surface.points.size(), none);
+    for (std::uint32_t f = 0; f < surface.faces.size(); ++f)
+        for (const std::uint32_t p : surface.faces[f]) {
+            const auto is_own = [&](std::uint32_t face) {
+                return made.source_face[face].operand == mixtures[p].input;
+            };
+            if (seen_from[p] == none || (!is_own(seen_from[p]) && is_own(f))) seen_from[p] = f;
+        }
+    std::array<std::vector<float>, 3> values;
+    for (std::uint32_t p = 0; p < seen_from.size(); ++p) {
+        tf::point3 normal{};
+        if (seen_from[p] != none)
+            normal = carried_normal(inputs, surface, made, mixtures[p], seen_from[p]);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            values[axis].push_back(static_cast<float>(normal[axis]));
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        rows.columns.push_back(
+            tf::make_column<float>(std::array{"nx", "ny", "nz"}[axis], values[axis]));
+}
+
+bool any_has_normals(std::span<const property_source> inputs) {
+    return std::any_of(inputs.begin(), inputs.end(), [](const property_source& s) {
+        const tf::element* points = tf::find_element(s.file->attributes, "vertex");
+        return points != nullptr && has_normals(*points);
+    });
+}
+
 }  // namespace
 
 void carry_properties(tf::mesh_file& file, std::span<const property_source> inputs,
-                      std::span<const tf::operand_element> source_face,
-                      std::span<const tf::operand_element> source_point) {
+                      const carried_to& made) {
     const tf::mesh& surface = file.mesh;
-    if (const auto of_points = properties_of(inputs, "vertex"); !of_points.empty()) {
-        const std::vector<mixture> mixtures =
-            mixtures_of(inputs, surface, source_face, source_point);
+    if (const auto of_points = properties_of(inputs, "vertex"); points_have_properties(inputs)) {
+        const std::vector<mixture> mixtures = mixtures_of(inputs, surface, made);
         tf::element& rows = tf::obtain_element(file.attributes, "vertex", surface.points.size());
         for (const property& p : of_points)
             rows.columns.push_back(make_values(
                 p, mixtures.size(), [&](std::size_t row) { return value_of(p, mixtures[row]); }));
+        if (any_has_normals(inputs)) carry_normals(rows, inputs, surface, made, mixtures);
     }
     if (const auto of_faces = properties_of(inputs, "face"); !of_faces.empty()) {
         tf::element& rows = tf::obtain_element(file.attributes, "face", surface.faces.size());
         for (const property& p : of_faces)
             rows.columns.push_back(make_values(p, surface.faces.size(), [&](std::size_t row) {
-                const auto [operand, index] = source_face[row];
+                const auto [operand, index] = made.source_face[row];
                 const tf::column* values =
                     operand == tf::operand_element::none ? nullptr : p.of_input[operand];
                 return values == nullptr
@@ -167,12 +249,38 @@ void carry_properties(tf::mesh_file& file, std::span<const property_source> inpu
     }
 }
 
+std::vector<std::uint32_t> groups_of_faces(std::span<const property_source> inputs, bool by_values,
+                                           bool by_input) {
+    std::vector<property> properties;
+    if (by_values) properties = properties_of(inputs, "face");
+    constexpr double nothing = -std::numeric_limits<double>::infinity();
+    std::map<std::vector<double>, std::uint32_t> numbers;
+    std::vector<std::uint32_t> groups;
+    for (std::uint32_t k = 0; k < inputs.size(); ++k)
+        for (std::uint32_t f = 0; f < inputs[k].file->mesh.faces.size(); ++f) {
+            std::vector<double> values{by_input ? static_cast<double>(k) : 0.0};
+            for (const property& p : properties) {
+                const tf::column* column = p.of_input[k];
+                const double value =
+                    column ? tf::number_at(*column, inputs[k].stored_face(f)) : nothing;
+                values.push_back(std::isnan(value) ? nothing : value);
+            }
+            const auto next = static_cast<std::uint32_t>(numbers.size());
+            groups.push_back(numbers.try_emplace(std::move(values), next).first->second);
+        }
+    return groups;
+}
+
+bool points_have_properties(std::span<const property_source> inputs) {
+    return any_has_normals(inputs) || !properties_of(inputs, "vertex").empty();
+}
+
 bool leaves_out_properties(std::span<const property_source> inputs) {
     for (const property_source& input : inputs)
         for (const tf::element& e : input.file->attributes.elements)
             for (const tf::column& c : e.columns)
                 if (c.role == tf::column_role::data &&
-                    ((e.name != "vertex" && e.name != "face") || !can_be_carried(e, c)))
+                    ((e.name != "vertex" && e.name != "face") || !can_be_carried(c)))
                     return true;
     return false;
 }

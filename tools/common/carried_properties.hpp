@@ -24,16 +24,34 @@ struct property_source {
     }
 };
 
+/// What the elements of a mesh come from.
+struct carried_to {
+    std::span<const tf::operand_element> source_face;          ///< [F]
+    std::span<const tf::operand_element> source_point;         ///< [V]
+    std::span<const tf::operand_element> face_of_cut_point{};  ///< [V] or empty
+};
+
 /// Gives `file` the columns that elements "vertex" and "face" of the inputs have with one value a
 /// row, by name.
 ///
 /// A face has the values of its source, which it lies in, a point those of its own; a point that
-/// was cut has values between those of the corners of the face it lies in, of the lowest where
-/// there are several. Where an input has no such column, or a face no source, 0 or NaN stands.
-/// Normals of points are left out: what is subtracted turns around, and a cut has one on each side.
+/// was cut has values between those of the corners of the face it lies in: `made.face_of_cut_point`
+/// or else the lowest of its faces' sources. Where an input has no such column, or a face no
+/// source, 0 or NaN stands.
+///
+/// Normals of points (columns nx, ny and nz) are turned around where the surface is, and have
+/// length 1 again at points that were cut, where there are several the one of the lowest face;
+/// where an input has none, that of the face stands.
 void carry_properties(tf::mesh_file& file, std::span<const property_source> inputs,
-                      std::span<const tf::operand_element> source_face,
-                      std::span<const tf::operand_element> source_point);
+                      const carried_to& made);
+
+/// [faces of all inputs, one input after the other] Numbers that are equal for faces with equal
+/// values in all columns that are carried, if `by_values`, and of one input, if `by_input`.
+[[nodiscard]] std::vector<std::uint32_t> groups_of_faces(std::span<const property_source> inputs,
+                                                         bool by_values, bool by_input);
+
+/// Whether points of an input have values that `carry_properties` carries.
+[[nodiscard]] bool points_have_properties(std::span<const property_source> inputs);
 
 /// Whether an input has values that `carry_properties` leaves out.
 [[nodiscard]] bool leaves_out_properties(std::span<const property_source> inputs);

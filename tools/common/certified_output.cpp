@@ -5,8 +5,11 @@
 #include <libmesh/io/read.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace tools {
 namespace {
@@ -24,14 +27,34 @@ bool same_corners(const tf::mesh& a, const tf::mesh& b) {
     return true;
 }
 
-/// What was certified is what is on the disk now. GLB is read by others, which renumber; an empty
-/// mesh may be an empty file.
+/// The faces by their corners' coordinates, each from its least corner on, ascending.
+std::vector<std::array<std::array<double, 3>, 3>> sorted_corners(const tf::mesh& mesh) {
+    std::vector<std::array<std::array<double, 3>, 3>> all(mesh.faces.size());
+    for (std::size_t f = 0; f < all.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const tf::point3& p = mesh.points[mesh.faces[f][k]];
+            all[f][k] = {p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 is 0
+        }
+        std::rotate(all[f].begin(), std::min_element(all[f].begin(), all[f].end()), all[f].end());
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+/// GLB is read by others, which renumber points, and has faces by colour. Builds without a reader
+/// for it have nothing to look with, and a scene of nothing is none.
+void look_again_at_glb(const std::filesystem::path& path, const tf::mesh& surface) {
+    if (!tf::reads_scenes() || surface.faces.empty()) return;
+    if (sorted_corners(tf::read_mesh(path, "glb").mesh) != sorted_corners(surface))
+        throw std::logic_error("the file written does not hold what was certified");
+}
+
+/// What was certified is what is on the disk now.
 void look_again(const std::filesystem::path& path, const std::string& format,
                 const tf::mesh& surface) {
     std::error_code error;
-    if (surface.faces.empty() || format == "glb" || path == "-" ||
-        !std::filesystem::is_regular_file(path, error))
-        return;
+    if (path == "-" || !std::filesystem::is_regular_file(path, error)) return;
+    if (format == "glb") return look_again_at_glb(path, surface);
     const tf::mesh_file written = tf::read_mesh(path, format);
     if (!same_corners(written.mesh, surface) ||
         (written.indexed && written.mesh.faces != surface.faces))

@@ -10,6 +10,8 @@
 #include "tools/tf-boolean/words.hpp"
 #include <libmesh/boolean/boolean.hpp>
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +41,10 @@ void add_options(command_line& line, boolean_settings& s) {
     line.option({"--inside", "RULE", "what is solid: nonzero | odd | positive", "nonzero"},
                 [&s](std::string_view text) { s.inside = tools::parse_inside(text); });
     line.flag(s.check, {"--check", "", "only check that the inputs bound solids"});
-    line.refuse("--accept-open", false, "is not built yet");
-    line.refuse("--simplify", false, "is not built yet");
+    line.flag(s.accept_open, {"--accept-open", "",
+                              "an open input is a surface that the others cut:\n"
+                              "a difference or intersection keeps a part of it"});
+    line.flag(s.simplify, {"--simplify", "", "merge coplanar faces, such as the cut has made"});
     line.option(
         {"--max-move", "DIST", "fail (exit 1) if rounding moves a point further"},
         [&s](std::string_view text) { s.max_move = tools::parse_distance("--max-move", text); });
@@ -51,13 +55,16 @@ void add_what_to_give_back(command_line& line, boolean_settings& s, common_optio
     line.output(options.output, {"-o, --output", "FILE", "the solid"});
     line.option({"--source", "P",
                  "write source mesh and face of each face to\n"
-                 "properties P_mesh, P_face of a PLY",
+                 "properties P_mesh, P_face of a PLY or GLB",
                  "source"},
                 [&s](std::string_view text) {
                     s.source = text;
                     s.source_given = true;
                 });
-    line.flag(s.no_attributes, {"--no-attributes", "", "do not interpolate colours, uv, others"});
+    line.flag(s.no_attributes,
+              {"--no-attributes", "", "do not interpolate colours, normals, uv, others"});
+    line.output(s.curves,
+                {"--curves", "FILE", "the lines along which the inputs meet, as OBJ or PLY"});
 }
 
 const char* const epilogue =
@@ -68,7 +75,15 @@ const char* const epilogue =
     "it is checked in the coordinates that are written, and mended where rounding has\n"
     "made faces meet. What cannot be certified is not written. Points that were not\n"
     "cut stay bit for bit. Meshes and faces are numbered from 0, faces as in the\n"
-    "files.\n"
+    "files. Where parts of the result touch in an edge or point, each has points of\n"
+    "its own there, so that every edge has two faces. A mesh of no faces is an empty\n"
+    "solid. --simplify keeps faces of different meshes apart if --source is given,\n"
+    "and faces with different properties unless --no-attributes is.\n"
+    "\n"
+    "With --accept-open, one input may be an open surface: the first of a difference,\n"
+    "any of an intersection, or one that the formula is not true without. What lies\n"
+    "on the surface of a solid is in it. The result is open, too, and free of\n"
+    "self-intersections. split takes open inputs without that.\n"
     "\n"
     "Examples:\n"
     "  tf-boolean difference body.stl hole1.stl hole2.stl -o out.ply --source from\n"
@@ -81,17 +96,35 @@ const char* const epilogue =
     "  report says where) or the result could not be written so; 2 usage; 3 input;\n"
     "  4 output; 5 stopped (memory, timeout, signal); 70 bug.\n";
 
+/// Merging is not to lose what is written of faces.
+std::vector<std::uint32_t> groups_of(const tools::job& work, const boolean_settings& s,
+                                     const std::vector<tools::solid>& solids) {
+    if (!s.simplify) return {};
+    const bool of_properties = !s.no_attributes && tools::wants_mesh(work.options);
+    return tools::groups_of_faces(tools::sources_of(solids), of_properties, s.source_given);
+}
+
 tf::solid_result compute(tools::job& work, const boolean_settings& s,
-                         const std::vector<tools::solid>& solids, bool to_single) {
+                         const std::vector<tools::solid>& solids,
+                         const std::optional<std::uint32_t>& sheet, bool to_single) {
     const auto timing = work.time("cut");
     const std::vector<tf::mesh_view> views = tools::views_of(solids);
     tf::boolean_options options;
     options.inside = s.inside;
     options.to_float = to_single;
+    options.simplify = s.simplify;
+    const std::vector<std::uint32_t> groups = groups_of(work, s, solids);
+    options.face_groups = groups;
+    options.volumes = work.options.detailed();
     options.progress = work.progress(s.name());
-    tf::solid_result result = s.splits()
-                                  ? tf::split(views, options)
-                                  : tf::boolean(views, tools::formula_of(s, views.size()), options);
+    tf::solid_result result;
+    if (s.splits())
+        result = tf::split(views, options);
+    else if (sheet)
+        result = tf::clip(views, *sheet, tools::formula_of(s, views.size()), options);
+    else
+        result = tf::boolean(views, tools::formula_of(s, views.size()), options);
+    if (!s.splits() && !sheet && result.certified) tools::separate_parts(work, result);
     work.out.end_progress();
     work.keeper.check();
     if (result.cancelled) throw tools::failure(tools::stopped, "stopped", work.name + ": stopped");
@@ -99,12 +132,23 @@ tf::solid_result compute(tools::job& work, const boolean_settings& s,
 }
 
 exit_status check_only(tools::job& work, const std::vector<tools::solid>& solids) {
-    const std::size_t open = tools::check_solids(work, solids);
+    const std::vector<std::uint32_t> open_ones = tools::check_solids(work, solids);
+    tools::warn_of_open(work, solids, open_ones);
+    const std::size_t open = open_ones.size();
     const std::string all = tools::counted(solids.size(), "input", "inputs");
     work.out.result(work.name + ": " +
                     (open == 0 ? all + (solids.size() == 1 ? " bounds a solid" : " bound solids")
                                : tools::grouped(open) + " of " + all + " bound no solid"));
     return open == 0 ? tools::done : tools::found;
+}
+
+exit_status refuse_open(tools::job& work, const std::vector<tools::solid>& solids,
+                        const std::vector<std::uint32_t>& open, const std::string& remark) {
+    tools::warn_of_open(work, solids, open);
+    work.out.result(work.name + ": " + tools::grouped(open.size()) + " of " +
+                    tools::counted(solids.size(), "input", "inputs") + " bound no solid; " +
+                    remark + "nothing written");
+    return tools::found;
 }
 
 /// Whether rounding stays within --max-move.
@@ -121,22 +165,29 @@ bool moves_too_far(tools::job& work, const boolean_settings& s,
 
 exit_status operate(tools::job& work, const boolean_settings& s) {
     tools::enter_blank_report(work, s);
-    tools::check_output_places(work);
+    tools::check_output_places(work, s);
     const std::vector<tools::solid> solids = tools::read_solids(work, s);
     if (s.check) return check_only(work, solids);
     const bool to_single = tools::writes_single(work, solids);
-    tf::solid_result result = compute(work, s, solids, to_single);
-    if (!result.open.empty()) {
-        const std::size_t open = tools::check_solids(work, solids);
-        work.out.result(work.name + ": " + tools::grouped(open) + " of " +
-                        tools::counted(solids.size(), "input", "inputs") +
-                        " bound no solid; nothing written");
-        return tools::found;
+    std::optional<std::uint32_t> sheet;
+    if (s.accept_open && !s.splits()) {
+        const std::vector<std::uint32_t> open = tools::check_solids(work, solids);
+        if (open.size() > 1) return refuse_open(work, solids, open, "one may; ");
+        if (!open.empty()) sheet = open.front();
+        if (sheet && !tools::formula_of(s, solids.size()).needs(*sheet))
+            return refuse_open(work, solids, open,
+                               "an open surface can be cut, but not united with a solid; ");
     }
-    for (tools::json& input : work.entry["inputs"])
-        input["closed"] = s.splits() ? tools::json(nullptr) : tools::json(true);
-    tools::enter_result(work, s, result, to_single);
+    tf::solid_result result = compute(work, s, solids, sheet, to_single);
+    if (!result.open.empty())
+        return refuse_open(work, solids, tools::check_solids(work, solids), {});
+    if (!sheet)
+        for (tools::json& input : work.entry["inputs"])
+            input["closed"] = s.splits() ? tools::json(nullptr) : tools::json(true);
+    const bool bounds_solid = !s.splits() && !sheet;
+    tools::enter_result(work, result, bounds_solid, to_single);
     work.out.result(work.name + ": " + tools::verdict(work, s, result));
+    tools::write_curves(work, s, solids);
     tools::say_details(work, result);
     tools::warn_of_surprises(work, s, solids, result);
     if (!result.certified) {

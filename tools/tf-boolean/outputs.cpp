@@ -3,9 +3,13 @@
 #include "tools/common/carried_properties.hpp"
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
+#include "tools/common/curve_file.hpp"
 #include "tools/common/output_file.hpp"
+#include <libmesh/boolean/separate_fans.hpp>
+#include <libmesh/intersect/self_intersections.hpp>
 #include <libmesh/topology.hpp>
 #include <libmesh/volume.hpp>
+#include <libmesh/weld/equal_points.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -48,9 +52,11 @@ void add_sources(tf::mesh_file& file, const boolean_settings& settings,
 
 }  // namespace
 
-void check_output_places(const job& work) {
+void check_output_places(const job& work, const boolean_settings& settings) {
     const common_options& o = work.options;
-    if (!o.output.empty() && !o.dry_run) check_output(o.output, o.force);
+    if (o.dry_run) return;
+    for (const auto& path : {o.output, settings.curves})
+        if (!path.empty()) check_output(path, o.force);
 }
 
 void enter_blank_report(job& work, const boolean_settings& settings) {
@@ -59,7 +65,8 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
     entry["inside"] = name_of(settings.inside);
     entry["check"] = settings.check;
     entry["inputs"] = json::array();
-    for (const char* key : {"pairs", "cut_faces", "cells"}) entry[key] = nullptr;
+    for (const char* key : {"pairs", "cut_faces", "cells", "volumes", "separated_points"})
+        entry[key] = nullptr;
     entry["skipped"] = {{"degenerate", nullptr}, {"faces_not_cut", nullptr}};
     entry["max_move"] = {
         {"given", settings.max_move ? json(settings.max_move->given) : json(nullptr)},
@@ -74,21 +81,37 @@ bool writes_single(const job& work, const std::vector<solid>& solids) {
                          sources_of(solids));
 }
 
-void enter_result(job& work, const boolean_settings& settings, const tf::solid_result& result,
-                  bool to_single) {
+void separate_parts(job& work, tf::solid_result& result) {
+    tf::separated_fans separated = tf::separate_fans(result.surface);
+    work.entry["separated_points"] = separated.doubled_points;
+    result.surface = std::move(separated.surface);
+    for (auto* sources : {&result.source_point, &result.face_of_cut_point})
+        if (!sources->empty())
+            for (std::size_t p = sources->size(); p < separated.point_of.size(); ++p)
+                sources->push_back((*sources)[separated.point_of[p]]);
+}
+
+void enter_result(job& work, const tf::solid_result& result, bool bounds_solid, bool to_single) {
     json& entry = work.entry;
     std::uint64_t triangles = 0;
     for (const json& input : entry["inputs"]) triangles += input["triangles"].get<std::uint64_t>();
     entry["pairs"] = result.pairs;
     entry["cut_faces"] = result.cut_faces;
-    entry["cells"] = settings.splits() ? json(nullptr) : json(result.cells);
+    entry["cells"] = result.cells > 0 ? json(result.cells) : json(nullptr);
+    if (result.volumes) {
+        const auto& [first, second, either, both] = *result.volumes;
+        entry["volumes"] = {{"first", first},
+                            {"second", second},
+                            {"union", either},
+                            {"intersection", both},
+                            {"error", (first - either) + (second - both)}};
+    }
     entry["skipped"] = {{"degenerate", result.degenerate},
                         {"faces_not_cut", triangles - std::min(triangles, result.cut_faces)}};
     const tf::mesh& surface = result.surface;
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
     const auto cut =
         std::count(result.source_point.begin(), result.source_point.end(), tf::operand_element{});
-    const bool solid = !settings.splits();
     entry["output"] = {{"file", nullptr},
                        {"format", nullptr},
                        {"precision_out", to_single ? "float" : "double"},
@@ -97,9 +120,9 @@ void enter_result(job& work, const boolean_settings& settings, const tf::solid_r
                        {"faces", surface.faces.size()},
                        {"components", topology.components_by_point},
                        {"nonmanifold_edges", topology.nonmanifold_edges},
-                       {"volume", solid ? json(tf::signed_volume(surface)) : json(nullptr)},
-                       {"closed", solid ? json(true) : json(topology.boundary_edges == 0)},
-                       {"oriented", solid ? json(true) : json(nullptr)},
+                       {"volume", bounds_solid ? json(tf::signed_volume(surface)) : json(nullptr)},
+                       {"closed", bounds_solid ? json(true) : json(topology.boundary_edges == 0)},
+                       {"oriented", bounds_solid ? json(true) : json(nullptr)},
                        {"self_intersections", result.meeting_count},
                        {"meeting", meeting_list(result)},
                        {"certified", result.certified},
@@ -118,12 +141,43 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     file.stored_as = to_single ? tf::precision::single_ : tf::precision::double_;
     const std::string format = mesh_format(o, o.output);
     if (!settings.no_attributes)
-        carry_properties(file, sources_of(solids), result.source_face, result.source_point);
-    if (format == "ply") add_sources(file, settings, solids, result);
+        carry_properties(file, sources_of(solids),
+                         {result.source_face, result.source_point, result.face_of_cut_point});
+    if (holds_sources(format)) add_sources(file, settings, solids, result);
     const tf::write_result written = write_certified(work, file, o.output);
     work.entry["output"]["file"] = o.output.string();
     work.entry["output"]["format"] = written.format;
     for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
+}
+
+void write_curves(job& work, const boolean_settings& settings, const std::vector<solid>& solids) {
+    if (settings.curves.empty() || work.options.dry_run) return;
+    tf::mesh all;
+    pair_numbers first_mesh{settings.source + "_mesh1", {}};
+    pair_numbers second_mesh{settings.source + "_mesh2", {}};
+    std::vector<std::uint32_t> mesh_of_face;
+    for (std::uint32_t i = 0; i < solids.size(); ++i) {
+        const tf::mesh& one = solids[i].file.mesh;
+        const auto offset = static_cast<std::uint32_t>(all.points.size());
+        all.points.insert(all.points.end(), one.points.begin(), one.points.end());
+        for (const auto& [a, b, c] : one.faces) {
+            all.faces.push_back({a + offset, b + offset, c + offset});
+            mesh_of_face.push_back(i);
+        }
+    }
+    all = tf::join_equal_points(all);
+    const auto found = tf::self_intersections(all, {.progress = work.progress("curves")});
+    work.out.end_progress();
+    work.keeper.check();
+    if (found.cancelled) throw failure(stopped, "stopped", work.name + ": stopped");
+    for (const tf::face_pair& pair : found.pairs) {
+        first_mesh.of_pair.push_back(mesh_of_face[pair.a]);
+        second_mesh.of_pair.push_back(mesh_of_face[pair.b]);
+    }
+    output_file file(settings.curves, work.options.force, work.keeper);
+    write_curves(file, all, found.pairs, {std::move(first_mesh), std::move(second_mesh)},
+                 curves_as_ply(settings.curves));
+    file.commit();
 }
 
 }  // namespace tools

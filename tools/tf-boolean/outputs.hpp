@@ -8,7 +8,7 @@
 namespace tools {
 
 /// Looks at the output before the work, so that it is not lost in the end. \throws failure
-void check_output_places(const job& work);
+void check_output_places(const job& work, const boolean_settings& settings);
 
 /// The keys of the report's file, each with nothing in it.
 void enter_blank_report(job& work, const boolean_settings& settings);
@@ -16,9 +16,14 @@ void enter_blank_report(job& work, const boolean_settings& settings);
 /// Whether the result will be written as float32.
 [[nodiscard]] bool writes_single(const job& work, const std::vector<solid>& solids);
 
-/// The facts of the result.
-void enter_result(job& work, const boolean_settings& settings, const tf::solid_result& result,
-                  bool to_single);
+/// Gives touching parts of a solid points of their own, and enters how many.
+void separate_parts(job& work, tf::solid_result& result);
+
+/// The facts of the result; an open one, or one of many pieces, has no volume.
+void enter_result(job& work, const tf::solid_result& result, bool bounds_solid, bool to_single);
+
+/// The lines along which faces of the inputs meet each other or themselves, where asked for.
+void write_curves(job& work, const boolean_settings& settings, const std::vector<solid>& solids);
 
 /// Writes the surface, reads it again, and puts it in its place only if it is what was certified.
 /// \throws failure (bad_output)

@@ -1,5 +1,6 @@
 #include "tools/tf-boolean/settings.hpp"
 
+#include "tools/common/curve_file.hpp"
 #include "tools/common/exit_status.hpp"
 
 #include <algorithm>
@@ -66,15 +67,21 @@ void refuse_what_does_nothing(const boolean_settings& s, const common_options& o
     if (!mesh && (o.ascii || o.binary || !o.output_format.empty()))
         refuse("--output-format, --ascii and --binary need -o");
     if (s.check && o.precision != "keep") refuse("--precision: --check writes no mesh");
+    if (s.splits() && s.simplify) refuse("--simplify: split keeps every piece");
+    if (s.check && (s.simplify || s.accept_open))
+        refuse("--simplify and --accept-open: --check only looks");
+    check_curve_path(s.curves);
     if (s.splits() && s.inside != tf::inside_rule::nonzero)
         refuse("--inside: split keeps every piece");
     if (s.source.empty() || s.source.find_first_of(" \t\r\n") != std::string::npos)
         refuse("--source: expected a name without blanks");
-    if (s.source_given && (!mesh || mesh_format(o, o.output) != "ply"))
-        refuse("--source needs an output with properties: ply");
+    if (s.source_given && (!mesh || !holds_sources(mesh_format(o, o.output))))
+        refuse("--source needs an output with properties: ply, glb");
 }
 
 }  // namespace
+
+bool holds_sources(const std::string& format) { return format == "ply" || format == "glb"; }
 
 tf::inside_rule parse_inside(std::string_view text) {
     for (std::size_t i = 0; i < rules.size(); ++i)

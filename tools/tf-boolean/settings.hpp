@@ -21,10 +21,13 @@ struct boolean_settings {
     std::vector<std::filesystem::path> matrix_files{};  ///< by input; empty: it is not moved
     tf::inside_rule inside = tf::inside_rule::nonzero;
     bool check = false;
+    bool accept_open = false;
+    bool simplify = false;
     std::optional<distance> max_move{};
     std::string source = "source";  ///< properties SOURCE_mesh, SOURCE_face
     bool source_given = false;
     bool no_attributes = false;
+    std::filesystem::path curves{};
 
     [[nodiscard]] bool splits() const { return operation == "split"; }
     /// The operation as reports have it: the word, or the formula.
@@ -36,6 +39,9 @@ struct boolean_settings {
 /// \throws failure (bad_usage)
 [[nodiscard]] tf::inside_rule parse_inside(std::string_view text);
 [[nodiscard]] const char* name_of(tf::inside_rule rule);
+
+/// Whether files of this format can tell which face each one comes from.
+[[nodiscard]] bool holds_sources(const std::string& format);
 
 /// Takes the operation from the words of the command line, the first of which it is unless --expr
 /// or --check makes do without, and refuses what makes no sense. \throws failure (bad_usage)

@@ -57,7 +57,8 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
         about["matrix"] = matrix_file.string();
     }
     keep_usable(work, s);
-    if (s.file.mesh.faces.empty())
+    // A mesh of nothing is what a difference may leave; points alone are no mesh.
+    if (s.file.mesh.faces.empty() && !s.file.mesh.points.empty())
         throw failure(bad_input, "no-triangles", path + ": no triangle with finite coordinates");
     about["faces"] = s.file.stored_faces;
     about["triangles"] = s.triangles;
@@ -120,10 +121,10 @@ double diagonal_of(const std::vector<solid>& solids) {
     return box ? tf::diagonal(*box) : 0.0;
 }
 
-std::size_t check_solids(job& work, const std::vector<solid>& solids) {
+std::vector<std::uint32_t> check_solids(job& work, const std::vector<solid>& solids) {
     const auto timing = work.time("check");
-    std::size_t open = 0;
-    for (std::size_t i = 0; i < solids.size(); ++i) {
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t i = 0; i < solids.size(); ++i) {
         const tf::solid_check found = tf::check_solid(solids[i].file.mesh, work.progress("check"));
         work.out.end_progress();
         work.keeper.check();
@@ -132,14 +133,19 @@ std::size_t check_solids(job& work, const std::vector<solid>& solids) {
         about["closed"] = found.open.empty();
         about["open"]["count"] = found.open_count;
         if (found.open.empty()) continue;
-        ++open;
+        open.push_back(i);
         for (const tf::open_operand_edge& edge : found.open)
             about["open"]["list"].push_back(edge_entry(edge, solids[i]));
-        const std::string reason = reason_of(found, solids[i]);
-        about["reason"] = reason;
-        work.warn("open", solids[i].path + ": no solid: " + reason);
+        about["reason"] = reason_of(found, solids[i]);
     }
     return open;
+}
+
+void warn_of_open(job& work, const std::vector<solid>& solids,
+                  const std::vector<std::uint32_t>& open) {
+    for (const std::uint32_t i : open)
+        work.warn("open", solids[i].path + ": no solid: " +
+                              work.entry["inputs"][i]["reason"].get<std::string>());
 }
 
 }  // namespace tools

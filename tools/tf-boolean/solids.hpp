@@ -38,7 +38,11 @@ struct solid {
 /// Length of the diagonal of the box of all solids.
 [[nodiscard]] double diagonal_of(const std::vector<solid>& solids);
 
-/// Looks for open edges of each one, and says in the report where they are; how many are open.
-[[nodiscard]] std::size_t check_solids(job& work, const std::vector<solid>& solids);
+/// Looks for open edges of each one, and enters in the report where they are; which are open.
+[[nodiscard]] std::vector<std::uint32_t> check_solids(job& work, const std::vector<solid>& solids);
+
+/// Says why these are no solids. \pre they have been checked
+void warn_of_open(job& work, const std::vector<solid>& solids,
+                  const std::vector<std::uint32_t>& open);
 
 }  // namespace tools

@@ -11,7 +11,7 @@ std::string verdict(const job& work, const boolean_settings& settings,
     std::string text =
         settings.name() + ": " + counted(result.surface.faces.size(), "face", "faces");
     if (result.surface.faces.empty()) return text + ", nothing is left";
-    if (!settings.splits()) text += ", volume " + shortest(output["volume"].get<double>());
+    if (!output["volume"].is_null()) text += ", volume " + shortest(output["volume"].get<double>());
     if (!result.certified)
         return text + ", but " +
                (result.meeting_count > 0
@@ -28,13 +28,17 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
     if (result.degenerate > 0)
         work.warn("degenerate", counted(result.degenerate, "face", "faces") +
                                     " without an area left out; nothing changes by that");
-    const auto nonmanifold = work.entry["output"]["nonmanifold_edges"].get<std::uint64_t>();
-    if (!settings.splits() && nonmanifold > 0)
+    const json& output = work.entry["output"];
+    const auto nonmanifold = output["nonmanifold_edges"].get<std::uint64_t>();
+    if (!output["volume"].is_null() && nonmanifold > 0)
         work.warn("nonmanifold", counted(nonmanifold, "edge", "edges") +
-                                     " of more than two faces, where parts of the result touch");
+                                     " of more than two faces, where the result touches itself");
+    if (!settings.splits() && !output["closed"].get<bool>())
+        work.warn("open", "the result is a part of an open surface, and open itself");
+    if (settings.simplify && !settings.no_attributes && points_have_properties(sources_of(solids)))
+        work.warn("simplified", "points that are left out take their properties with them");
     if (!settings.no_attributes && leaves_out_properties(sources_of(solids)))
-        work.warn("attributes",
-                  "normals of points, lists and properties of other elements are not carried over");
+        work.warn("attributes", "lists and properties of other elements are not carried over");
 }
 
 void say_details(job& work, const tf::solid_result& result) {

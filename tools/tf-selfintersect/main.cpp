@@ -3,6 +3,7 @@
 
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
+#include "tools/common/curve_file.hpp"
 #include "tools/common/output_file.hpp"
 #include "tools/common/run.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
@@ -152,16 +153,12 @@ void check_outputs(const tools::job& work, const request& r) {
     if (const auto path = tools::mesh_output(o, work.path)) tools::check_output(*path, o.force);
 }
 
-bool curves_as_ply(const request& r) { return tools::extension_of(r.curves) == "ply"; }
-
 void check_request(const request& r, common_options& options) {
     const auto refuse = [](const std::string& text) {
         throw tools::failure(tools::bad_usage, "usage", text);
     };
     if (r.search.between && r.search.within) refuse("--between and --within exclude each other");
-    if (!r.curves.empty() && r.curves != "-" && !curves_as_ply(r) &&
-        tools::extension_of(r.curves) != "obj")
-        refuse(r.curves.string() + ": curves can be written as obj or ply");
+    tools::check_curve_path(r.curves);
     if (!r.repair && (r.max_move || r.keep_components))
         refuse("--max-move and --keep-components need --repair");
     if (r.repair && (r.search.first || r.search.between || r.search.within || r.search.box))
@@ -196,8 +193,9 @@ void write_reports(tools::job& work, const request& r, const tools::findings& re
     const common_options& o = work.options;
     write_file(work, r.pairs, [&](auto& out) { tools::write_pairs(out, result); });
     if (!o.dry_run)
-        write_file(work, r.curves,
-                   [&](auto& out) { tools::write_curves(out, result, curves_as_ply(r)); });
+        write_file(work, r.curves, [&](auto& out) {
+            tools::write_curves(out, result, tools::curves_as_ply(r.curves));
+        });
     write_file(work, o.html, [&](auto& out) { tools::write_page(out, work, result, r.search); });
 }
 

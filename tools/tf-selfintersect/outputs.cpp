@@ -1,13 +1,11 @@
 #include "tools/tf-selfintersect/outputs.hpp"
 
-#include "tools/common/console.hpp"
+#include "tools/common/curve_file.hpp"
 #include "tools/tf-selfintersect/words.hpp"
-#include <libmesh/intersect/curve_paths.hpp>
-#include <libmesh/intersect/curves.hpp>
 
 #include <algorithm>
-#include <initializer_list>
 #include <set>
+#include <utility>
 
 namespace tools {
 namespace {
@@ -49,18 +47,6 @@ json list_entry(const findings& result, std::size_t count) {
                         result.regions.region_of_pair[i]});
     }
     return list;
-}
-
-void append_point(std::string& text, const tf::point3& p) {
-    text += shortest(p.x) + " " + shortest(p.y) + " " + shortest(p.z);
-}
-
-void append_line(std::string& text, std::initializer_list<std::size_t> numbers) {
-    for (const std::size_t number : numbers) {
-        text += std::to_string(number);
-        text += ' ';
-    }
-    text.back() = '\n';
 }
 
 /// Written in pieces, so that the text of a million lines is never in memory at once.
@@ -116,84 +102,12 @@ void write_pairs(output_file& file, const findings& result) {
     file.write(text);
 }
 
-namespace {
-
-/// Points and lines between them, ready to be written.
-struct drawn_curves {
-    struct line {
-        std::vector<std::size_t> points;
-        std::vector<std::uint32_t> pairs;  ///< of each segment
-    };
-    std::vector<tf::point3> points;
-    std::vector<line> lines;
-    std::size_t segments = 0;
-
-    void add(line added) {
-        segments += added.pairs.size();
-        lines.push_back(std::move(added));
-    }
-};
-
-/// Paths, and for faces without area, which have none, segments of their own.
-drawn_curves draw(const findings& result) {
-    std::vector<tf::face_pair> proper, degenerate;
-    std::vector<std::uint32_t> proper_number, degenerate_number;
-    for (std::uint32_t i = 0; i < result.found.pairs.size(); ++i) {
-        const tf::face_pair& pair = result.found.pairs[i];
-        const bool flat = pair.kind == tf::pair_kind::degenerate;
-        (flat ? degenerate : proper).push_back(pair);
-        (flat ? degenerate_number : proper_number).push_back(i);
-    }
-    drawn_curves drawn;
-    const tf::curve_network network = tf::intersection_paths(result.mesh, proper);
-    for (const tf::curve_point& p : network.points) drawn.points.push_back(p.position);
-    for (const tf::curve_path& path : network.paths) {
-        drawn_curves::line line{{path.points.begin(), path.points.end()}, {}};
-        if (path.closed || path.points.size() == 1) line.points.push_back(path.points[0]);
-        for (const std::uint32_t pair : path.pairs) line.pairs.push_back(proper_number[pair]);
-        drawn.add(std::move(line));
-    }
-    for (const tf::curve_segment& s : tf::intersection_curves(result.mesh, degenerate)) {
-        const std::size_t first = drawn.points.size();
-        drawn.points.insert(drawn.points.end(), s.ends.begin(), s.ends.end());
-        drawn.add({{first, first + 1}, {degenerate_number[s.pair]}});
-    }
-    return drawn;
-}
-
-}  // namespace
-
 void write_curves(output_file& file, const findings& result, bool as_ply) {
-    const drawn_curves drawn = draw(result);
-    std::string text;
-    if (as_ply)
-        text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(drawn.points.size()) +
-               "\nproperty double x\nproperty double y\nproperty double z\nelement edge " +
-               std::to_string(drawn.segments) +
-               "\nproperty int vertex1\nproperty int vertex2\nproperty int tf_class\n"
-               "property int tf_region\nend_header\n";
-    for (const tf::point3& p : drawn.points) {
-        if (!as_ply) text += "v ";
-        append_point(text, p);
-        text += "\n";
-        write_full_pieces(file, text);
-    }
-    for (const drawn_curves::line& line : drawn.lines) {
-        if (as_ply) {
-            for (std::size_t k = 0; k < line.pairs.size(); ++k) {
-                const std::uint32_t pair = line.pairs[k];
-                append_line(text, {line.points[k], line.points[k + 1],
-                                   static_cast<std::size_t>(result.found.pairs[pair].kind) + 1,
-                                   result.regions.region_of_pair[pair]});
-            }
-        } else {
-            text += "l";
-            for (const std::size_t p : line.points) text += " " + std::to_string(p + 1);
-            text += "\n";
-        }
-        write_full_pieces(file, text);
-    }
-    file.write(text);
+    pair_numbers kinds{"tf_class", {}};
+    for (const tf::face_pair& pair : result.found.pairs)
+        kinds.of_pair.push_back(static_cast<std::uint32_t>(pair.kind) + 1);
+    write_curves(file, result.mesh, result.found.pairs,
+                 {std::move(kinds), {"tf_region", result.regions.region_of_pair}}, as_ply);
 }
 
 }  // namespace tools

@@ -2,9 +2,11 @@
 
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
+#include <libmesh/boolean/separate_fans.hpp>
 #include <libmesh/topology.hpp>
 #include <libmesh/volume.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -27,6 +29,15 @@ tf::repaired_mesh compute(job& work, const findings& result, const repair_settin
     work.keeper.check();
     if (repaired.cancelled) throw failure(stopped, "stopped", work.name + ": stopped");
     return repaired;
+}
+
+/// Gives touching parts of a solid points of their own; how many.
+std::uint64_t separate_parts(tf::repaired_mesh& repaired) {
+    tf::separated_fans separated = tf::separate_fans(repaired.surface);
+    repaired.surface = std::move(separated.surface);
+    for (std::size_t p = repaired.point_of.size(); p < separated.point_of.size(); ++p)
+        repaired.point_of.push_back(repaired.point_of[separated.point_of[p]]);
+    return separated.doubled_points;
 }
 
 json edge_entry(const tf::open_operand_edge& edge, const findings& result) {
@@ -55,6 +66,7 @@ void enter_repair(job& work, const findings& result, const repair_settings& sett
         {"max_move",
          {{"given", settings.max_move.given}, {"used", allowed}, {"largest", repaired.max_move}}},
         {"removed_faces", repaired.removed},
+        {"covered_faces", repaired.covered},
         {"filled_faces", repaired.filled},
         {"lost_components", repaired.lost_components},
         {"volume",
@@ -97,6 +109,8 @@ void say_result(job& work, const repair_settings& settings, const tf::repaired_m
                        ", no self-intersections";
     if (repaired.removed > 0)
         text += ", " + counted(repaired.removed, "face", "faces") + " removed";
+    if (repaired.covered > 0)
+        text += ", " + counted(repaired.covered, "face lies", "faces lie") + " on others";
     if (repaired.filled > 0) text += ", " + grouped(repaired.filled) + " filled in";
     if (repaired.max_move > 0.0)
         text += ", rounding moved points by " + shortest(repaired.max_move) + " at most";
@@ -128,8 +142,8 @@ void write_repaired(job& work, const tf::mesh_file& input, const findings& resul
     const property_source source{&input, &result.triangle_of_face};
     const bool same_points = input.mesh.points.size() == result.mesh.points.size();
     if (same_points)
-        carry_properties(file, {&source, 1}, of_input(repaired.face_of),
-                         of_input(repaired.point_of));
+        carry_properties(file, {&source, 1},
+                         {of_input(repaired.face_of), of_input(repaired.point_of)});
     if ((!same_points && !input.attributes.elements.empty() && input.indexed) ||
         leaves_out_properties({&source, 1}))
         work.warn("attributes", "not all properties of the input are carried over");
@@ -161,8 +175,11 @@ bool repair_and_write(job& work, const tf::mesh_file& file, const findings& resu
     const property_source source{&file, &result.triangle_of_face};
     const bool to_single = writes_single(work.options, output, {&source, 1});
     tf::repaired_mesh repaired = compute(work, result, settings, to_single);
+    const std::uint64_t separated =
+        settings.mode == tf::repair_mode::outer && repaired.certified ? separate_parts(repaired) : 0;
     const double allowed = settings.max_move.used(result.box ? tf::diagonal(*result.box) : 0.0);
     enter_repair(work, result, settings, repaired, allowed, to_single);
+    work.entry["repair"]["separated_points"] = separated;
     if (const std::string why = objection(result, settings, repaired, allowed); !why.empty()) {
         work.out.result(work.name + ": not repaired, nothing written: " + why);
         return false;
