@@ -45,8 +45,13 @@ class cutter {
         planar_triangulation plane = start();
         insert_points(plane);
         force_lines(plane);
-        cover(plane);
-        write(plane);
+        number_points(plane);
+        if (is_single()) {
+            write_single(plane);
+        } else {
+            cover(plane);
+            write(plane);
+        }
         return std::move(result_);
     }
 
@@ -56,9 +61,8 @@ class cutter {
         const face& c = corners(f);
         return {in_.mesh.points[c[0]], in_.mesh.points[c[1]], in_.mesh.points[c[2]]};
     }
-    [[nodiscard]] bool is_member(std::uint32_t f) const {
-        return std::binary_search(in_.members.begin(), in_.members.end(), f);
-    }
+    /// By far the most are: then all of the triangulation is the face.
+    [[nodiscard]] bool is_single() const { return in_.members.size() == 1; }
     [[nodiscard]] constructed_point point(std::uint32_t id) const {
         return id < in_.mesh.points.size() ? constructed_point(in_.mesh.points[id])
                                            : in_.met->points[id - in_.mesh.points.size()];
@@ -82,6 +86,7 @@ class cutter {
 
     void collect() {
         std::vector<incidence> on;
+        on.reserve(16);
         std::vector<std::array<std::uint32_t, 3>> crossings;  // from, to, face
         for (const std::uint32_t f : in_.members) {
             for (std::size_t i = 0; i < 3; ++i) {
@@ -165,11 +170,13 @@ class cutter {
         std::vector<constructed_point> points;
         std::vector<std::vector<std::uint32_t>> lines;
         vertex_of_.assign(points_.size(), none);
-        if (in_.members.size() == 1) {
+        points.reserve(points_.size() + 3);
+        lines.reserve(points_.size() + 3);
+        if (is_single()) {
             for (const std::uint32_t c : corners(in_.members[0])) {
                 vertex_of_[local(c)] = static_cast<std::uint32_t>(points.size());
                 points.push_back(point(c));
-                lines.push_back(lines_of_[local(c)]);
+                lines.push_back(std::move(lines_of_[local(c)]));
             }
         } else {
             for (const point3& p : frame()) {
@@ -181,7 +188,7 @@ class cutter {
             if (vertex_of_[i] != none) continue;
             vertex_of_[i] = static_cast<std::uint32_t>(points.size());
             points.push_back(point(points_[i]));
-            lines.push_back(lines_of_[i]);
+            lines.push_back(std::move(lines_of_[i]));
         }
         return {std::move(points), std::move(lines), axis_, orientation_,
                 [this](std::uint32_t line, std::uint32_t other) { return cross(line, other); }};
@@ -259,10 +266,6 @@ class cutter {
     /// Spreads each member from one of its sides over the triangles within its boundary.
     void cover(const planar_triangulation& plane) {
         covers_.resize(plane.triangle_count());
-        if (in_.members.size() == 1) {
-            for (auto& covers : covers_) covers.push_back({in_.members[0], false});
-            return;
-        }
         std::vector<std::uint32_t> seen(plane.triangle_count(), none);
         for (const std::uint32_t f : in_.members) {
             const plane_points p = plane_of(f);
@@ -302,17 +305,31 @@ class cutter {
         }
     }
 
-    void write(const planar_triangulation& plane) {
+    /// What the vertices of the triangulation are called outside.
+    void number_points(const planar_triangulation& plane) {
         const auto given = static_cast<std::uint32_t>(in_.mesh.points.size());
         const auto named = static_cast<std::uint32_t>(in_.met->points.size());
-        const std::size_t inserted = points_.size() + (in_.members.size() == 1 ? 0 : 3);
-        std::vector<std::uint32_t> id(plane.points().size(), none);
+        const std::size_t inserted = points_.size() + (is_single() ? 0 : 3);
+        id_.assign(plane.points().size(), none);
         for (std::uint32_t i = static_cast<std::uint32_t>(points_.size()); i-- > 0;)
-            id[vertex_of_[i]] = points_[i];
+            id_[vertex_of_[i]] = points_[i];
         for (std::size_t v = inserted; v < plane.points().size(); ++v) {
-            id[v] = given + named + static_cast<std::uint32_t>(result_.made.size());
+            id_[v] = given + named + static_cast<std::uint32_t>(result_.made.size());
             result_.made.push_back(plane.points()[v]);
         }
+    }
+
+    void write_single(const planar_triangulation& plane) {
+        const std::size_t count = plane.triangle_count();
+        result_.covers.assign(count, {in_.members[0], false});
+        result_.faces.reserve(count);
+        for (std::size_t t = 0; t < count; ++t) {
+            const auto c = plane.corners(t);
+            result_.faces.push_back({{id_[c[0]], id_[c[1]], id_[c[2]]}, t});
+        }
+    }
+
+    void write(const planar_triangulation& plane) {
         std::vector<std::uint32_t> order;
         for (std::uint32_t t = 0; t < plane.triangle_count(); ++t)
             if (!covers_[t].empty()) order.push_back(t);
@@ -323,7 +340,7 @@ class cutter {
             auto c = plane.corners(t);
             const bool turned = covers_[t][0].opposite;
             if (turned) std::swap(c[1], c[2]);
-            result_.faces.push_back({{id[c[0]], id[c[1]], id[c[2]]}, result_.covers.size()});
+            result_.faces.push_back({{id_[c[0]], id_[c[1]], id_[c[2]]}, result_.covers.size()});
             for (const covering_face& cover : covers_[t])
                 result_.covers.push_back({cover.face, cover.opposite != turned});
         }
@@ -337,6 +354,7 @@ class cutter {
     std::vector<std::uint32_t> vertex_of_;            ///< of each point, in the triangulation
     std::vector<std::vector<std::uint32_t>> chains_;  ///< vertices along each edge
     std::vector<std::vector<covering_face>> covers_;  ///< of each triangle
+    std::vector<std::uint32_t> id_;                   ///< of each vertex, outside
     int axis_ = 2;
     int orientation_ = 1;
     cut_cluster result_;
