@@ -1,9 +1,11 @@
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/place/arrange.hpp>
 #include <libmesh/place/detail/plate.hpp>
 #include <libtree/parallel.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -89,12 +91,16 @@ bool is_new(const shape& s, const candidate& c) {
 }
 
 std::vector<shape> shapes_of(std::span<const mesh_view> parts, const arrange_options& o,
-                             double cell) {
+                             double cell, const progress_callback& progress) {
     const std::vector<unsigned> turns = turns_of(o.turns);
     std::vector<candidate> all(parts.size() * turns.size());
+    detail::work_progress work(progress);
+    std::atomic<std::size_t> begun{0};
+    const double share = 1.0 / static_cast<double>(std::max<std::size_t>(all.size(), 1));
     for_chunks(all.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const mesh_view part = parts[i / turns.size()];
+            if (!work.reach(static_cast<double>(begun++) * share)) return;
             if (part.faces.empty()) continue;
             const turned_part there(part, turns[i % turns.size()]);
             const point3& size = there.size();
@@ -233,16 +239,23 @@ arrangement arrange(std::span<const mesh_view> parts, const arrange_options& opt
     check(options);
     for (std::size_t i = 0; i < parts.size(); ++i) check(parts[i], i);
     const double cell = cell_length(parts, options);
-    const std::vector<shape> shapes = shapes_of(parts, options, cell);
+    detail::work_progress work(options.progress);
+    const std::vector<shape> shapes = shapes_of(parts, options, cell, work.part(0.0, 0.2));
 
     arrangement best;
+    const auto count = static_cast<double>(parts.size());
     double least_left = -1.0;
     for (unsigned attempt = 0; attempt < options.attempts && least_left != 0.0; ++attempt) {
         filling one(parts, shapes, options, cell, attempt % 2 == 1);
         double left = 0.0;
-        for (const std::uint32_t part : order_of(shapes, options.seed, attempt))
+        std::size_t tried = 0;
+        for (const std::uint32_t part : order_of(shapes, options.seed, attempt)) {
+            const double all = static_cast<double>(options.attempts) * count;
+            const double done = static_cast<double>(attempt) * count + static_cast<double>(tried++);
+            if (!work.reach(0.2 + 0.8 * done / all)) return {.cancelled = true};
             if ((least_left < 0.0 || left < least_left) && !one.put(part))
                 left += shapes[part].area;
+        }
         const std::uint64_t measured = best.pairs_measured + one.result().pairs_measured();
         if (least_left < 0.0 || left < least_left) {
             least_left = left;
@@ -252,6 +265,7 @@ arrangement arrange(std::span<const mesh_view> parts, const arrange_options& opt
     }
     for (std::uint32_t i = 0; i < parts.size(); ++i)
         if (!best.parts[i].placed) best.not_placed.push_back(i);
+    if (!work.reach(1.0)) return {.cancelled = true};
     return best;
 }
 

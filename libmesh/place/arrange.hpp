@@ -4,6 +4,7 @@
 
 #include <libmesh/mesh.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 #include <libtree/transform.hpp>
 
 #include <cstdint>
@@ -32,6 +33,7 @@ struct arrange_options {
     std::uint64_t seed = 0;  ///< of the orders tried when not all parts fit in the first one
     unsigned attempts = 4;   ///< orders tried in all; at least 1
     bool to_single = false;  ///< coordinates become float32 values, as a binary STL holds them
+    progress_callback progress{};
 };
 
 struct arranged_part {
@@ -48,6 +50,7 @@ struct arrangement {
     std::vector<std::uint32_t> not_placed{};  ///< numbers of parts that found no place, ascending
     /// Pairs of parts whose boxes are nearer than the spacing, so that their faces were looked at.
     std::uint64_t pairs_measured = 0;
+    bool cancelled = false;  ///< `progress` said stop; the rest is empty
 };
 
 /// Places for the parts on the plate, each part turned about z by one of `turns` and standing on

@@ -1,4 +1,5 @@
 #include <libmesh/bounding_box.hpp>
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/nearness/mesh_distance.hpp>
@@ -47,7 +48,11 @@ class clearing {
   public:
     clearing(mesh_view a, const tree<3>& tree_a, std::span<const still_part> parts,
              const clear_options& options)
-        : a_(a), tree_(tree_a), options_(options), box_(bounding_box(a.points)) {
+        : a_(a),
+          tree_(tree_a),
+          options_(options),
+          work_(options_.progress),
+          box_(bounding_box(a.points)) {
         for (const still_part& part : parts) {
             const auto box = bounding_box(part.mesh.points);
             if (!box || part.mesh.faces.empty()) continue;
@@ -56,14 +61,26 @@ class clearing {
         }
     }
 
-    [[nodiscard]] std::vector<clear_move> moves() const {
-        if (a_.faces.empty() || !box_ || is_clear({})) return {};
+    [[nodiscard]] clear_result moves() {
+        std::vector<clear_move> found;
+        const bool stays = a_.faces.empty() || !box_ || is_clear({});
+        if (!stays && !work_.cancelled()) found = moves_out();
+        work_.reach(1.0);
+        if (work_.cancelled()) return {.cancelled = true};
+        std::stable_sort(found.begin(), found.end(),
+                         [](const auto& x, const auto& y) { return x.time < y.time; });
+        return {.moves = std::move(found)};
+    }
+
+  private:
+    [[nodiscard]] std::vector<clear_move> moves_out() {
         std::vector<clear_move> found;
         const auto pair = nearest({});
         const double lacking = pair ? options_.clearance - pair->distance : 0.0;
         clear_move best{{}, infinity};
         const auto look = [&](const std::optional<point3>& direction) {
-            if (!direction) return;
+            ++looked_;
+            if (!direction || !go_on()) return;
             const auto time = way_out(*direction, lacking, best.time);
             if (!time) return;
             found.push_back({*direction, *time});
@@ -73,12 +90,12 @@ class clearing {
         for (const double tilt : {0.5, 0.25, 0.125, 0.0625})
             for (const point3& aside : around(best.direction))
                 look(direction_of(sum(best.direction, scaled(aside, tilt))));
-        std::stable_sort(found.begin(), found.end(),
-                         [](const auto& x, const auto& y) { return x.time < y.time; });
         return found;
     }
 
-  private:
+    /// Asked of each place: the share is that of the directions, of which some fifty are looked at.
+    bool go_on() { return work_.step(0.0, 0.95, looked_, 25.0); }
+
     /// Six directions at right angles to one.
     [[nodiscard]] static std::vector<point3> around(const point3& d) {
         const std::size_t k = std::abs(d.x) > std::abs(d.y) ? 1 : 0;
@@ -125,11 +142,13 @@ class clearing {
         return best;
     }
 
-    [[nodiscard]] bool is_clear(const point3& offset) const {
+    /// False, too, when it is to stop.
+    [[nodiscard]] bool is_clear(const point3& offset) {
         std::vector<std::size_t> close;
         for (std::size_t i = 0; i < parts_.size(); ++i)
             if (boxes_within(i, offset)) close.push_back(i);
         if (close.empty()) return true;
+        if (!go_on()) return false;
         if (options_.clearance > 0.0) {
             const auto pair = nearest(offset);
             if (pair && pair->distance < options_.clearance) return false;
@@ -138,6 +157,7 @@ class clearing {
         const std::vector<point3> points = points_at(offset);
         const mesh_view there{points, a_.faces};
         mesh_intersection_options crossing{.move_a = translation<3>(offset), .first_only = true};
+        crossing.progress = asking_;
         crossing.kinds = {};
         crossing.kinds[static_cast<std::size_t>(pair_kind::crossing)] = true;
         for (const std::size_t i : close)
@@ -146,10 +166,10 @@ class clearing {
                 return false;
         const tree<3> faces = face_tree(there);
         for (const std::size_t i : close)
-            if (relation(there, faces, parts_[i].mesh, *parts_[i].faces).relation ==
+            if (relation(there, faces, parts_[i].mesh, *parts_[i].faces, asking_).relation ==
                 mesh_relation::penetrating)
                 return false;
-        return true;
+        return !work_.cancelled();
     }
 
     /// So far along `direction` that the box of a part is just left by the clearance.
@@ -166,7 +186,7 @@ class clearing {
 
     /// The length of a free way back from the first free place along `direction`.
     [[nodiscard]] std::optional<double> way_out(const point3& direction, double lacking,
-                                                double best) const {
+                                                double best) {
         std::vector<double> times;
         double out = 0.0;
         for (std::size_t i = 0; i < boxes_.size(); ++i) {
@@ -180,24 +200,26 @@ class clearing {
         std::sort(times.begin(), times.end());
         double occupied = 0.0;
         for (const double time : times) {
-            if (occupied >= best) return std::nullopt;
+            if (occupied >= best || work_.cancelled()) return std::nullopt;
             if (is_clear(scaled(direction, time))) return slid_back(direction, time, occupied);
             occupied = time;
         }
         return std::nullopt;
     }
 
-    [[nodiscard]] double slid_back(const point3& direction, double time, double occupied) const {
+    [[nodiscard]] double slid_back(const point3& direction, double time, double occupied) {
         const std::vector<point3> points = points_at(scaled(direction, time));
         const mesh_view there{points, a_.faces};
         const tree<3> faces = face_tree(there);
-        const auto back =
-            slide(there, faces, parts_, scaled(direction, -1.0),
-                  {.clearance = options_.clearance, .latest = time - occupied, .limit = 1});
+        const auto back = slide(there, faces, parts_, scaled(direction, -1.0),
+                                {.clearance = options_.clearance,
+                                 .latest = time - occupied,
+                                 .limit = 1,
+                                 .progress = asking_});
         return back.end == motion_end::contact ? time - back.time : time;
     }
 
-    [[nodiscard]] std::vector<point3> directions() const {
+    [[nodiscard]] std::vector<point3> directions() {
         std::vector<point3> found;
         const auto offer = [&](const std::optional<point3>& d) {
             if (!d) return;
@@ -229,10 +251,10 @@ class clearing {
         return found;
     }
 
-    [[nodiscard]] std::vector<face_pair> touching_pairs(std::size_t i) const {
+    [[nodiscard]] std::vector<face_pair> touching_pairs(std::size_t i) {
         if (!boxes_within(i, {})) return {};
         return mesh_intersections(a_, tree_, parts_[i].mesh, *parts_[i].faces,
-                                  {.limit = options_.face_pairs})
+                                  {.limit = options_.face_pairs, .progress = asking_})
             .pairs;
     }
 
@@ -270,6 +292,9 @@ class clearing {
     mesh_view a_;
     const tree<3>& tree_;
     clear_options options_;
+    detail::work_progress work_;
+    std::size_t looked_ = 0;  ///< directions
+    progress_callback asking_ = [this](double) { return go_on(); };
     std::optional<box3> box_;
     std::vector<still_part> parts_;
     std::vector<box3> boxes_;
@@ -277,9 +302,8 @@ class clearing {
 
 }  // namespace
 
-std::vector<clear_move> clear_moves(mesh_view a, const tree<3>& tree_a,
-                                    std::span<const still_part> parts,
-                                    const clear_options& options) {
+clear_result clear_moves(mesh_view a, const tree<3>& tree_a, std::span<const still_part> parts,
+                         const clear_options& options) {
     if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
         throw std::invalid_argument("tf::clear_moves: the clearance is negative or not finite");
     return clearing(a, tree_a, parts, options).moves();

@@ -5,6 +5,7 @@
 #include <libmesh/mesh.hpp>
 #include <libmesh/place/still_part.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 #include <libtree/tree.hpp>
 
 #include <cstddef>
@@ -17,6 +18,7 @@ struct clear_options {
     double clearance = 0.0;       ///< the least distance wanted; 0: not to penetrate
     std::size_t normals = 24;     ///< normals of faces that are tried as directions, at most
     std::size_t face_pairs = 64;  ///< pairs of faces whose normals are looked at, for each part
+    progress_callback progress{};
 };
 
 /// A translation by `time` times `direction`.
@@ -25,8 +27,13 @@ struct clear_move {
     double time = 0.0;   ///< its length
 };
 
-/// Translations of `a` to places where it penetrates none of `parts` and keeps the clearance, the
-/// shortest first; empty when it does so where it is.
+struct clear_result {
+    std::vector<clear_move> moves{};  ///< the shortest first
+    bool cancelled = false;           ///< `progress` said stop; `moves` is empty
+};
+
+/// Translations of `a` to places where it penetrates none of `parts` and keeps the clearance;
+/// none when it does so where it is.
 ///
 /// The directions tried are the six of the axes, those of the line between the nearest points, the
 /// normals of faces that meet, their sum, and the way of a walk that steps out of the reach of the
@@ -46,8 +53,8 @@ struct clear_move {
 /// \same   on any number of threads
 /// \source why the least translation is no target: Dobkin, Hershberger, Kirkpatrick and Suri,
 ///         Computing the Intersection-Depth of Polyhedra, Algorithmica 9 (1993)
-[[nodiscard]] TREEFORM_API std::vector<clear_move> clear_moves(mesh_view a, const tree<3>& tree_a,
-                                                               std::span<const still_part> parts,
-                                                               const clear_options& options = {});
+[[nodiscard]] TREEFORM_API clear_result clear_moves(mesh_view a, const tree<3>& tree_a,
+                                                    std::span<const still_part> parts,
+                                                    const clear_options& options = {});
 
 }  // namespace tf

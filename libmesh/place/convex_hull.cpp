@@ -237,21 +237,28 @@ convex_hull_result joined(std::vector<std::vector<face>> sides, points_view poin
     return hull;
 }
 
-}  // namespace
-
-convex_hull_result convex_hull(points_view points) {
-    check_points(points);
+convex_hull_result hull_of(points_view points, detail::work_progress& work) {
     const detail::scaled_points scaled(points);
     const first_simplex first = find_simplex(points, scaled);
-    if (first.dimension < 2) return {first.dimension, {}, {}};
+    if (first.dimension < 2) return {first.dimension, {}, {}, false};
     const auto& [a, b, c, d] = first.corner;
     if (first.dimension == 2) {
         const int axis = axis_that_sees(points[a], points[b], points[c]);
         return joined(faces_of_polygon(polygon_around(points, axis)), points, 2);
     }
     detail::quickhull hull(points, scaled, first.corner);
-    hull.run();
+    if (!hull.run(work)) return {.cancelled = true};
     return joined(hull.sides(), points, 3);
+}
+
+}  // namespace
+
+convex_hull_result convex_hull(points_view points, const progress_callback& progress) {
+    check_points(points);
+    detail::work_progress work(progress);
+    convex_hull_result hull = hull_of(points, work);
+    work.reach(1.0);
+    return hull;
 }
 
 std::vector<std::uint32_t> corners_of(const convex_hull_result& hull, const hull_side& side,

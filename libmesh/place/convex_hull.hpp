@@ -5,6 +5,7 @@
 #include <libmesh/mesh.hpp>
 #include <libmesh/points.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -30,8 +31,9 @@ struct convex_hull_result {
     /// [F] triangles of the hull in numbers of the points, outward, side by side in the order of
     /// `sides`; no two share more than an edge, none is degenerate. Points in a plane have two
     /// sides of the same triangles, one facing either way; of fewer dimensions there are none.
-    std::vector<face> faces;
-    std::vector<hull_side> sides;
+    std::vector<face> faces{};
+    std::vector<hull_side> sides{};
+    bool cancelled = false;  ///< `progress` said stop; the rest is empty
 
     /// The triangles of a side.
     [[nodiscard]] std::span<const face> faces_of(const hull_side& side) const {
@@ -49,7 +51,8 @@ struct convex_hull_result {
 /// \same   on every machine
 /// \source Barber, Dobkin and Huhdanpaa, The Quickhull Algorithm for Convex Hulls, TOMS 22 (1996);
 ///         a point sees a face when it is strictly above it, so that coplanar faces need no care
-[[nodiscard]] TREEFORM_API convex_hull_result convex_hull(points_view points);
+[[nodiscard]] TREEFORM_API convex_hull_result convex_hull(points_view points,
+                                                          const progress_callback& progress = {});
 
 /// The corners of a side in order around it, counter-clockwise seen from outside, from the lowest
 /// number on; those at which it does not turn are left out.

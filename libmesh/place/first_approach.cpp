@@ -1,3 +1,4 @@
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/mesh_distance.hpp>
 #include <libmesh/place/first_approach.hpp>
@@ -84,10 +85,16 @@ mesh_approach first_approach(mesh_view a, const tree<3>& tree_a, mesh_view b, co
         throw std::invalid_argument("tf::first_approach: the latest time is negative or NaN");
     mesh_approach result;
     const auto near = mesh_distance(a, tree_a, b, tree_b, distance);
+    detail::work_progress work(options.progress);
     if (near && near->distance < distance) {
         result.end = motion_end::at_start;
+        work.reach(1.0);
         return result;
     }
+    if (!work.reach(0.4)) return {.cancelled = true};
+    const auto go_on = [&, usual = static_cast<double>(a.faces.size() + b.faces.size())] {
+        return result.pairs_tested % 1024 != 0 || work.step(0.4, 0.9, result.pairs_tested, usual);
+    };
     double latest = options.latest;
     std::vector<pair_of_faces> pairs;
     const tree<3> wide = widened_tree(a, distance);
@@ -95,6 +102,7 @@ mesh_approach first_approach(mesh_view a, const tree<3>& tree_a, mesh_view b, co
         wide, tree_b, motion,
         [&](std::uint32_t i, std::uint32_t j) {
             ++result.pairs_tested;
+            if (!go_on()) return -1.0;
             const moving_pair pair{triangle_of(a, i), triangle_of(b, j), motion};
             const double below = std::max(0.0, distance - pair.slack(distance));
             const auto time = pair.time_within(distance, latest);
@@ -107,6 +115,7 @@ mesh_approach first_approach(mesh_view a, const tree<3>& tree_a, mesh_view b, co
             return latest;
         },
         options.latest);
+    if (work.cancelled() || !work.reach(1.0)) return {.cancelled = true};
     if (pairs.empty()) return result;
 
     result.end = motion_end::contact;

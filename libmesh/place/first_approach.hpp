@@ -5,6 +5,7 @@
 #include <libmesh/mesh.hpp>
 #include <libmesh/place/first_contact.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 #include <libtree/tree.hpp>
 
 #include <cstddef>
@@ -15,6 +16,7 @@ namespace tf {
 struct first_approach_options {
     double latest = std::numeric_limits<double>::infinity();  ///< as for `first_contact`
     std::size_t limit = 1000;
+    progress_callback progress{};
 };
 
 struct mesh_approach {
@@ -27,6 +29,7 @@ struct mesh_approach {
     std::vector<face_contact> contacts{};
     std::uint64_t contact_count = 0;
     std::uint64_t pairs_tested = 0;
+    bool cancelled = false;  ///< `progress` said stop; nothing is known
 };
 
 /// The time t >= 0 from which on `a`, moved by t times `motion`, is nearer than `distance` to `b`

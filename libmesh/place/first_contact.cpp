@@ -1,3 +1,4 @@
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
@@ -72,10 +73,16 @@ first_mesh_contact first_contact(mesh_view a, const tree<3>& tree_a, mesh_view b
     first_mesh_contact result;
     if (!(options.latest >= 0.0))
         throw std::invalid_argument("tf::first_contact: the latest time is negative or NaN");
+    detail::work_progress work(options.progress);
     if (intersects(a, tree_a, b, tree_b, {options.move_a, options.move_b})) {
         result.end = motion_end::at_start;
+        work.reach(1.0);
         return result;
     }
+    if (!work.reach(0.4)) return {.cancelled = true};
+    const auto go_on = [&, usual = static_cast<double>(a.faces.size() + b.faces.size())] {
+        return result.pairs_tested % 1024 != 0 || work.step(0.4, 0.9, result.pairs_tested, usual);
+    };
     const transformed<3> moving(tree_a, options.move_a);
     const transformed<3> still(tree_b, options.move_b);
     const auto face_a = [&](std::uint32_t f) {
@@ -90,11 +97,13 @@ first_mesh_contact first_contact(mesh_view a, const tree<3>& tree_a, mesh_view b
         moving, still, motion,
         [&](std::uint32_t i, std::uint32_t j) {
             ++result.pairs_tested;
+            if (!go_on()) return -1.0;
             if (const auto one = first_contact(face_a(i), face_b(j), motion, &result.predicates))
                 found.offer(motion, i, j, *one, result.predicates);
             return found.first ? found.first->time * (1.0 + 0x1p-38) : options.latest;
         },
         options.latest);
+    if (work.cancelled() || !work.reach(1.0)) return {.cancelled = true};
     if (!found.first) return result;
     if (std::isfinite(options.latest) &&
         compare_cut(found.first->from, motion, found.first->until, options.latest) > 0)

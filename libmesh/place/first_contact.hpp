@@ -6,6 +6,7 @@
 #include <libmesh/geometry/triangle_sweep.hpp>
 #include <libmesh/mesh.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 #include <libtree/transform.hpp>
 #include <libtree/tree.hpp>
 
@@ -25,6 +26,7 @@ struct first_contact_options {
     double latest = std::numeric_limits<double>::infinity();
     /// At most this many contacts are listed, those of the lowest face numbers.
     std::size_t limit = 1000;
+    progress_callback progress{};
 };
 
 enum class motion_end : std::uint8_t {
@@ -53,6 +55,7 @@ struct first_mesh_contact {
     std::uint64_t contact_count = 0;  ///< of all of them
     std::uint64_t pairs_tested = 0;   ///< pairs of faces looked at; the rest was skipped
     predicate_counters predicates{};  ///< what these and the order of their times took
+    bool cancelled = false;           ///< `progress` said stop; nothing is known
 };
 
 /// The least t >= 0 at which `a`, moved by t times `motion`, has a point in common with `b`.

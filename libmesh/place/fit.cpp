@@ -1,7 +1,9 @@
 #include <libmesh/bounding_box.hpp>
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <libmesh/place/fit.hpp>
+#include <libmesh/place/point_faces.hpp>
 #include <libtree/parallel.hpp>
 
 #define EIGEN_MPL2_ONLY
@@ -106,8 +108,7 @@ class target {
     target(mesh_view fixed, const frame& f) : faces_(fixed.faces.begin(), fixed.faces.end()) {
         points_.reserve(fixed.points.size());
         for (const point3& p : fixed.points) points_.push_back(f.fixed(p));
-        if (faces_.empty())
-            for (std::uint32_t i = 0; i < points_.size(); ++i) faces_.push_back({i, i, i});
+        if (faces_.empty()) faces_ = point_faces(points_.size());
         query_ = closest_point_query({points_, faces_});
     }
 
@@ -289,7 +290,8 @@ struct search_result {
 
 /// Steps from `map` on, and of the places on the way the best.
 search_result search(const target& fixed, const std::vector<Vector3d>& samples,
-                     const similarity& start, const fit_options& o, double radius, bool planes) {
+                     const similarity& start, const fit_options& o, double radius, bool planes,
+                     detail::work_progress& work) {
     search_result best{start};
     similarity map = start;
     double least = std::numeric_limits<double>::infinity();
@@ -303,6 +305,7 @@ search_result search(const target& fixed, const std::vector<Vector3d>& samples,
         }
         best.iterations = i;
         if (best.converged || i == o.max_iterations) return best;
+        if (!work.step(0.2, 0.8, i, 10.0)) return best;
         trim(partners, share_of(o.overlap, samples.size()));
         if (partners.empty()) return best;
         const similarity step =
@@ -348,13 +351,19 @@ fit_result fit(points_view moving, mesh_view fixed, const fit_options& options) 
     start.shift = f.offset;
     const double radius = options.max_distance * f.by;
 
+    detail::work_progress work(options.progress);
     const auto judge = [&](const similarity& map) {
         return quality_of(scaled.partners(all, map, radius), all.size(), options, radius);
     };
     const bool planes = options.method == fit_method::point_to_plane && !fixed.faces.empty();
+    if (!work.reach(0.1)) return {.cancelled = true};
+    const quality before = judge(start);
+    if (!work.reach(0.2)) return {.cancelled = true};
     const search_result found =
-        search(scaled, some_of(all, options.samples), start, options, radius, planes);
-    const quality before = judge(start), after_all = judge(found.map);
+        search(scaled, some_of(all, options.samples), start, options, radius, planes, work);
+    if (work.cancelled()) return {.cancelled = true};
+    const quality after_all = judge(found.map);
+    if (!work.reach(1.0)) return {.cancelled = true};
     const bool better = after_all.cost < before.cost;
     const similarity& map = better ? found.map : start;
     const quality& end = better ? after_all : before;

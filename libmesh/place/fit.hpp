@@ -5,6 +5,7 @@
 #include <libmesh/mesh.hpp>
 #include <libmesh/points.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 #include <libtree/transform.hpp>
 
 #include <cstddef>
@@ -38,6 +39,7 @@ struct fit_options {
     std::size_t samples = 100'000;
     /// Applied to the moving points first: an affine map of any kind.
     transform<3> start{};
+    progress_callback progress{};
 };
 
 struct fit_result {
@@ -53,6 +55,7 @@ struct fit_result {
     double overlap = 0.0;
     bool converged = false;
     unsigned iterations = 0;
+    bool cancelled = false;  ///< `progress` said stop; the rest means nothing
 };
 
 /// The rigid motion, with a uniform scale if asked for, that brings the moving points near to the

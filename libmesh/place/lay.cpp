@@ -1,6 +1,7 @@
 #include <libmesh/bounding_box.hpp>
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/exact/predicates.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/place/detail/quickhull.hpp>
@@ -150,10 +151,11 @@ void largest_first(std::vector<hull_side>& sides) {
                      [](const hull_side& x, const hull_side& y) { return x.area > y.area; });
 }
 
-candidates sides_of(mesh_view mesh, const std::vector<std::uint32_t>& ids, double tolerance) {
+candidates sides_of(mesh_view mesh, const std::vector<std::uint32_t>& ids, double tolerance,
+                    const progress_callback& progress) {
     candidates c;
     for (const std::uint32_t i : ids) c.points.push_back(mesh.points[i]);
-    c.hull = convex_hull(c.points);
+    c.hull = convex_hull(c.points, progress);
     largest_first(c.hull.sides);
     if (tolerance > 0.0) {
         join_sides(c, tolerance);
@@ -354,7 +356,9 @@ void put_down(laid_mesh& laid, mesh_view mesh, const std::vector<std::uint32_t>&
 std::optional<laid_mesh> lay(mesh_view mesh, const lay_options& options) {
     check(mesh, options);
     const std::vector<std::uint32_t> ids = points_that_count(mesh);
-    const candidates found = sides_of(mesh, ids, options.tolerance);
+    detail::work_progress work(options.progress);
+    const candidates found = sides_of(mesh, ids, options.tolerance, work.part(0.0, 0.8));
+    if (work.cancelled()) return laid_mesh{.cancelled = true};
     if (found.hull.sides.empty()) return std::nullopt;
 
     laid_mesh laid;
@@ -367,6 +371,7 @@ std::optional<laid_mesh> lay(mesh_view mesh, const lay_options& options) {
     const face& f = found.hull.faces_of(side)[0];
     const plane_points plane{found.points[f[0]], found.points[f[1]], found.points[f[2]]};
     put_down(laid, mesh, ids, plane, move, options);
+    work.reach(1.0);
     return laid;
 }
 

@@ -5,6 +5,7 @@
 #include <libmesh/mesh.hpp>
 #include <libmesh/place/convex_hull.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 #include <libtree/transform.hpp>
 
 #include <cstddef>
@@ -33,6 +34,7 @@ struct lay_options {
     double tolerance = 0.0;
     double bed = 0.0;        ///< z of the bed
     bool to_single = false;  ///< coordinates become float32 values, as a binary STL holds them
+    progress_callback progress{};
 };
 
 struct laid_mesh {
@@ -49,6 +51,7 @@ struct laid_mesh {
     /// The most that a z was changed to be on the bed or not below it, beyond the rotation: some
     /// units in the last place, and of the order of the tolerance with one.
     double corrected = 0.0;
+    bool cancelled = false;  ///< `progress` said stop; the rest is empty
 };
 
 /// `mesh` turned so that a flat side of its convex hull is on the bed. The centre of its box keeps

@@ -1,4 +1,5 @@
 #include <libmesh/bounding_box.hpp>
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/mesh_distance.hpp>
@@ -94,22 +95,27 @@ std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t, const 
 }
 
 std::optional<mesh_measure> measure(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                    const tree<3>& tree_b, double radius) {
+                                    const tree<3>& tree_b, const measure_options& options) {
     if (a.faces.empty() || b.faces.empty()) return std::nullopt;
+    detail::work_progress work(options.progress);
     mesh_measure result;
-    if (boxes_meet(a, b)) result.relation = relation(a, tree_a, b, tree_b);
+    if (boxes_meet(a, b)) result.relation = relation(a, tree_a, b, tree_b, work.part(0.0, 0.5));
+    if (!work.reach(0.5)) result.relation = {.cancelled = true};
+    if (work.cancelled()) return result;
     if (result.relation.relation != mesh_relation::separate) {
         const std::uint32_t f = result.relation.face_a, g = result.relation.face_b;
         const auto common = closest_points(triangle_of(a, f), triangle_of(b, g));
         if (common.squared_distance == 0.0) {
             result.on_a = surface_point_of(a, f, common.on_a);
             result.on_b = surface_point_of(b, g, common.on_b);
+            work.reach(1.0);
             return result;
         }
     }
     const bool separate = result.relation.relation == mesh_relation::separate;
-    const auto nearest = mesh_distance(a, tree_a, b, tree_b,
-                                       separate ? radius : std::numeric_limits<double>::infinity());
+    const auto nearest = mesh_distance(
+        a, tree_a, b, tree_b, separate ? options.radius : std::numeric_limits<double>::infinity());
+    work.reach(1.0);
     if (!nearest) return std::nullopt;
     result.surface_distance = nearest->distance;
     if (separate) result.distance = nearest->distance;

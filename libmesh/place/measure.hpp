@@ -5,6 +5,7 @@
 #include <libmesh/mesh.hpp>
 #include <libmesh/place/relation.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 #include <libtree/tree.hpp>
 
 #include <array>
@@ -24,8 +25,13 @@ struct surface_point {
     friend bool operator==(const surface_point&, const surface_point&) = default;
 };
 
+struct measure_options {
+    double radius = std::numeric_limits<double>::infinity();  ///< inclusive
+    progress_callback progress{};
+};
+
 struct mesh_measure {
-    mesh_relation_result relation{};
+    mesh_relation_result relation{};  ///< with `cancelled`: nothing is known
     double distance = 0.0;  ///< 0 when the meshes touch or penetrate each other, and only then
     /// Exactly 0 if and only if a face of the one meets a face of the other: positive also for a
     /// mesh inside a solid that it does not touch.
@@ -35,7 +41,7 @@ struct mesh_measure {
 };
 
 /// The relation of `a` and `b`, their distance and their nearest points in one; none when one has
-/// no faces, or when they are further apart than `radius` (inclusive) and separate.
+/// no faces, or when they are further apart than `options.radius` and separate.
 ///
 /// The relation is exact, as `relation` says, and so is whether distances are 0. Else they are
 /// rounded as `mesh_distance` says. When the surfaces meet, the points are on the faces that
@@ -45,9 +51,9 @@ struct mesh_measure {
 /// \throws std::invalid_argument as `mesh_intersections` and `mesh_distance`
 /// \cost   that of `mesh_distance`, and of `relation` where the boxes of the meshes meet
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(
-    mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
-    double radius = std::numeric_limits<double>::infinity());
+[[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(mesh_view a, const tree<3>& tree_a,
+                                                               mesh_view b, const tree<3>& tree_b,
+                                                               const measure_options& options = {});
 [[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(mesh_view a, mesh_view b);
 
 /// The weights of the corners of `t` that give the point `p` of it, as in `surface_point`.

@@ -142,13 +142,15 @@ void quickhull::hand_over_points(std::uint32_t p) {
     }
 }
 
-void quickhull::run() {
+bool quickhull::run(work_progress& work) {
+    std::size_t added = 0;
     // The oldest first, so that the hull gets finer everywhere at once. Where it is fine beside
     // coarse, as around a cylinder's one rim and not the other, points see long rows of facets.
     while (!waiting_.empty()) {
         const std::uint32_t at = waiting_.front();
         waiting_.pop();
         if (!facets_[at].used || facets_[at].first_above == none) continue;
+        if (added++ % 64 == 0 && !work.step(0.0, 0.9, added, 1000.0)) return false;
         const std::uint32_t p = facets_[at].highest;
         find_seen(at, p);
         make_cone(p);
@@ -160,6 +162,7 @@ void quickhull::run() {
         for (const std::uint32_t made : cone_)
             if (facets_[made].first_above != none) waiting_.push(made);
     }
+    return true;
 }
 
 std::vector<std::vector<face>> quickhull::sides() const {

@@ -1,4 +1,5 @@
 #include <libmesh/bounding_box.hpp>
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/exact/predicates.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
@@ -28,19 +29,22 @@ plane_points plane_of(mesh_view mesh, std::uint32_t f) {
 /// The first face that passes through one of the other mesh, or that lies on one facing the same
 /// way.
 std::optional<face_pair> crossing_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                        const tree<3>& tree_b) {
+                                        const tree<3>& tree_b, const progress_callback& progress) {
     mesh_intersection_options options;
     options.first_only = true;
     options.kinds = only(pair_kind::crossing);
+    options.progress = progress;
     const auto crossing = mesh_intersections(a, tree_a, b, tree_b, options);
     if (!crossing.pairs.empty()) return crossing.pairs[0];
     return std::nullopt;
 }
 
 std::optional<face_pair> same_facing_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                           const tree<3>& tree_b) {
+                                           const tree<3>& tree_b,
+                                           const progress_callback& progress) {
     mesh_intersection_options options;
     options.kinds = only(pair_kind::overlap);
+    options.progress = progress;
     for (const face_pair& pair : mesh_intersections(a, tree_a, b, tree_b, options).pairs)
         if (normal_dot(plane_of(a, pair.a), plane_of(b, pair.b)) > 0) return pair;
     return std::nullopt;
@@ -95,32 +99,44 @@ std::optional<std::uint32_t> face_inside(mesh_view a, mesh_view b, const tree<3>
 }  // namespace
 
 mesh_relation_result relation(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                              const tree<3>& tree_b) {
+                              const tree<3>& tree_b, const progress_callback& progress) {
+    detail::work_progress work(progress);
+    const mesh_relation_result cancelled{.cancelled = true};
     mesh_relation_result result;
     const auto penetrating = [&](std::uint32_t face_a, std::uint32_t face_b) {
         result.relation = mesh_relation::penetrating;
         result.face_a = face_a;
         result.face_b = face_b;
+        work.reach(1.0);
         return result;
     };
-    if (const auto pair = crossing_faces(a, tree_a, b, tree_b))
-        return penetrating(pair->a, pair->b);
+    const auto crossing = crossing_faces(a, tree_a, b, tree_b, work.part(0.0, 0.3));
+    if (work.cancelled()) return cancelled;
+    if (crossing) return penetrating(crossing->a, crossing->b);
 
     mesh_intersection_options first;
     first.first_only = true;
+    first.progress = work.part(0.3, 0.6);
     const auto touch = mesh_intersections(a, tree_a, b, tree_b, first);
+    if (work.cancelled()) return cancelled;
     const bool touching = !touch.pairs.empty();
     if (touching) {
         result.relation = mesh_relation::touching;
         result.face_a = touch.pairs[0].a;
         result.face_b = touch.pairs[0].b;
-        if (!find_open_edge(a) && !find_open_edge(b))
-            if (const auto pair = same_facing_faces(a, tree_a, b, tree_b))
-                return penetrating(pair->a, pair->b);
+        if (!find_open_edge(a) && !find_open_edge(b)) {
+            const auto pair = same_facing_faces(a, tree_a, b, tree_b, work.part(0.6, 0.8));
+            if (work.cancelled()) return cancelled;
+            if (pair) return penetrating(pair->a, pair->b);
+        }
     }
     const auto of_a = face_inside(a, b, tree_b, touching);
+    if (!work.reach(0.9)) return cancelled;
     const auto of_b = face_inside(b, a, tree_a, touching);
-    if (!of_a && !of_b) return result;
+    if (!of_a && !of_b) {
+        work.reach(1.0);
+        return result;
+    }
     result.a_inside_b = of_a.has_value() && !touching;
     result.b_inside_a = of_b.has_value() && !touching;
     return penetrating(of_a ? *of_a : result.face_a, of_b ? *of_b : result.face_b);

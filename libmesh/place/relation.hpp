@@ -4,6 +4,7 @@
 
 #include <libmesh/mesh.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 #include <libtree/tree.hpp>
 
 #include <cstdint>
@@ -21,6 +22,7 @@ struct mesh_relation_result {
     std::uint32_t face_b = 0;
     bool a_inside_b = false;  ///< a part of `a` lies in the solid `b`, and touches nothing there
     bool b_inside_a = false;
+    bool cancelled = false;  ///< `progress` said stop; nothing is known
 };
 
 /// How `a` and `b` lie to each other, exactly on the coordinates as given.
@@ -41,7 +43,8 @@ struct mesh_relation_result {
 ///         for each component, or for each corner when the meshes touch
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API mesh_relation_result relation(mesh_view a, const tree<3>& tree_a,
-                                                         mesh_view b, const tree<3>& tree_b);
+                                                         mesh_view b, const tree<3>& tree_b,
+                                                         const progress_callback& progress = {});
 [[nodiscard]] TREEFORM_API mesh_relation_result relation(mesh_view a, mesh_view b);
 
 }  // namespace tf

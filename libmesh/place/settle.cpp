@@ -1,4 +1,5 @@
 #include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/place/settle.hpp>
 
@@ -46,24 +47,31 @@ settled_mesh settle(mesh_view a, mesh_view b, const tree<3>& tree_b, const point
     if (!(std::isfinite(speed) && speed > 0.0) || !(time >= 0.0) || !std::isfinite(time))
         throw std::invalid_argument("tf::settle: the motion or the time is not finite, or zero");
 
+    detail::work_progress work(options.progress);
+    std::size_t tries = 0;
+    const auto go_on = [&](double) { return work.step(0.0, 0.9, tries, 4.0); };
     const auto at = [&](double when) {
+        ++tries;
         settled_mesh one;
         one.time = when;
         one.points = moved_points(a, motion, when, options.to_single);
         const mesh_view there{one.points, a.faces};
-        one.relation = relation(there, face_tree(there), b, tree_b).relation;
+        if (go_on(0.0)) one.relation = relation(there, face_tree(there), b, tree_b, go_on).relation;
         return one;
     };
     /// From a place that is separate on by single units, while nothing is penetrated.
     const auto closed_in = [&](settled_mesh place) {
         const double unit = unit_of_time(place.points, motion, options.to_single);
-        for (int steps = 0;
-             options.close_in && place.relation == mesh_relation::separate && steps < 4; ++steps) {
+        for (int steps = 0; options.close_in && place.relation == mesh_relation::separate &&
+                            steps < 4 && !work.cancelled();
+             ++steps) {
             settled_mesh next = at(place.time + unit);
             if (next.relation == mesh_relation::penetrating) break;
             next.backed_off = place.backed_off;
             place = std::move(next);
         }
+        work.reach(1.0);
+        place.cancelled = work.cancelled();
         return place;
     };
     settled_mesh best = at(time);
@@ -81,7 +89,7 @@ settled_mesh settle(mesh_view a, mesh_view b, const tree<3>& tree_b, const point
     // The first place that does not penetrate may be far behind the last one that does.
     const double unit = unit_of_time(best.points, motion, options.to_single);
     while (best.relation != mesh_relation::penetrating && bad - best.time > 2.0 * unit &&
-           best.backed_off < options.attempts) {
+           best.backed_off < options.attempts && !work.cancelled()) {
         const unsigned count = best.backed_off + 1;
         settled_mesh middle = at(best.time + (bad - best.time) / 2);
         if (middle.relation == mesh_relation::penetrating)

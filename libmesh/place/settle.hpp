@@ -5,6 +5,7 @@
 #include <libmesh/mesh.hpp>
 #include <libmesh/place/relation.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 #include <libtree/tree.hpp>
 
 #include <cstdint>
@@ -19,6 +20,7 @@ struct settle_options {
     /// The time is that of a contact: where rounding leaves a gap, go on by units in the last
     /// place, up to 4, until one more would penetrate, or the meshes touch.
     bool close_in = false;
+    progress_callback progress{};
 };
 
 struct settled_mesh {
@@ -26,6 +28,7 @@ struct settled_mesh {
     double time = 0.0;             ///< point + time * motion, rounded once, is what `points` holds
     unsigned backed_off = 0;       ///< steps taken back from the time asked for
     mesh_relation relation = mesh_relation::separate;  ///< of what `points` holds to `b`
+    bool cancelled = false;  ///< `progress` said stop; the rest means nothing
 };
 
 /// `a` moved by `time` times `motion`, with every coordinate rounded: first the product, then the

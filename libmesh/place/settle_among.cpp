@@ -1,5 +1,6 @@
 #include <libmesh/bounding_box.hpp>
 #include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/nearness/mesh_distance.hpp>
 #include <libmesh/place/settle_among.hpp>
@@ -23,11 +24,12 @@ class settling {
   public:
     settling(mesh_view a, std::span<const still_part> parts, const point3& motion,
              const settle_among_options& options)
-        : a_(a), parts_(parts), motion_(motion), options_(options) {
+        : a_(a), parts_(parts), motion_(motion), options_(options), work_(options_.progress) {
         for (const still_part& part : parts) boxes_.push_back(bounding_box(part.mesh.points));
     }
 
-    [[nodiscard]] settled_among at(double time, bool rests) const {
+    [[nodiscard]] settled_among at(double time, bool rests) {
+        ++tries_;
         settled_among one;
         one.time = time;
         one.points.assign(a_.points.begin(), a_.points.end());
@@ -40,6 +42,14 @@ class settling {
         if (options_.floor) put_on_floor(one.points, rests);
         look_around(one);
         return one;
+    }
+
+    [[nodiscard]] bool cancelled() const { return work_.cancelled(); }
+
+    [[nodiscard]] settled_among finished(settled_among found) {
+        work_.reach(1.0);
+        found.cancelled = cancelled();
+        return found;
     }
 
     /// The least time that moves a coordinate by a unit in the last place of the largest.
@@ -73,7 +83,7 @@ class settling {
             if (p.z <= level) p.z = *options_.floor;
     }
 
-    void look_around(settled_among& one) const {
+    void look_around(settled_among& one) {
         const mesh_view there{one.points, a_.faces};
         const auto box = bounding_box(one.points);
         one.good = true;
@@ -83,8 +93,11 @@ class settling {
             const still_part& part = parts_[i];
             if (!boxes_[i] || part.mesh.faces.empty()) continue;
             if (!within(*box, *boxes_[i], options_.clearance)) continue;
+            const auto go_on = [&](double) { return work_.step(0.0, 0.9, tries_, 4.0); };
+            if (!go_on(0.0)) return;
             if (!faces) faces = face_tree(there);
-            const mesh_relation how = relation(there, *faces, part.mesh, *part.faces).relation;
+            const mesh_relation how =
+                relation(there, *faces, part.mesh, *part.faces, go_on).relation;
             const bool near = how == mesh_relation::separate && options_.clearance > 0.0 &&
                               nearer(there, *faces, part);
             const bool too_near = how == mesh_relation::penetrating || near ||
@@ -105,6 +118,8 @@ class settling {
     std::span<const still_part> parts_;
     point3 motion_;
     settle_among_options options_;
+    detail::work_progress work_;
+    std::size_t tries_ = 0;
     std::vector<std::optional<box3>> boxes_;
 };
 
@@ -124,19 +139,20 @@ void check(const point3& motion, double time, const settle_among_options& option
 settled_among settle_among(mesh_view a, std::span<const still_part> parts, const point3& motion,
                            double time, const settle_among_options& options) {
     check(motion, time, options);
-    const settling place(a, parts, motion, options);
+    settling place(a, parts, motion, options);
     settled_among best = place.at(time, true);
     const double unit = place.unit_of_time(best.points);
     const auto closed_in = [&](settled_among found) {
-        if (!options.close_in || options.forward || options.clearance > 0.0) return found;
-        for (int steps = 0; steps < 4 && found.good && found.relation == mesh_relation::separate;
+        const bool wanted = options.close_in && !options.forward && !(options.clearance > 0.0);
+        for (int steps = 0; wanted && steps < 4 && found.good &&
+                            found.relation == mesh_relation::separate && !place.cancelled();
              ++steps) {
             settled_among next = place.at(found.time + unit, true);
             if (!next.good) break;
             next.backed_off = found.backed_off;
             found = std::move(next);
         }
-        return found;
+        return place.finished(std::move(found));
     };
     if (best.good) return closed_in(std::move(best));
 
@@ -155,7 +171,7 @@ settled_among settle_among(mesh_view a, std::span<const still_part> parts, const
     }
     // The first good place may be far behind the last bad one.
     while (best.good && std::abs(bad - best.time) > 2.0 * unit &&
-           best.backed_off < options.attempts) {
+           best.backed_off < options.attempts && !place.cancelled()) {
         const unsigned count = best.backed_off + 1;
         settled_among middle = place.at(best.time + (bad - best.time) / 2, false);
         if (middle.good)

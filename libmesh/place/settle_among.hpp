@@ -6,6 +6,7 @@
 #include <libmesh/place/relation.hpp>
 #include <libmesh/place/still_part.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +28,7 @@ struct settle_among_options {
     unsigned attempts = 40;
     /// As of `settle_options`; without a clearance and backing off to earlier times only.
     bool close_in = false;
+    progress_callback progress{};
 };
 
 struct settled_among {
@@ -36,7 +38,8 @@ struct settled_among {
     bool good = false;             ///< nothing is penetrated, all clearances are kept
     /// Of what `points` holds to the parts, the closest: penetrating, else touching, else separate.
     mesh_relation relation = mesh_relation::separate;
-    std::size_t part = 0;  ///< the lowest part of that relation, or one nearer than the clearance
+    std::size_t part = 0;    ///< the lowest part of that relation, or one nearer than the clearance
+    bool cancelled = false;  ///< `progress` said stop; the rest means nothing
 };
 
 /// `a` moved by `time` times `motion`, as `settle` rounds it, against any number of parts.

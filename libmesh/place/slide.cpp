@@ -1,3 +1,4 @@
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/place/first_approach.hpp>
 #include <libmesh/place/slide.hpp>
 
@@ -20,15 +21,15 @@ struct part_end {
 };
 
 part_end end_at(mesh_view a, const tree<3>& tree_a, const still_part& part, const point3& motion,
-                double latest, const slide_options& options) {
+                double latest, const slide_options& options, const progress_callback& progress) {
     if (options.clearance > 0.0) {
         auto one = first_approach(a, tree_a, part.mesh, *part.faces, motion, options.clearance,
-                                  {.latest = latest, .limit = options.limit});
+                                  {.latest = latest, .limit = options.limit, .progress = progress});
         return {one.end,           one.time,         {}, std::move(one.contacts),
                 one.contact_count, one.pairs_tested, {}};
     }
     auto one = first_contact(a, tree_a, part.mesh, *part.faces, motion,
-                             {.latest = latest, .limit = options.limit});
+                             {.latest = latest, .limit = options.limit, .progress = progress});
     return {one.end,           one.time,         one.exact,     std::move(one.contacts),
             one.contact_count, one.pairs_tested, one.predicates};
 }
@@ -40,12 +41,18 @@ slide_result slide(mesh_view a, const tree<3>& tree_a, std::span<const still_par
     slide_result result;
     sweep_contact earliest;
     double latest = options.latest;
+    detail::work_progress work(options.progress);
+    const double share = 1.0 / static_cast<double>(std::max<std::size_t>(parts.size(), 1));
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        part_end one = end_at(a, tree_a, parts[i], motion, latest, options);
+        const auto before = static_cast<double>(i);
+        part_end one = end_at(a, tree_a, parts[i], motion, latest, options,
+                              work.part(before * share, (before + 1.0) * share));
+        if (work.cancelled()) return {.cancelled = true};
         result.pairs_tested += one.pairs_tested;
         result.predicates += one.predicates;
         if (one.end == motion_end::free) continue;
         if (one.end == motion_end::at_start) {
+            work.reach(1.0);
             return {.end = one.end,
                     .part = i,
                     .pairs_tested = result.pairs_tested,
@@ -72,6 +79,7 @@ slide_result slide(mesh_view a, const tree<3>& tree_a, std::span<const still_par
         latest =
             std::min(latest, std::nextafter(result.time, std::numeric_limits<double>::infinity()));
     }
+    work.reach(1.0);
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <libmesh/place/first_contact.hpp>
 #include <libmesh/place/still_part.hpp>
 #include <libtree/export.hpp>
+#include <libtree/progress.hpp>
 #include <libtree/tree.hpp>
 
 #include <cstddef>
@@ -21,6 +22,7 @@ struct slide_options {
     double clearance = 0.0;  ///< the gap to leave; 0: until contact
     double latest = std::numeric_limits<double>::infinity();
     std::size_t limit = 1000;  ///< contacts listed
+    progress_callback progress{};
 };
 
 struct slide_contact {
@@ -37,6 +39,7 @@ struct slide_result {
     std::uint64_t contact_count = 0;
     std::uint64_t pairs_tested = 0;
     predicate_counters predicates{};  ///< without a clearance: what these took
+    bool cancelled = false;           ///< `progress` said stop; nothing is known
 };
 
 /// The time at which `a`, moved by t times `motion`, first meets one of `parts`, or first comes

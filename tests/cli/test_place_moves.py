@@ -336,7 +336,6 @@ class Moves(PlaceTest):
             file.write("0 0 3.5\n1 0 4\nnan 0 1\n0 1 5\n")
         self.assertEqual(self.placed("drop", "cloud.xyz", "-o", "out.xyz")["travel"], 3.5)
         self.assertEqual(self.read("out.xyz").split("\n")[0], "0 0 0")
-        self.run_tool("drop", "cloud.xyz", "--fixed", "floor.obj", status=3)
 
     def test_points_without_a_face_move_along_and_do_not_count(self):
         points, faces = box((1, 1, 5.5), (2, 2, 6.5))

@@ -47,6 +47,29 @@ class Scenes(PlaceTest):
             self.assertEqual((contact["part"], contact["name"]), (0, "floor"))
             self.assertIn(contact["fixed"], (12 * 20 + 2, 12 * 20 + 3))  # numbers in the file
 
+    def test_clear_looks_at_what_is_near_and_at_more_only_where_it_must(self):
+        self.mesh("in.obj", box((1, 1, 0.75), (2, 2, 1.75)))
+        far = [(f"far{i}", box((10 + 2 * i, 0, 0), (11 + 2 * i, 1, 1))) for i in range(50)]
+        floor = ("floor", box((0, 0, 0), (4, 4, 1)))
+        self.scene("scene.obj", far[:20] + [floor] + far[20:])
+        entry = self.entry("clear", "in.obj", "--fixed", "scene.obj", "-o", "out.obj", status=0)
+        self.assertEqual((entry["travel"], entry["direction"]), (0.25, [0, 0, 1]))
+        indexed = self.parts_of(entry)
+        self.assertEqual([name for name in indexed if indexed[name]], ["floor"])
+        self.assertEqual(entry["skipped"]["pairs_culled_by_box"], 50)
+        # A lid is in the way up: out of both, which is through the side of the floor.
+        lid = ("lid", box((-3, -3, 1.875), (7, 7, 9)))
+        self.scene("lid.obj", [floor, lid] + far)
+        entry = self.entry("clear", "in.obj", "--fixed", "lid.obj", "-o", "out2.obj", status=0)
+        indexed = self.parts_of(entry)
+        self.assertEqual([name for name in indexed if indexed[name]], ["floor", "lid"])
+        self.assertEqual((entry["travel"], entry["direction"]), (1.75, [0, 0, -1]))
+        again = self.entry("measure", "out2.obj", "--fixed", "lid.obj", status=0)
+        self.assertEqual(again["status"], "touching")
+        entry = self.entry("clear", "in.obj", "--fixed", "lid.obj", "--max-travel", "1", status=1)
+        for key in ("matrix", "travel", "output"):
+            self.assertIsNone(entry[key])
+
     def test_one_file_of_parts_gives_what_a_file_for_each_gives(self):
         boxes = [("one", box((0, 0, 0), (4, 4, 1))), ("two", box((0.5, 0.5, 2), (1.5, 1.5, 3))),
                  ("three", box((-3, 0, 0), (-2, 1, 4)))]

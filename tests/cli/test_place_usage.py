@@ -137,6 +137,20 @@ class Usage(PlaceTest):
                 seen.add((tuple(mode), self.read_bytes("out.stl"), json.dumps(report["files"])))
         self.assertEqual(len(seen), 3)
 
+    def test_the_seed_decides_an_arrangement_and_threads_do_not(self):
+        for i in range(9):
+            self.mesh(f"p{i}.obj", box((0, 0, 0), (1 + i * 0.7, 4 - i * 0.3, 1)))
+        names = [f"p{i}.obj" for i in range(9)]
+        reports = {}
+        for seed in (0, 7):  # not all fit, so that orders by chance are tried
+            for threads in (1, 2, 8, 2):
+                report = self.report("arrange", *names, "--size", "7,9", "--spacing", "0.3",
+                                     "--seed", seed, "-j", threads, "-o", "out.obj", "-f",
+                                     status=1)
+                self.assertGreater(len(report["files"][0]["not_placed"]), 0)
+                now = (json.dumps(report["files"]), self.read("out.obj"))
+                self.assertEqual(reports.setdefault(seed, now), now)
+
     def test_standard_input_can_be_placed(self):
         run = self.run_tool("drop", "-", "-o", "-", "--output-format", "obj", status=0,
                             stdin=self.read_bytes("a.obj"))

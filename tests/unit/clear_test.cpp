@@ -24,7 +24,7 @@ using tf::mesh_relation;
 std::vector<tf::clear_move> moves(const tf::mesh& a, const tf::mesh& b, double clearance = 0.0) {
     const tf::tree<3> tree = tf::face_tree(b);
     const tf::still_part part{b, &tree};
-    return tf::clear_moves(a, tf::face_tree(a), {&part, 1}, {.clearance = clearance});
+    return tf::clear_moves(a, tf::face_tree(a), {&part, 1}, {.clearance = clearance}).moves;
 }
 
 tf::settled_among settled(const tf::mesh& a, const tf::mesh& b, const tf::clear_move& move,

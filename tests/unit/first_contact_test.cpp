@@ -146,6 +146,26 @@ TEST_CASE("first contact: times and pairs do not change with scale, and hold far
     check(moved(a, {1e9, -1e9, 1e9}), moved(b, {1e9, -1e9, 1e9}), d);
 }
 
+TEST_CASE("first contact: swapping the meshes and turning the motion changes no time and no pair") {
+    test::random source(12);
+    int met = 0;
+    for (int round = 0; round < 40; ++round) {
+        const tf::mesh a = test::random_soup(source, 20, 0.5);
+        const tf::mesh b = moved(test::random_soup(source, 25, 0.5), {0.2, 0.1, 3.0});
+        const tf::point3 d{source.in(-0.2, 0.2), source.in(-0.2, 0.2), 1.0};
+        const auto one = tf::first_contact(a, b, d);
+        const auto other = tf::first_contact(b, a, {-d.x, -d.y, -d.z});
+        REQUIRE(one.end == other.end);
+        CHECK(one.time == other.time);
+        CHECK(one.contact_count == other.contact_count);
+        if (one.contact_count != 1) continue;
+        ++met;
+        CHECK(one.contacts[0].face_a == other.contacts[0].face_b);
+        CHECK(one.contacts[0].face_b == other.contacts[0].face_a);
+    }
+    CHECK(met > 10);
+}
+
 TEST_CASE("first contact: moved meshes are taken where their transforms put them") {
     test::random source(9);
     const tf::mesh a = test::random_soup(source, 50, 0.3);

@@ -3,6 +3,7 @@
 #include "tools/common/console.hpp"
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/face_tree.hpp>
+#include <libmesh/place/point_faces.hpp>
 #include <libmesh/place/scene_parts.hpp>
 #include <libmesh/select_faces.hpp>
 #include <libmesh/validate.hpp>
@@ -56,19 +57,31 @@ void set_number(tf::column& c, std::size_t row, double value) {
 }
 
 /// The numbers of the faces that can be computed with.
-std::vector<std::uint32_t> usable_faces(const tf::mesh& mesh, std::uint64_t& left_out) {
+std::vector<std::uint32_t> usable_faces(const tf::mesh& mesh) {
     const tf::mesh_defects defects = tf::find_defects(mesh);
     std::vector<std::uint32_t> unusable;
     std::merge(defects.nonfinite_faces.begin(), defects.nonfinite_faces.end(),
                defects.out_of_range_faces.begin(), defects.out_of_range_faces.end(),
                std::back_inserter(unusable));
-    left_out = unusable.size();
     std::vector<std::uint32_t> all(mesh.faces.size());
     std::iota(all.begin(), all.end(), 0U);
     std::vector<std::uint32_t> usable;
     std::set_difference(all.begin(), all.end(), unusable.begin(), unusable.end(),
                         std::back_inserter(usable));
     return usable;
+}
+
+std::vector<std::uint32_t> finite_points(const tf::mesh& mesh) {
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < mesh.points.size(); ++i)
+        if (finite(mesh.points[i])) numbers.push_back(i);
+    return numbers;
+}
+
+tf::mesh cloud_of(const tf::mesh& mesh, const std::vector<std::uint32_t>& numbers) {
+    tf::mesh cloud{{}, tf::point_faces(numbers.size())};
+    for (const std::uint32_t i : numbers) cloud.points.push_back(mesh.points[i]);
+    return cloud;
 }
 
 }  // namespace
@@ -89,20 +102,24 @@ std::string body::name() const {
 
 std::string body::label() const { return part.empty() ? path : path + ": " + part; }
 
-body make_body(job& work, const std::string& path, tf::mesh_file file, bool cloud_allowed) {
+body make_body(job& work, const std::string& path, tf::mesh_file file) {
     body b;
     b.path = path;
     *b.file = std::move(file);
+    b.cloud = b.file->mesh.faces.empty();
     const auto timing = work.time("prepare");
-    std::vector<std::uint32_t> usable = usable_faces(b.file->mesh, b.non_finite);
+    std::vector<std::uint32_t> usable =
+        b.cloud ? finite_points(b.file->mesh) : usable_faces(b.file->mesh);
+    const std::size_t all = b.cloud ? b.file->mesh.points.size() : b.file->mesh.faces.size();
+    b.non_finite = all - usable.size();
     if (b.non_finite > 0)
-        work.warn("non-finite", path + ": " + counted(b.non_finite, "face", "faces") +
+        work.warn("non-finite", path + ": " +
+                                    (b.cloud ? counted(b.non_finite, "point", "points")
+                                             : counted(b.non_finite, "face", "faces")) +
                                     " with a NaN or infinite coordinate left out");
-    b.mesh = tf::join_equal_points(tf::select_faces(b.file->mesh, usable));
-    if (usable.size() < b.file->mesh.faces.size()) b.triangle_of_face = std::move(usable);
-    if (b.mesh.faces.empty() && b.file->mesh.faces.empty() && cloud_allowed)
-        std::copy_if(b.file->mesh.points.begin(), b.file->mesh.points.end(),
-                     std::back_inserter(b.mesh.points), finite);
+    b.mesh = b.cloud ? cloud_of(b.file->mesh, usable)
+                     : tf::join_equal_points(tf::select_faces(b.file->mesh, usable));
+    if (usable.size() < all) b.triangle_of_face = std::move(usable);
     if (b.mesh.points.empty())
         throw failure(bad_input, "no-triangles",
                       path + ": no triangle with finite coordinates (" +
@@ -111,13 +128,12 @@ body make_body(job& work, const std::string& path, tf::mesh_file file, bool clou
     return b;
 }
 
-std::vector<body> make_parts(job& work, const std::string& path, tf::mesh_file file,
-                             bool cloud_allowed) {
+std::vector<body> make_parts(job& work, const std::string& path, tf::mesh_file file) {
     std::vector<body> bodies;
-    bodies.push_back(make_body(work, path, std::move(file), cloud_allowed));
+    bodies.push_back(make_body(work, path, std::move(file)));
     const body& all = bodies.front();
     const auto timing = work.time("prepare");
-    if (all.file->attributes.parts.size() < 2) return bodies;
+    if (all.cloud || all.file->attributes.parts.size() < 2) return bodies;
     std::vector<std::uint32_t> number;
     for (std::uint32_t f = 0; f < all.mesh.faces.size(); ++f) number.push_back(all.stored_face(f));
     std::vector<tf::scene_part> parts =
@@ -143,19 +159,16 @@ std::vector<body> make_parts(job& work, const std::string& path, tf::mesh_file f
 void take_places(body& b, const std::vector<tf::point3>& placed, const tf::transform<3>& matrix,
                  bool to_single) {
     auto& points = b.file->mesh.points;
-    const bool cloud = b.mesh.faces.empty();
-    std::size_t next = 0;
     for (tf::point3& p : points) {
-        if (cloud && finite(p)) {
-            p = placed[next++];
-            continue;
-        }
         p = matrix(p);
         if (to_single) p = rounded(p);
     }
-    for (std::uint32_t f = 0; f < b.mesh.faces.size(); ++f)
-        for (std::size_t i = 0; i < 3; ++i)
-            points[b.file->mesh.faces[b.triangle(f)][i]] = placed[b.mesh.faces[f][i]];
+    for (std::uint32_t f = 0; f < b.mesh.faces.size(); ++f) {
+        const std::uint32_t t = b.triangle(f);
+        if (b.cloud) points[t] = placed[f];
+        for (std::size_t i = 0; i < 3 && !b.cloud; ++i)
+            points[b.file->mesh.faces[t][i]] = placed[b.mesh.faces[f][i]];
+    }
 }
 
 void round_to_single(tf::mesh_file& file) {

@@ -54,6 +54,7 @@ tf::point3 contact_normal(const tf::triangle3& moving, const tf::triangle3& fixe
     tf::point3 normal = unit(cross(edge_of(moving, at.on_a), edge_of(fixed, at.on_b)));
     if (normal == tf::point3{} && at.on_a == tf::feature::interior) normal = normal_of(moving);
     if (normal == tf::point3{}) normal = normal_of(fixed);
+    if (normal == tf::point3{}) normal = normal_of(moving);
     if (dot(normal, motion) > 0.0) normal = {-normal.x, -normal.y, -normal.z};
     for (std::size_t k = 0; k < 3; ++k) normal[k] += 0.0;  // no -0
     return normal;
@@ -71,15 +72,14 @@ std::vector<contact_row> contacts_of(const body& moving, const std::vector<body>
         const tf::point3 normal =
             contact_normal(triangle_of(moving.mesh, c.where.face_a),
                            triangle_of(other.mesh, c.where.face_b), c.where.at, motion);
-        rows.push_back({c.where.point, normal, moving.stored_face(c.where.face_a),
-                        other.stored_face(c.where.face_b), part});
+        rows.push_back({c.where.point, normal, c.where.face_a, c.where.face_b, part});
     }
     return rows;
 }
 
-std::vector<contact_row> contacts_at(const body& moving, tf::mesh_view mesh,
-                                     const tf::tree<3>& faces, std::vector<body>& fixed,
-                                     std::size_t limit, std::uint64_t& count) {
+std::vector<contact_row> contacts_at(tf::mesh_view mesh, const tf::tree<3>& faces,
+                                     std::vector<body>& fixed, std::size_t limit,
+                                     std::uint64_t& count) {
     std::vector<contact_row> rows;
     const auto box = tf::bounding_box(mesh.points);
     for (std::size_t part = 0; part < fixed.size(); ++part) {
@@ -95,20 +95,19 @@ std::vector<contact_row> contacts_at(const body& moving, tf::mesh_view mesh,
         for (const tf::face_pair& pair : found.pairs) {
             const tf::triangle3 a = triangle_of(mesh, pair.a);
             const tf::triangle3 b = triangle_of(other.mesh, pair.b);
-            rows.push_back({tf::closest_points(a, b).on_b, normal_of(b), moving.stored_face(pair.a),
-                            other.stored_face(pair.b), part});
+            rows.push_back({tf::closest_points(a, b).on_b, normal_of(b), pair.a, pair.b, part});
         }
     }
     return rows;
 }
 
-std::optional<contact_row> contact_with_bed(const body& moving, tf::mesh_view mesh) {
+std::optional<contact_row> contact_with_bed(tf::mesh_view mesh) {
     std::optional<contact_row> lowest;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
         for (const std::uint32_t corner : mesh.faces[f]) {
             const tf::point3& p = mesh.points[corner];
             if (lowest && !(p.z < lowest->point.z)) continue;
-            lowest = contact_row{p, {0.0, 0.0, 1.0}, moving.stored_face(f), std::nullopt, 0};
+            lowest = contact_row{p, {0.0, 0.0, 1.0}, f, std::nullopt, 0};
         }
     return lowest;
 }

@@ -15,8 +15,8 @@ namespace tools {
 struct contact_row {
     tf::point3 point{};
     tf::point3 normal{};  ///< of length 1, from what is fixed to what moves; 0 where there is none
-    std::uint32_t moving = 0;              ///< number of the face in its file
-    std::optional<std::uint32_t> fixed{};  ///< none: the bed
+    std::uint32_t moving = 0;              ///< face of MOVING
+    std::optional<std::uint32_t> fixed{};  ///< face of the part; none: the bed
     std::size_t part = 0;
 };
 
@@ -27,14 +27,13 @@ struct contact_row {
                                                    const tf::slide_result& slid,
                                                    const tf::point3& motion);
 
-/// Pairs of faces of `mesh`, which is `moving` at some place, that meet one of a part: at most
+/// Pairs of faces of `mesh`, which is MOVING at some place, that meet one of a part: at most
 /// `limit` of each part. `count` gets the number of all.
-[[nodiscard]] std::vector<contact_row> contacts_at(const body& moving, tf::mesh_view mesh,
-                                                   const tf::tree<3>& faces,
+[[nodiscard]] std::vector<contact_row> contacts_at(tf::mesh_view mesh, const tf::tree<3>& faces,
                                                    std::vector<body>& fixed, std::size_t limit,
                                                    std::uint64_t& count);
 
-/// The lowest face with the lowest point of `mesh`; none of a cloud.
-[[nodiscard]] std::optional<contact_row> contact_with_bed(const body& moving, tf::mesh_view mesh);
+/// The lowest face with the lowest point of `mesh`; none without faces.
+[[nodiscard]] std::optional<contact_row> contact_with_bed(tf::mesh_view mesh);
 
 }  // namespace tools

@@ -130,9 +130,10 @@ void add_options(command_line& line, place_settings& s, common_options& options)
 void add_what_to_give_back(command_line& line, place_settings& s, common_options& options) {
     line.group("What to give back");
     line.output(options.output, {"-o, --output", "FILE",
-                                 "MOVING at its new place; of measure, where it is,\n"
-                                 "with faces that penetrate red, touching yellow,\n"
-                                 "closer than --clearance cyan (PLY, GLB)"});
+                                 "MOVING at its new place; of measure, where it is;\n"
+                                 "PLY, GLB: faces that penetrate --fixed are red,\n"
+                                 "touching yellow, closer than --clearance or\n"
+                                 "stopped at it cyan (if they had no colours)"});
     line.flag(s.scene, {"--scene", "",
                         "-o and --output-dir: the fixed meshes too, with\n"
                         "the names of their parts"});
@@ -153,7 +154,8 @@ const char* const epilogue =
     "exactly its height (a float32 that is not below it, where these are written).\n"
     "With several MOVING each is placed on its own, but by arrange; then -o is the\n"
     "plate, and --matrix has 4 lines for each. Face numbers are those of the\n"
-    "files, from 0.\n"
+    "files, from 0; of a cloud of points they are those of its points. Clouds bound\n"
+    "nothing: they penetrate where a point is inside a closed mesh.\n"
     "\n"
     "Examples:\n"
     "  tf-place drop part.stl -o on_bed.stl --matrix m.txt\n"
@@ -237,9 +239,9 @@ struct fixed_meshes {
 /// Alignment is to all of a file, which may be a cloud.
 std::vector<tools::body> parts_of(tools::job& work, const std::string& path, tf::mesh_file file,
                                   place_mode mode) {
-    if (mode != place_mode::fit) return tools::make_parts(work, path, std::move(file), false);
+    if (mode != place_mode::fit) return tools::make_parts(work, path, std::move(file));
     std::vector<tools::body> whole;
-    whole.push_back(tools::make_body(work, path, std::move(file), true));
+    whole.push_back(tools::make_body(work, path, std::move(file)));
     return whole;
 }
 
@@ -260,16 +262,14 @@ void read_fixed(tools::job& work, const place_settings& s, bool as_single, fixed
     fixed.read = true;
 }
 
-tools::body read_moving(tools::job& work, const place_settings& s, const tf::transform<3>& start) {
+tools::body read_moving(tools::job& work, const tf::transform<3>& start) {
     tools::json about;
     tf::mesh_file file = work.read(work.path, about);
     for (const char* key : {"format", "sha256", "precision_in"}) work.entry[key] = about[key];
     for (const tf::io_warning& w : file.warnings) work.warn(w.code, w.text);
     if (start != tf::transform<3>{})
         for (tf::point3& p : file.mesh.points) p = start(p);
-    const bool cloud_allowed = s.mode == place_mode::lay || s.mode == place_mode::fit ||
-                               (s.mode == place_mode::drop && s.fixed.empty());
-    return tools::make_body(work, work.path, std::move(file), cloud_allowed);
+    return tools::make_body(work, work.path, std::move(file));
 }
 
 exit_status look_at(tools::job& work, const place_settings& s, fixed_meshes& fixed) {
@@ -277,7 +277,7 @@ exit_status look_at(tools::job& work, const place_settings& s, fixed_meshes& fix
     tools::check_outputs(work, s);
     const tf::transform<3> start =
         s.start.empty() ? tf::transform<3>{} : tools::read_matrix(s.start);
-    tools::body moving = read_moving(work, s, start);
+    tools::body moving = read_moving(work, start);
     const bool to_single = tools::writes_single(work, *moving.file);
     read_fixed(work, s, s.scene && to_single, fixed);
     work.entry["fixed"] = fixed.entries;
@@ -286,7 +286,7 @@ exit_status look_at(tools::job& work, const place_settings& s, fixed_meshes& fix
 
     const tools::placement p = tools::place(work, moving, among, s, to_single);
     const tf::transform<3> matrix = tf::after(p.matrix, start);
-    work.out.result(work.name + ": " + tools::verdict(p, among, s));
+    work.out.result(work.name + ": " + tools::verdict(moving, p, among, s));
     tools::say_details(work, p, among);
     tools::enter_report(work, moving, p, among, matrix);
     if (!p.placed) return tools::found;

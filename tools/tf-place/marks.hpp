@@ -10,7 +10,8 @@
 
 namespace tools {
 
-/// By triangle of a file: 0 none, 1 penetrating, 2 touching, 3 closer than the clearance.
+/// By triangle of a file, of a cloud by point: 0 none, 1 penetrating, 2 touching, 3 closer than the
+/// clearance, or where MOVING stopped at it.
 using face_classes = std::vector<std::uint8_t>;
 
 /// "#rrggbb" of each class: grey, red, yellow, cyan.
@@ -22,10 +23,17 @@ struct all_classes {
     std::vector<face_classes> fixed{};  ///< by file
 };
 
-/// For MOVING where it is, and what it meets.
-[[nodiscard]] all_classes classify_faces(body& moving, const surroundings& among, double clearance);
+/// For MOVING at its place, and what it meets there. The contacts of the placement count, also
+/// where rounding has left a gap.
+[[nodiscard]] all_classes classify_faces(body& moving, const surroundings& among,
+                                         const placement& p);
 
-/// Gives the faces of `file` these colours, and the property tf_class. \pre no polygons in it
-void set_class_colors(tf::mesh_file& file, const face_classes& classes);
+/// The gravest class of the triangles of each face as stored.
+[[nodiscard]] face_classes by_stored_face(const tf::mesh_file& file, const face_classes& classes);
+
+/// Gives the rows of an element of the file, "face" or "vertex", the property tf_class, and the
+/// colours of their classes unless `keep_colors` and the file has some.
+void set_classes(tf::mesh_file& file, const char* element, const face_classes& classes,
+                 bool keep_colors);
 
 }  // namespace tools

@@ -80,9 +80,17 @@ class placing {
         return near->how.distance < c ? place_status::closer_than_clearance : place_status::clear;
     }
 
+    /// To be called after what has been given `work_.progress`.
+    void over() {
+        work_.out.end_progress();
+        work_.keeper.check();
+    }
+
     void look_at_start() {
-        if (moving_.mesh.faces.empty()) return;
-        result_.nearest = among_.nearest(moving_.mesh, moving_.faces(), *moving_.box, radius(0.0));
+        if (!among_.all().empty())
+            result_.nearest = among_.nearest(moving_.mesh, moving_.faces(), *moving_.box,
+                                             radius(0.0), work_.progress("look"));
+        over();
         result_.status_at_start = status_of(result_.nearest);
         result_.status = result_.status_at_start;
     }
@@ -129,10 +137,11 @@ class placing {
         tf::settle_among_options options{.to_single = to_single_,
                                          .clearance = result_.clearance,
                                          .forward = forward,
-                                         .close_in = close_in};
+                                         .close_in = close_in,
+                                         .progress = work_.progress("settle")};
         if (floor) options.floor = result_.bed->used;
         auto settled = tf::settle_among(moving_.mesh, parts.parts, motion, time, options);
-        work_.keeper.check();
+        over();
         result_.backed_off = settled.backed_off;
         if (!settled.good) {
             fail(to_single_ ? "rounded to float32 there is no such place; --precision double, in a "
@@ -163,15 +172,7 @@ class placing {
             among_.on_the_way(*moving_.box, motion, latest, result_.clearance);
         result_.skipped.parts_culled = among_.all().size() - parts.parts.size();
         tf::slide_result slid;
-        if (!parts.parts.empty()) {
-            const auto timing = work_.time("search");
-            slid = tf::slide(
-                moving_.mesh, moving_.faces(), parts.parts, motion,
-                {.clearance = result_.clearance, .latest = latest, .limit = contact_limit});
-            result_.skipped.pairs_tested = slid.pairs_tested;
-            result_.skipped.predicates = slid.predicates;
-        }
-        work_.keeper.check();
+        if (!parts.parts.empty()) slid = slide(parts, motion, latest);
         if (slid.end == tf::motion_end::contact) {
             result_.contacts = contacts_of(moving_, among_.all(), parts, slid, motion);
             result_.contact_count = slid.contact_count;
@@ -184,6 +185,20 @@ class placing {
         } else {
             fail("nothing is in the way");
         }
+    }
+
+    [[nodiscard]] tf::slide_result slide(const chosen_parts& parts, const tf::point3& motion,
+                                         double latest) {
+        const auto timing = work_.time("search");
+        auto slid = tf::slide(moving_.mesh, moving_.faces(), parts.parts, motion,
+                              {.clearance = result_.clearance,
+                               .latest = latest,
+                               .limit = contact_limit,
+                               .progress = work_.progress("search")});
+        over();
+        result_.skipped.pairs_tested = slid.pairs_tested;
+        result_.skipped.predicates = slid.predicates;
+        return slid;
     }
 
     /// The time at which the bed is met; false when MOVING is below it.
@@ -213,8 +228,9 @@ class placing {
         options.bed = bed_to_write(given, to_single_);
         options.to_single = to_single_;
         options.tolerance = result_.tolerance = settings_.flatness.used(tf::diagonal(*moving_.box));
+        options.progress = work_.progress("search");
         auto laid = tf::lay(moving_.mesh, options);
-        work_.keeper.check();
+        over();
         if (!laid) return fail("has no side: all its points are on a line");
         result_.placed = true;
         result_.on_bed = true;
@@ -231,8 +247,12 @@ class placing {
         tf::fit_options options = settings_.fit;
         if (settings_.max_distance)
             options.max_distance = settings_.max_distance->used(tf::diagonal(*moving_.box));
-        result_.fit = tf::fit(moving_.mesh.points, among_.all()[0].mesh, options);
-        work_.keeper.check();
+        options.progress = work_.progress("search");
+        const body& fixed = among_.all()[0];
+        const tf::mesh_view to{fixed.mesh.points,
+                               fixed.cloud ? std::span<const tf::face>{} : fixed.mesh.faces};
+        result_.fit = tf::fit(moving_.mesh.points, to, options);
+        over();
         result_.placed = true;
         result_.complete = result_.fit->converged;
         result_.matrix = result_.fit->matrix;
@@ -253,11 +273,7 @@ class placing {
         const double latest = 1.0 + 0x1p-20;
         const chosen_parts parts = among_.on_the_way(*moving_.box, way, latest, result_.clearance);
         result_.skipped.parts_culled = among_.all().size() - parts.parts.size();
-        const auto slid =
-            tf::slide(moving_.mesh, moving_.faces(), parts.parts, way,
-                      {.clearance = result_.clearance, .latest = latest, .limit = contact_limit});
-        result_.skipped.pairs_tested = slid.pairs_tested;
-        result_.skipped.predicates = slid.predicates;
+        const auto slid = slide(parts, way, latest);
         const double time = slid.end == tf::motion_end::contact
                                 ? slid.time
                                 : 1.0 - result_.clearance / near.how.distance;
@@ -274,14 +290,41 @@ class placing {
             result_.status_at_start == place_status::penetrating ||
             (result_.clearance > 0.0 && result_.status_at_start != place_status::clear);
         if (!near) return stay();
-        const chosen_parts parts = among_.everything();
-        std::vector<tf::clear_move> moves;
+        // The way out of what is near, if nothing else is there; else out of more.
+        double reach = result_.clearance;
+        while (true) {
+            const chosen_parts parts = among_.around(*moving_.box, reach);
+            result_.skipped.parts_culled = among_.all().size() - parts.parts.size();
+            leave(parts);
+            if (!result_.placed) return;
+            const tf::box3 there = *tf::bounding_box(result_.points);
+            if (!among_.others_around(there, result_.clearance, parts)) return;
+            reach = std::max({2.0 * reach, result_.travel + result_.clearance,
+                              tf::diagonal(*moving_.box) * 0x1p-6});
+            forget_place();
+        }
+    }
+
+    void forget_place() {
+        result_.placed = false;
+        result_.reason.clear();
+        result_.points = moving_.mesh.points;
+        result_.matrix = {};
+        result_.direction = {};
+        result_.travel = 0.0;
+    }
+
+    /// To the first place that can be written at which MOVING is clear of these.
+    void leave(const chosen_parts& parts) {
+        tf::clear_result found;
         {
             const auto timing = work_.time("search");
-            moves = tf::clear_moves(moving_.mesh, moving_.faces(), parts.parts,
-                                    {.clearance = result_.clearance});
+            found = tf::clear_moves(
+                moving_.mesh, moving_.faces(), parts.parts,
+                {.clearance = result_.clearance, .progress = work_.progress("search")});
         }
-        work_.keeper.check();
+        over();
+        const std::vector<tf::clear_move>& moves = found.moves;
         for (const tf::clear_move& move : moves) {
             if (move.time > longest_.value_or(infinity)) break;
             settle(parts, move.direction, move.time, false, true);
@@ -295,28 +338,28 @@ class placing {
 
     /// What is true at the place, in the coordinates that are written.
     void look_at_place() {
-        if (moving_.mesh.faces.empty()) {
-            if (result_.on_bed) result_.status = place_status::touching;
-            return;
-        }
         const tf::mesh_view there{result_.points, moving_.mesh.faces};
         const bool moved = result_.points != moving_.mesh.points;
         std::optional<tf::tree<3>> own;
         if (moved) {
-            own = tf::face_tree(there);
             const tf::box3 box = *tf::bounding_box(there.points);
-            result_.nearest = among_.nearest(there, *own, box, radius(tf::diagonal(box) * 0x1p-10));
+            if (!among_.all().empty()) {
+                own = tf::face_tree(there);
+                result_.nearest = among_.nearest(
+                    there, *own, box, radius(tf::diagonal(box) * 0x1p-10), work_.progress("look"));
+                over();
+            }
             result_.status = status_of(result_.nearest);
         }
         if (result_.on_bed) on_bed_at_place(there);
-        if (result_.contacts.empty() && (result_.status == place_status::touching ||
-                                         result_.status == place_status::penetrating))
-            result_.contacts = contacts_at(moving_, there, moved ? *own : moving_.faces(),
-                                           among_.all(), contact_limit, result_.contact_count);
+        if (among_.all().empty() || !result_.contacts.empty()) return;
+        if (result_.status == place_status::touching || result_.status == place_status::penetrating)
+            result_.contacts = contacts_at(there, moved ? *own : moving_.faces(), among_.all(),
+                                           contact_limit, result_.contact_count);
     }
 
     void on_bed_at_place(tf::mesh_view there) {
-        if (const auto contact = contact_with_bed(moving_, there)) {
+        if (const auto contact = contact_with_bed(there)) {
             result_.contacts.push_back(*contact);
             ++result_.contact_count;
         }

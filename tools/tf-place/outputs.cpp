@@ -29,10 +29,12 @@ void extend(std::optional<tf::box3>& box, const std::optional<tf::box3>& more) {
 }
 
 json side_entry(const body& b, const tf::surface_point& at) {
-    return {{"point", triple(at.point)},
-            {"face", b.stored_face(at.face)},
-            {"triangle", b.triangle(at.face)},
-            {"barycentric", at.barycentric}};
+    json entry{{"point", triple(at.point)}};
+    entry["face"] = b.cloud ? json(nullptr) : json(b.stored_face(at.face));
+    entry["triangle"] = b.cloud ? json(nullptr) : json(b.triangle(at.face));
+    entry["barycentric"] = b.cloud ? json(nullptr) : json(at.barycentric);
+    entry["vertex"] = b.cloud ? json(b.triangle(at.face)) : json(nullptr);
+    return entry;
 }
 
 json name_entry(const body& b) { return b.part.empty() ? json(nullptr) : json(b.part); }
@@ -46,14 +48,15 @@ json closest_entry(const body& moving, const nearest_part& near, const surroundi
     return {{"moving", side_entry(moving, near.how.on_a)}, {"fixed", std::move(fixed)}};
 }
 
-json contacts_entry(const std::vector<contact_row>& contacts, const surroundings& among) {
+json contacts_entry(const body& moving, const std::vector<contact_row>& contacts,
+                    const surroundings& among) {
     json rows = json::array();
     for (const contact_row& c : contacts) {
         const body* const part = c.fixed ? &among.all()[c.part] : nullptr;
         rows.push_back({{"point", triple(c.point)},
                         {"normal", triple(c.normal)},
-                        {"moving", c.moving},
-                        {"fixed", part ? json(*c.fixed) : json(nullptr)},
+                        {"moving", moving.stored_face(c.moving)},
+                        {"fixed", part ? json(part->stored_face(*c.fixed)) : json(nullptr)},
                         {"part", part ? json(part->file_number) : json("bed")},
                         {"name", part ? name_entry(*part) : json(nullptr)}});
     }
@@ -164,16 +167,36 @@ void write_file(job& work, const tf::mesh_file& file, const std::filesystem::pat
     for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
 }
 
-/// Of a scene, the classes of all parts follow each other as its faces do.
-void color_faces(tf::mesh_file& file, const all_classes& classes, bool scene) {
-    face_classes all = classes.moving;
-    if (scene) {
-        for (const face_classes& part : classes.fixed)
-            all.insert(all.end(), part.begin(), part.end());
-    } else {
+/// Of a scene, the classes of all files follow each other as its faces do; clouds have none there.
+void color_scene(tf::mesh_file& file, const body& moving, const std::vector<body>& fixed,
+                 const all_classes& classes) {
+    face_classes all;
+    const auto add = [&](const body& b, const face_classes& more) {
+        if (!b.cloud) all.insert(all.end(), more.begin(), more.end());
+    };
+    add(moving, classes.moving);
+    for (std::size_t i = 0; i < fixed.size(); ++i)
+        if (i == 0 || fixed[i].file_number != fixed[i - 1].file_number)
+            add(fixed[i], classes.fixed[fixed[i].file_number]);
+    set_classes(file, "face", all, false);
+}
+
+/// What `measure` writes is a picture: every triangle has its own colour. What has been moved stays
+/// what it is, with its polygons, and its colours where it has some.
+void color_moving(tf::mesh_file& file, bool cloud, const face_classes& classes, bool picture) {
+    if (cloud) return set_classes(file, "vertex", classes, !picture);
+    if (picture) {
         tf::split_polygons(file);
+        set_classes(file, "face", classes, false);
+    } else {
+        set_classes(file, "face", by_stored_face(file, classes), true);
     }
-    set_class_colors(file, all);
+}
+
+/// `fit` looks at no faces, and without fixed meshes there is nothing to meet.
+bool has_classes(const place_settings& settings, const std::string& format) {
+    return !settings.fixed.empty() && settings.mode != place_mode::fit &&
+           (format == "ply" || format == "glb");
 }
 
 }  // namespace
@@ -277,7 +300,7 @@ void enter_report(job& work, const body& moving, const placement& p, const surro
     entry["status_at_start"] = name_of(p.status_at_start);
     entry["status"] = name_of(p.status);
     entry["inside"] = inside_entry(p);
-    entry["contacts"] = contacts_entry(p.contacts, among);
+    entry["contacts"] = contacts_entry(moving, p.contacts, among);
     entry["contact_count"] = p.contact_count;
     if (p.nearest) {
         entry["distance"] = p.nearest->how.distance;
@@ -319,15 +342,16 @@ void write_result(job& work, body& moving, const placement& p, const surrounding
     if (!path || o.dry_run) return;
     const auto [format, ascii] = format_of(work, *moving.file, *path);
     std::optional<all_classes> classes;
-    if (settings.mode == place_mode::measure && (format == "ply" || format == "glb"))
-        classes = classify_faces(moving, among, p.clearance);
+    if (has_classes(settings, format)) classes = classify_faces(moving, among, p);
     take_places(moving, p.points, p.matrix, to_single);
     turn_normals(*moving.file, all_moves);
     std::vector<const body*> bodies{&moving};
     for (const body& part : among.all())
         if (part.file != bodies.back()->file) bodies.push_back(&part);
     tf::mesh_file file = settings.scene ? scene_of(bodies) : *moving.file;
-    if (classes) color_faces(file, *classes, settings.scene);
+    if (classes && settings.scene) color_scene(file, moving, among.all(), *classes);
+    if (classes && !settings.scene)
+        color_moving(file, moving.cloud, classes->moving, settings.mode == place_mode::measure);
     write_file(work, file, *path, format, ascii, to_single, settings.scene);
 }
 

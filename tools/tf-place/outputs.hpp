@@ -23,8 +23,8 @@ void enter_report(job& work, const body& moving, const placement& p, const surro
 void write_matrix(const job& work, const std::filesystem::path& path,
                   const tf::transform<3>& matrix);
 
-/// MOVING at its place, with --scene the fixed meshes too; of `measure` with the faces coloured by
-/// what they meet. Normals turn as `all_moves` does.
+/// MOVING at its place, with --scene the fixed meshes too, with the faces coloured by what they
+/// meet where the format has colours. Normals turn as `all_moves` does.
 void write_result(job& work, body& moving, const placement& p, const surroundings& among,
                   const place_settings& settings, const tf::transform<3>& all_moves,
                   bool to_single);

@@ -20,7 +20,10 @@ std::vector<body> read_all(job& work, const tf::transform<3>& start) {
         for (const tf::io_warning& w : file.warnings) work.warn(w.code, path + ": " + w.text);
         if (start != tf::transform<3>{})
             for (tf::point3& p : file.mesh.points) p = start(p);
-        bodies.push_back(make_body(work, path, std::move(file), false));
+        bodies.push_back(make_body(work, path, std::move(file)));
+        if (bodies.back().cloud)
+            throw failure(bad_usage, "usage",
+                          path + ": is a cloud of points; arrange takes meshes only");
         about["faces"] = bodies.back().file->stored_faces;
         work.entry["parts"].push_back(std::move(about));
     }
@@ -65,11 +68,13 @@ exit_status arrange_all(job& work, const place_settings& settings) {
     options.to_single = to_single;
     std::vector<tf::mesh_view> views;
     for (const body& b : bodies) views.push_back(b.mesh);
+    options.progress = work.progress("search");
     tf::arrangement found;
     {
         const auto timing = work.time("search");
         found = tf::arrange(views, options);
     }
+    work.out.end_progress();
     work.keeper.check();
 
     std::vector<tf::transform<3>> matrices;

@@ -1,12 +1,12 @@
 #include "tools/tf-place/surroundings.hpp"
 
+#include <libmesh/detail/work_progress.hpp>
 #include <libtree/build.hpp>
 #include <libtree/nearness.hpp>
 #include <libtree/search.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tools {
 namespace {
@@ -68,39 +68,60 @@ tf::aabb<double, 3> tree_box(const tf::box3& box) {
 surroundings::surroundings(std::vector<body>& all)
     : all_(all), boxes_(tf::build(all, [](const body& part) { return tree_box(*part.box); })) {}
 
-chosen_parts surroundings::choose(const std::vector<std::size_t>& numbers) const {
+chosen_parts surroundings::choose(const std::vector<std::uint32_t>& numbers) const {
     chosen_parts chosen;
-    chosen.number = numbers;
-    for (const std::size_t i : numbers) chosen.parts.push_back(all_[i].still());
+    chosen.number.assign(numbers.begin(), numbers.end());
+    for (const std::uint32_t i : numbers) chosen.parts.push_back(all_[i].still());
     return chosen;
 }
 
-chosen_parts surroundings::on_the_way(const tf::box3& box, const tf::point3& motion, double latest,
-                                      double reach) const {
+std::vector<std::uint32_t> surroundings::met_on_the_way(const tf::box3& box,
+                                                        const tf::point3& motion, double latest,
+                                                        double reach) const {
     const auto is_met = [&](const tf::aabb<double, 3>& other) {
         const tf::box3 b{{other.min[0], other.min[1], other.min[2]},
                          {other.max[0], other.max[1], other.max[2]}};
         return meets_on_the_way(box, b, motion, latest, reach);
     };
-    const auto found = tf::search_all(boxes_, is_met, [&](std::uint32_t i) {
+    return tf::search_all(boxes_, is_met, [&](std::uint32_t i) {
         return meets_on_the_way(box, *all_[i].box, motion, latest, reach);
     });
-    return choose({found.begin(), found.end()});
 }
 
-chosen_parts surroundings::everything() const {
-    std::vector<std::size_t> numbers(all_.size());
-    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
-    return choose(numbers);
+chosen_parts surroundings::on_the_way(const tf::box3& box, const tf::point3& motion, double latest,
+                                      double reach) const {
+    return choose(met_on_the_way(box, motion, latest, reach));
+}
+
+chosen_parts surroundings::around(const tf::box3& box, double reach) const {
+    return choose(met_on_the_way(box, {}, 0.0, reach));
+}
+
+bool surroundings::others_around(const tf::box3& box, double reach,
+                                 const chosen_parts& known) const {
+    const auto found = met_on_the_way(box, {}, 0.0, reach);
+    return !std::includes(known.number.begin(), known.number.end(), found.begin(), found.end());
 }
 
 std::optional<nearest_part> surroundings::nearest(tf::mesh_view mesh, const tf::tree<3>& faces,
-                                                  const tf::box3& box, double radius) const {
+                                                  const tf::box3& box, double radius,
+                                                  const tf::progress_callback& progress) const {
     std::optional<nearest_part> best;
+    tf::detail::work_progress work(progress);
+    std::size_t looked_at = 0;
+    // The nearest come first: of many parts few are looked at.
+    const tf::progress_callback go_on = [&](double) {
+        return work.step(0.0, 0.95, looked_at, 2.0);
+    };
     const auto look = [&](std::uint32_t i) {
         if (box_distance(box, *all_[i].box) > radius) return radius * radius;
+        if (!go_on(0.0)) return 0.0;
         const tf::still_part still = all_[i].still();
-        if (const auto how = tf::measure(mesh, faces, still.mesh, *still.faces, radius)) {
+        ++looked_at;
+        const auto how = tf::measure(mesh, faces, still.mesh, *still.faces,
+                                     {.radius = radius, .progress = go_on});
+        if (work.cancelled()) return 0.0;
+        if (how) {
             const nearest_part one{i, *how};
             if (!best || before(one, *best)) best = one;
             radius = best->how.distance;
@@ -108,6 +129,7 @@ std::optional<nearest_part> surroundings::nearest(tf::mesh_view mesh, const tf::
         return radius * radius * (1.0 + 0x1p-40) + 0x1p-1000;
     };
     tf::visit_near(boxes_, tree_box(box), look, {.radius = radius});
+    work.reach(1.0);
     return best;
 }
 

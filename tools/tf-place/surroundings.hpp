@@ -7,6 +7,7 @@
 #include <libmesh/exact/counters.hpp>
 #include <libmesh/place/measure.hpp>
 #include <libmesh/place/still_part.hpp>
+#include <libtree/progress.hpp>
 #include <libtree/tree.hpp>
 
 #include <cstddef>
@@ -45,16 +46,24 @@ class surroundings {
     /// `motion`; a little more is allowed for rounding.
     [[nodiscard]] chosen_parts on_the_way(const tf::box3& box, const tf::point3& motion,
                                           double latest, double reach) const;
-    [[nodiscard]] chosen_parts everything() const;
+    /// Those whose boxes come within `reach` of `box`, and a little more.
+    [[nodiscard]] chosen_parts around(const tf::box3& box, double reach) const;
+    /// Whether there are such beside those of `known`; none is indexed for this.
+    [[nodiscard]] bool others_around(const tf::box3& box, double reach,
+                                     const chosen_parts& known) const;
     /// The part that `mesh` penetrates, else one that it touches, else the nearest one; of several
     /// the lowest. None when there is no part within `radius`; those whose boxes are further away
     /// are not indexed for this.
     [[nodiscard]] std::optional<nearest_part> nearest(tf::mesh_view mesh, const tf::tree<3>& faces,
-                                                      const tf::box3& box, double radius) const;
+                                                      const tf::box3& box, double radius,
+                                                      const tf::progress_callback& progress) const;
     [[nodiscard]] std::uint64_t indexed() const;
 
   private:
-    [[nodiscard]] chosen_parts choose(const std::vector<std::size_t>& numbers) const;
+    [[nodiscard]] chosen_parts choose(const std::vector<std::uint32_t>& numbers) const;
+    [[nodiscard]] std::vector<std::uint32_t> met_on_the_way(const tf::box3& box,
+                                                            const tf::point3& motion, double latest,
+                                                            double reach) const;
 
     std::vector<body>& all_;
     tf::tree<3> boxes_;  ///< of the parts

@@ -17,7 +17,7 @@ const char* moved_word(place_mode mode) {
 }
 
 /// The relation to the part that matters most.
-std::string relation_in_words(const placement& p, const surroundings& among) {
+std::string relation_in_words(const body& moving, const placement& p, const surroundings& among) {
     std::string text = name_of(p.status);
     if (p.on_bed) return text + (p.status == place_status::clear ? " of the bed" : " the bed");
     if (!p.nearest) return text;
@@ -28,11 +28,16 @@ std::string relation_in_words(const placement& p, const surroundings& among) {
     const auto& how = p.nearest->how.relation;
     if (how.a_inside_b || how.b_inside_a)
         return text + (how.a_inside_b ? ", inside it" : ", which is inside");
-    if (!p.contacts.empty() && p.contacts[0].fixed)
-        text += " (" + counted(p.contact_count, "pair", "pairs") + " of faces, the first " +
-                std::to_string(p.contacts[0].moving) + " and " +
-                std::to_string(*p.contacts[0].fixed) + ")";
-    return text;
+    if (p.contacts.empty() || !p.contacts[0].fixed) return text;
+    const contact_row& first = p.contacts[0];
+    const body& met = among.all()[first.part];
+    const char* const of = !moving.cloud && !met.cloud ? " of faces"
+                           : moving.cloud && met.cloud ? " of points"
+                           : moving.cloud              ? " of a point and a face"
+                                                       : " of a face and a point";
+    return text + " (" + counted(p.contact_count, "pair", "pairs") + of + ", the first " +
+           std::to_string(moving.stored_face(first.moving)) + " and " +
+           std::to_string(met.stored_face(*first.fixed)) + ")";
 }
 
 }  // namespace
@@ -53,14 +58,15 @@ const char* name_of(place_status status) {
     return "";
 }
 
-std::string verdict(const placement& p, const surroundings& among, const place_settings& settings) {
+std::string verdict(const body& moving, const placement& p, const surroundings& among,
+                    const place_settings& settings) {
     if (!p.placed) {
         std::string text = "not placed: " + p.reason;
         if (p.status == place_status::penetrating && p.nearest)
-            text += " (" + relation_in_words(p, among) + ")";
+            text += " (" + relation_in_words(moving, p, among) + ")";
         return text;
     }
-    if (settings.mode == place_mode::measure) return relation_in_words(p, among);
+    if (settings.mode == place_mode::measure) return relation_in_words(moving, p, among);
     if (p.fit)
         return std::string(p.fit->converged ? "fitted" : "not converged") + " after " +
                counted(p.fit->iterations, "step", "steps") + "; rms " + shortest(p.fit->rms) +
@@ -68,11 +74,11 @@ std::string verdict(const placement& p, const surroundings& among, const place_s
     if (settings.mode == place_mode::lay)
         return "laid on side " + std::to_string(p.chosen) + " of " +
                std::to_string(p.sides.size()) + ", of area " + shortest(p.sides[p.chosen].area) +
-               "; " + relation_in_words(p, among);
+               "; " + relation_in_words(moving, p, among);
     const std::string text =
         p.travel == 0.0 ? "stays where it is"
                         : std::string(moved_word(settings.mode)) + " by " + shortest(p.travel);
-    return text + "; " + relation_in_words(p, among);
+    return text + "; " + relation_in_words(moving, p, among);
 }
 
 void say_details(job& work, const placement& p, const surroundings& among) {

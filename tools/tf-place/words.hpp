@@ -12,7 +12,7 @@ namespace tools {
 [[nodiscard]] const char* name_of(place_status status);
 
 /// "dropped by 4.5; touching bed.stl (4 contacts)"
-[[nodiscard]] std::string verdict(const placement& p, const surroundings& among,
+[[nodiscard]] std::string verdict(const body& moving, const placement& p, const surroundings& among,
                                   const place_settings& settings);
 
 /// What -v adds.

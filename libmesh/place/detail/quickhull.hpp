@@ -2,6 +2,7 @@
 /// \file
 /// The convex hull of points that span space, point by point from the highest on.
 
+#include <libmesh/detail/work_progress.hpp>
 #include <libmesh/mesh.hpp>
 
 #include <array>
@@ -48,7 +49,8 @@ class quickhull {
     quickhull(points_view points, const scaled_points& scaled,
               const std::array<std::uint32_t, 4>& first);
 
-    void run();
+    /// False when it was told to stop, with nothing done.
+    bool run(work_progress& work);
 
     /// The facets, those in one plane together.
     [[nodiscard]] std::vector<std::vector<face>> sides() const;
