@@ -1,0 +1,155 @@
+/// \file
+/// seeds FOLDER: writes what the fuzzers start from, a folder a target: small meshes of every
+/// family of trouble as files of each format, and the numbers of hard pairs for the targets that
+/// decide. Beside each, FOLDER/new/TARGET is for what a fuzzer finds.
+
+#include <libmesh/io/write.hpp>
+
+#include <support/stress_families.hpp>
+#include <support/stress_meshes.hpp>
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace {
+
+using tf::test::stress_family;
+
+constexpr std::array formats{"csv", "obj", "off", "pcd", "ply", "stl", "xyz"};
+constexpr std::array deciders{"predicates",
+                              "constructed_points",
+                              "triangle_triangle",
+                              "self_intersections",
+                              "boolean",
+                              "repair",
+                              "weld"};
+
+void write(const std::filesystem::path& path, std::string_view content) {
+    std::ofstream out(path, std::ios::binary);
+    out.write(content.data(), static_cast<std::streamsize>(content.size()));
+    if (!out.flush()) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+/// Points as `tf::fuzz::bytes` reads them: new ones, of any doubles.
+class encoder {
+  public:
+    void byte(int value) { text_ += static_cast<char>(value); }
+    void coordinate(double x) {
+        byte(7);
+        const auto bits = std::bit_cast<std::uint64_t>(x);
+        for (int shift = 0; shift < 64; shift += 8) byte(static_cast<int>(bits >> shift & 0xff));
+    }
+    void point(const tf::point3& p) {
+        byte(0);
+        for (std::size_t axis = 0; axis < 3; ++axis) coordinate(p[axis]);
+    }
+    void points(const tf::triangle3& t) {
+        for (const tf::point3& p : t) point(p);
+    }
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+  private:
+    std::string text_;
+};
+
+/// A mesh of few faces, as the targets read it that take any.
+std::string encoded(std::string_view target, const tf::mesh& mesh) {
+    encoder to;
+    if (target == "repair")
+        for (const int option : {1, 0, 1}) to.byte(option);  // outer, in doubles, any shape
+    to.byte(static_cast<int>(mesh.points.size()) - 1);
+    for (const tf::point3& p : mesh.points) to.point(p);
+    to.byte(static_cast<int>(mesh.faces.size()));
+    for (const tf::face& f : mesh.faces)
+        for (const std::uint32_t corner : f) to.byte(static_cast<int>(corner));
+    return to.text();
+}
+
+/// Three triangles of a family, as what the target of that name reads.
+std::string encoded(std::string_view target, tf::test::stress_stream& stream) {
+    const auto first = stream.next();
+    const auto second = stream.next();
+    encoder to;
+    if (target == "constructed_points") {
+        to.byte(2);  // a line and a plane
+        to.points(first.a);
+        to.points(first.b);
+        to.byte(3);  // three planes
+        to.points(first.b);
+        to.points(second.a);
+        to.points(first.a);
+        to.byte(0);
+        to.point(second.b[0]);
+        to.points(second.b);
+    } else if (target == "boolean") {
+        for (int i = 0; i < 3; ++i) to.byte(0);  // the union, in doubles, nonzero
+        for (const auto& pair : {first, second}) {
+            to.byte(0);  // one solid,
+            to.byte(0);  // a tetrahedron
+            to.points(pair.a);
+            to.point(pair.b[0]);
+        }
+    } else {
+        if (target == "weld") {
+            for (int i = 0; i < 2; ++i) to.byte(0);
+            to.coordinate(0.25);
+        }
+        for (const tf::triangle3* t : {&first.a, &first.b, &second.a}) to.points(*t);
+    }
+    return to.text();
+}
+
+void write_seeds(const std::filesystem::path& folder) {
+    const auto folder_of = [&](const std::string& target) {
+        std::filesystem::create_directories(folder / "new" / target);
+        std::filesystem::create_directories(folder / target);
+        return folder / target;
+    };
+    for (const char* const format : formats) {
+        const auto to = folder_of(std::string("read_") + format);
+        for (std::size_t f = 0; f < tf::test::stress_family_count; ++f) {
+            const auto family = static_cast<stress_family>(f);
+            const tf::mesh_file file{.mesh = stress_mesh(family, 12, 1)};
+            for (const bool ascii : {false, true})
+                write(to / (std::string(name_of(family)) + (ascii ? "-ascii" : "")),
+                      write_mesh_to_memory(file, {.format = format, .ascii = ascii}));
+        }
+    }
+    for (const char* const target : deciders) {
+        const auto to = folder_of(target);
+        for (std::size_t f = 0; f < tf::test::stress_family_count; ++f) {
+            const auto family = static_cast<stress_family>(f);
+            tf::test::stress_stream stream(family, 1);
+            for (int i = 0; i < 4; ++i) {
+                const std::string_view name(target);
+                const bool takes_mesh = name == "self_intersections" || name == "repair";
+                const auto seed = static_cast<std::uint64_t>(i);
+                write(to / (std::string(name_of(family)) + '-' + std::to_string(i)),
+                      takes_mesh ? encoded(name, stress_mesh(family, 12, seed))
+                                 : encoded(name, stream));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        if (argc != 2) throw std::runtime_error("seeds FOLDER");
+        write_seeds(argv[1]);
+        return 0;
+    } catch (const std::exception& failure) {
+        std::fprintf(stderr, "%s\n", failure.what());
+        return 1;
+    }
+}
