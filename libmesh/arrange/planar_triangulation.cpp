@@ -120,18 +120,24 @@ std::uint32_t planar_triangulation::left_of(std::uint32_t from, std::uint32_t to
     return h / 3;
 }
 
-/// Whether p is in the closed triangle, and where.
-bool planar_triangulation::place_in(std::uint32_t t, std::uint32_t p, place& found) const {
+/// The first side of triangle t, from its `first` on, that p lies beyond; none when p is in the
+/// closed triangle, and then `found` says where. p is known not to be beyond side `from`.
+planar_triangulation::half_edge planar_triangulation::side_towards(std::uint32_t t, std::uint32_t p,
+                                                                   std::uint32_t first,
+                                                                   half_edge from,
+                                                                   place& found) const {
     found = {3 * t, 0};
     half_edge zeros[3];
-    for (half_edge h = 3 * t; h < 3 * t + 3; ++h) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        const half_edge h = 3 * t + (first + i) % 3;
+        if (h == from) continue;
         const int sign = turn(origin_[h], target(h), p);
-        if (sign < 0) return false;
+        if (sign < 0) return h;
         if (sign == 0) zeros[found.on_sides++] = h;
     }
     if (found.on_sides == 1) found.at = zeros[0];
     if (found.on_sides == 2) found.at = next(zeros[0]) == zeros[1] ? zeros[1] : zeros[0];
-    return true;
+    return none;
 }
 
 planar_triangulation::place planar_triangulation::locate(std::uint32_t p) {
@@ -140,30 +146,17 @@ planar_triangulation::place planar_triangulation::locate(std::uint32_t p) {
     std::uint32_t t = last_;
     std::uint32_t first = 0;
     half_edge from = none;
+    place found{};
     for (std::size_t steps = 4 * triangle_count() + 16; steps > 0; --steps) {
-        half_edge beyond = none;
-        place found{3 * t, 0};
-        half_edge zeros[3];
         first = (first + 1) % 3;
-        for (std::uint32_t i = 0; i < 3 && beyond == none; ++i) {
-            const half_edge h = 3 * t + (first + i) % 3;
-            if (h == from) continue;
-            const int sign = turn(origin_[h], target(h), p);
-            if (sign < 0) beyond = h;
-            if (sign == 0) zeros[found.on_sides++] = h;
-        }
-        if (beyond == none) {
-            if (found.on_sides == 1) found.at = zeros[0];
-            if (found.on_sides == 2) found.at = next(zeros[0]) == zeros[1] ? zeros[1] : zeros[0];
-            return found;
-        }
+        const half_edge beyond = side_towards(t, p, first, from, found);
+        if (beyond == none) return found;
         from = twin_[beyond];
         if (from == none) break;
         t = from / 3;
     }
-    place found{};
     for (t = 0; t < triangle_count(); ++t)
-        if (place_in(t, p, found)) return found;
+        if (side_towards(t, p, 0, none, found) == none) return found;
     throw std::logic_error("tf::planar_triangulation: point " + std::to_string(p) +
                            " is outside of the triangulation");
 }

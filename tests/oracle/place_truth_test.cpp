@@ -15,7 +15,6 @@
 #include <support/truth.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,26 +22,6 @@
 #include <string>
 
 namespace {
-
-double number(const std::string& text) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    REQUIRE(error == std::errc());
-    REQUIRE(end == text.data() + text.size());
-    return value;
-}
-
-/// Sixteen numbers, or "identity".
-tf::transform<3> matrix(std::string text) {
-    tf::transform<3> map;
-    if (text == "identity") return map;
-    for (std::size_t i = 0; i < 12; ++i) {
-        const std::size_t end = text.find(' ');
-        map.rows[i / 4][i % 4] = number(text.substr(0, end));
-        text.erase(0, end + 1);
-    }
-    return map;
-}
 
 tf::mesh read(const std::filesystem::path& path, const tf::transform<3>& by) {
     tf::mesh mesh = tf::join_equal_points(tf::read_mesh(path).mesh);
@@ -78,13 +57,13 @@ TEST_CASE("truth: every distance of every pair of files is that of the exact ker
     for (const test::truth_row& row : test::read_truth(folder / "TRUTH_PAIRS.csv")) {
         if (row.text("transform") == "exact") continue;  // of points that are no doubles
         CAPTURE(row.text("pair"));
-        const tf::mesh a = read(folder / row.text("file_a"), matrix(row.text("matrix_a")));
-        const tf::mesh b = read(folder / row.text("file_b"), matrix(row.text("matrix_b")));
+        const tf::mesh a = read(folder / row.text("file_a"), row.map("matrix_a"));
+        const tf::mesh b = read(folder / row.text("file_b"), row.map("matrix_b"));
         const tf::tree<3> tree_a = tf::face_tree(a), tree_b = tf::face_tree(b);
         const auto found = tf::measure(a, tree_a, b, tree_b);
         REQUIRE(found.has_value());
 
-        const double truth = number(row.text("min_distance"));
+        const double truth = row.real("min_distance");
         const double scale = std::max(largest_coordinate(a), largest_coordinate(b));
         CHECK((found->surface_distance == 0.0) == (truth == 0.0));
         CHECK(std::abs(found->surface_distance - truth) <= 0x1p-47 * scale);
@@ -105,7 +84,7 @@ TEST_CASE("truth: every distance of every pair of files is that of the exact ker
         // Where the booleans of the two solids are known, so is whether they penetrate.
         if (!row.text("volume_intersection").empty() &&
             row.text("volume_intersection") != "nonmanifold") {
-            const bool inner = number(row.text("volume_intersection")) > 0.0;
+            const bool inner = row.real("volume_intersection") > 0.0;
             CHECK((found->relation.relation == tf::mesh_relation::penetrating) == inner);
         }
         ++rows;

@@ -11,9 +11,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -37,12 +35,6 @@ std::vector<tf::point3> finite_points(const std::vector<tf::point3>& stored, boo
         if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) points.push_back(p);
     }
     return points;
-}
-
-double exact_number(const std::string& text) {
-    double value = 0.0;
-    std::from_chars(text.data(), text.data() + text.size(), value);
-    return value;
 }
 
 /// Distinct points of the largest group.
@@ -76,7 +68,7 @@ TEST_CASE("truth: chains are as many as an exact kernel found, by every search")
                 CAPTURE(column.groups);
                 CAPTURE(static_cast<int>(search));
                 const double tolerance =
-                    column.tolerance == nullptr ? 0.0 : exact_number(row.text(column.tolerance));
+                    column.tolerance == nullptr ? 0.0 : row.real(column.tolerance);
                 const tf::point_groups groups = tf::weld_points(
                     points,
                     {.tolerance = tolerance, .rule = tf::weld_rule::chain, .search = search});

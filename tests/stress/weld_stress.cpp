@@ -44,8 +44,11 @@ void check(const std::function<point3(std::size_t)>& make, std::vector<double> t
     for (std::size_t i = 0; i < points_a_cloud(); ++i) points.push_back(make(i));
     for (const double tolerance : tolerances) {
         CAPTURE(tolerance);
-        const auto first = tf::test::brute_leaders(points, tolerance);
-        const auto chain = tf::test::brute_chains(points, tolerance);
+        const auto linked = [&](std::uint32_t i, std::uint32_t j) {
+            return tf::test::brute_within(points[i], points[j], tolerance);
+        };
+        const auto first = tf::test::brute_leaders(points, linked);
+        const auto chain = tf::test::brute_chains(points, linked);
         for (const neighbor_search search : searches) {
             CAPTURE(static_cast<int>(search));
             CHECK(leaders(points, {.tolerance = tolerance, .search = search}) == first);

@@ -27,14 +27,16 @@ inline bool brute_within(const point3& a, const point3& b, double tolerance) {
     return compare_distance(a, b, {}, {tolerance, 0.0, 0.0}) <= 0;
 }
 
-/// Rule first: the kept point that each point belongs to.
-inline std::vector<std::uint32_t> brute_leaders(points_view points, double tolerance) {
+/// Rule first: the kept point that each point belongs to; `linked(i, j)` says whether two are
+/// within the tolerance and agree.
+template <class Linked>
+std::vector<std::uint32_t> brute_leaders(points_view points, const Linked& linked) {
     std::vector<std::uint32_t> leader(points.size());
     std::vector<std::uint32_t> kept;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         leader[i] = i;
         for (const std::uint32_t k : kept) {
-            if (!brute_within(points[i], points[k], tolerance)) continue;
+            if (!linked(i, k)) continue;
             if (leader[i] == i ||
                 compare_distance(points[i], points[k], points[i], points[leader[i]]) < 0)
                 leader[i] = k;
@@ -45,7 +47,8 @@ inline std::vector<std::uint32_t> brute_leaders(points_view points, double toler
 }
 
 /// Rule chain: the lowest point that each is linked to. Breadth first, through all pairs.
-inline std::vector<std::uint32_t> brute_chains(points_view points, double tolerance) {
+template <class Linked>
+std::vector<std::uint32_t> brute_chains(points_view points, const Linked& linked) {
     std::vector<std::uint32_t> lowest(points.size());
     std::vector<std::uint32_t> left(points.size());  // points not met yet, ascending
     std::iota(left.begin(), left.end(), 0U);
@@ -54,10 +57,10 @@ inline std::vector<std::uint32_t> brute_chains(points_view points, double tolera
         std::vector<std::uint32_t> met{first};
         left.erase(left.begin());
         for (std::size_t next = 0; next < met.size(); ++next) {
-            const point3& p = points[met[next]];
-            lowest[met[next]] = first;
+            const std::uint32_t from = met[next];
+            lowest[from] = first;
             std::erase_if(left, [&](std::uint32_t i) {
-                if (!brute_within(p, points[i], tolerance)) return false;
+                if (!linked(from, i)) return false;
                 met.push_back(i);
                 return true;
             });

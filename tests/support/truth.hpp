@@ -2,12 +2,15 @@
 /// \file
 /// TRUTH.csv of a folder of models: exact facts about each file, found by an exact kernel.
 
+#include <libtree/transform.hpp>
+
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -27,15 +30,35 @@ class truth_row {
         return cells_.at(column);
     }
     [[nodiscard]] std::int64_t number(const std::string& column) const {
-        const std::string& cell = text(column);
-        std::int64_t value = 0;
+        return parse<std::int64_t>(column, text(column));
+    }
+    [[nodiscard]] double real(const std::string& column) const {
+        return parse<double>(column, text(column));
+    }
+    /// Sixteen numbers row by row, the last four of them 0 0 0 1, or "identity".
+    [[nodiscard]] tf::transform<3> map(const std::string& column) const {
+        tf::transform<3> map;
+        if (text(column) == "identity") return map;
+        std::istringstream cells(text(column));
+        std::string cell;
+        for (auto& row : map.rows)
+            for (double& entry : row) {
+                cells >> cell;
+                entry = parse<double>(column, cell);
+            }
+        return map;
+    }
+
+  private:
+    template <class Number>
+    [[nodiscard]] static Number parse(const std::string& column, const std::string& cell) {
+        Number value{};
         const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
         if (error != std::errc() || end != cell.data() + cell.size())
             throw std::runtime_error("TRUTH.csv: " + column + " is no number: " + cell);
         return value;
     }
 
-  private:
     std::map<std::string, std::string> cells_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
+#include <support/solid_complex.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
@@ -12,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -22,12 +22,18 @@
 
 namespace {
 
-/// Faces of several operands.
-struct operands {
-    tf::mesh mesh;
-    std::vector<std::uint32_t> of_face;
-    std::size_t count = 0;
-};
+using test::complex;
+using test::field;
+using test::lattice;
+using test::operands;
+using test::placed;
+using test::same_way;
+using test::shape;
+using test::sorted;
+using test::surfaces;
+using test::wall;
+using test::walls_of;
+using test::winding;
 
 operands join(const std::vector<tf::mesh>& meshes) {
     operands result;
@@ -49,17 +55,6 @@ operands with_equal_points_joined(operands all) {
     for (tf::face& f : all.mesh.faces)
         for (std::uint32_t& corner : f) corner = number[corner];
     return all;
-}
-
-std::array<std::uint32_t, 3> sorted(tf::face f) {
-    std::sort(f.begin(), f.end());
-    return f;
-}
-
-bool same_way(const tf::face& f, const tf::face& g) {
-    for (std::size_t i = 0; i < 3; ++i)
-        if (f == tf::face{g[i], g[(i + 1) % 3], g[(i + 2) % 3]}) return true;
-    return false;
 }
 
 /// The arrangement of faces that meet in corners, edges or as a whole: equal ones become one.
@@ -91,157 +86,6 @@ tf::arrangement_cells cells_of(const operands& all) {
 bool same_cells(const tf::arrangement_cells& a, const tf::arrangement_cells& b) {
     return a.cell_of_side == b.cell_of_side && a.winding == b.winding && a.open == b.open &&
            a.open_count == b.open_count;
-}
-
-/// Tetrahedra that meet in corners, edges or faces, or not at all; d is on the positive side of
-/// a, b, c.
-struct complex {
-    std::vector<tf::point3> points;
-    std::vector<std::array<std::uint32_t, 4>> solids;
-
-    void turn_right_way() {
-        for (auto& s : solids) {
-            const int side = tf::orient3d(points[s[0]], points[s[1]], points[s[2]], points[s[3]]);
-            REQUIRE(side != 0);
-            if (side < 0) std::swap(s[0], s[1]);
-        }
-    }
-    /// Outward.
-    [[nodiscard]] std::array<tf::face, 4> faces(std::size_t i) const {
-        const auto& [a, b, c, d] = solids[i];
-        return {{{a, c, b}, {a, b, d}, {b, c, d}, {c, a, d}}};
-    }
-};
-
-/// Cubes of a lattice, each cut in six along its diagonal.
-complex lattice(std::uint32_t side) {
-    complex result;
-    const std::uint32_t n = side + 1;
-    for (std::uint32_t i = 0; i < n * n * n; ++i)
-        result.points.push_back({static_cast<double>(i % n), static_cast<double>(i / n % n),
-                                 static_cast<double>(i / (n * n))});
-    const std::array<std::uint32_t, 3> step{1, n, n * n};
-    for (std::uint32_t z = 0; z < side; ++z)
-        for (std::uint32_t y = 0; y < side; ++y)
-            for (std::uint32_t x = 0; x < side; ++x) {
-                const std::uint32_t at = x + n * y + n * n * z;
-                std::array<std::size_t, 3> way{0, 1, 2};
-                do {
-                    const std::uint32_t b = at + step[way[0]];
-                    const std::uint32_t c = b + step[way[1]];
-                    result.solids.push_back({at, b, c, c + step[way[2]]});
-                } while (std::next_permutation(way.begin(), way.end()));
-            }
-    return result;
-}
-
-/// What the places of the lattice's points become, the tetrahedra still fitting together.
-enum class shape { straight, sheared, uneven, tiny, huge };
-
-complex placed(test::random& random, complex c, shape how) {
-    if (how == shape::sheared) {
-        std::array<std::array<double, 3>, 3> m{};
-        double det = 0;
-        while (det == 0) {
-            for (auto& row : m)
-                for (double& x : row) x = static_cast<double>(random.below(9)) - 4;
-            det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-                  m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                  m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-        }
-        for (tf::point3& p : c.points)
-            p = {m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z,
-                 m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z,
-                 m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z};
-    }
-    if (how == shape::uneven)
-        for (tf::point3& p : c.points)
-            p = {p.x + random.in(-0.1, 0.1), p.y + random.in(-0.1, 0.1),
-                 p.z + random.in(-0.1, 0.1)};
-    const double scale = how == shape::tiny ? 0x1p-1074 : how == shape::huge ? 0x1p+800 : 1.0;
-    for (tf::point3& p : c.points) p = {p.x * scale, p.y * scale, p.z * scale};
-
-    std::vector<std::uint32_t> number(c.points.size());
-    std::iota(number.begin(), number.end(), 0U);
-    random.shuffle(number);
-    complex result = c;
-    for (std::size_t i = 0; i < number.size(); ++i) result.points[number[i]] = c.points[i];
-    for (auto& solid : result.solids)
-        for (std::uint32_t& corner : solid) corner = number[corner];
-    result.turn_right_way();
-    return result;
-}
-
-/// [operand][solid] how often each operand is to wind around each solid.
-using field = std::vector<std::vector<int>>;
-
-/// Faces between solids, each with the solid in front of it and the one behind; `outside` is one
-/// past the last solid.
-struct wall {
-    tf::face face;
-    std::size_t front;
-    std::size_t behind;
-};
-std::vector<wall> walls_of(const complex& c) {
-    std::map<std::array<std::uint32_t, 3>, wall> found;
-    for (std::size_t i = 0; i < c.solids.size(); ++i)
-        for (const tf::face& f : c.faces(i)) {
-            const auto [at, added] = found.try_emplace(sorted(f), wall{f, c.solids.size(), i});
-            if (!added) at->second.front = i;
-        }
-    std::vector<wall> walls;
-    for (const auto& [key, w] : found) walls.push_back(w);
-    return walls;
-}
-
-int winding(const field& w, std::size_t operand, std::size_t solid) {
-    return solid < w[operand].size() ? w[operand][solid] : 0;
-}
-
-struct shuffled_operands : operands {
-    explicit shuffled_operands(std::size_t number) { count = number; }
-    void add(const tf::face& f, std::size_t operand, int times) {
-        for (int i = 0; i < std::abs(times); ++i) {
-            mesh.faces.push_back(times > 0 ? f : tf::face{f[0], f[2], f[1]});
-            of_face.push_back(static_cast<std::uint32_t>(operand));
-        }
-    }
-    void shuffle(test::random& random) {
-        std::vector<std::uint32_t> order(mesh.faces.size());
-        std::iota(order.begin(), order.end(), 0U);
-        random.shuffle(order);
-        const operands before = *this;
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            const tf::face& f = before.mesh.faces[order[i]];
-            const std::size_t turn = random.below(3);
-            for (std::size_t k = 0; k < 3; ++k) mesh.faces[i][k] = f[(k + turn) % 3];
-            of_face[i] = before.of_face[order[i]];
-        }
-    }
-};
-
-/// Faces that wind as `w` says: just those needed, or every solid's own, which cancel or pile up.
-/// Some more that bound nothing.
-operands surfaces(test::random& random, const complex& c, const std::vector<wall>& walls,
-                  const field& w, bool just_needed) {
-    shuffled_operands result(w.size());
-    result.mesh.points = c.points;
-    for (std::size_t k = 0; k < w.size(); ++k) {
-        if (just_needed)
-            for (const wall& s : walls)
-                result.add(s.face, k, winding(w, k, s.behind) - winding(w, k, s.front));
-        else
-            for (std::size_t i = 0; i < c.solids.size(); ++i)
-                for (const tf::face& f : c.faces(i)) result.add(f, k, w[k][i]);
-    }
-    for (std::size_t i = random.below(3) == 0 ? random.below(20) : 0; i > 0; --i) {
-        const tf::face& f = walls[random.below(walls.size())].face;
-        const std::size_t k = random.below(w.size());
-        result.add(f, k, 1);
-        result.add(f, k, -1);
-    }
-    result.shuffle(random);
-    return result;
 }
 
 /// What the fields of many tests had in them, lest they be too simple.

@@ -3,6 +3,8 @@
 #include <libtree/parallel.hpp>
 
 #include <doctest/doctest.h>
+#include <support/brute_weld.hpp>
+#include <support/weld_families.hpp>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +26,7 @@ using tf::point_groups;
 using tf::weld_options;
 using tf::weld_points;
 using tf::weld_rule;
+using family = test::weld_family;
 using numbers = std::vector<std::uint32_t>;
 
 constexpr std::array searches{neighbor_search::automatic, neighbor_search::window,
@@ -42,42 +45,13 @@ bool linked(const std::vector<point3>& points, const weld_options& options, std:
            (!options.agree || options.agree(i, j));
 }
 
-/// The docstring of `first` as a quadratic loop: the point that each one belongs to.
-numbers leaders_by_definition(const std::vector<point3>& points, const weld_options& options) {
-    numbers leader(points.size());
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        leader[i] = i;
-        for (std::uint32_t j = 0; j < i; ++j)
-            if (leader[j] == j && linked(points, options, i, j) &&
-                (leader[i] == i ||
-                 tf::compare_distance(points[i], points[j], points[i], points[leader[i]]) < 0))
-                leader[i] = j;
-    }
-    return leader;
-}
-
-/// That of `chain`: labels sink along links until none moves.
-numbers chains_by_definition(const std::vector<point3>& points, const weld_options& options) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> links;
-    for (std::uint32_t i = 0; i < points.size(); ++i)
-        for (std::uint32_t j = 0; j < i; ++j)
-            if (linked(points, options, i, j)) links.emplace_back(i, j);
-    numbers first(points.size());
-    std::iota(first.begin(), first.end(), 0U);
-    for (bool moved = true; moved;) {
-        moved = false;
-        for (const auto& [i, j] : links) {
-            if (first[i] == first[j]) continue;
-            first[i] = first[j] = std::min(first[i], first[j]);
-            moved = true;
-        }
-    }
-    return first;
-}
-
 point_groups by_definition(const std::vector<point3>& points, const weld_options& options) {
-    const numbers first = options.rule == weld_rule::first ? leaders_by_definition(points, options)
-                                                           : chains_by_definition(points, options);
+    const auto are_linked = [&](std::uint32_t i, std::uint32_t j) {
+        return linked(points, options, i, j);
+    };
+    const numbers first = options.rule == weld_rule::first
+                              ? tf::test::brute_leaders(points, are_linked)
+                              : tf::test::brute_chains(points, are_linked);
     point_groups groups;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         if (first[i] == i) {
@@ -107,16 +81,6 @@ void check_definition(const std::vector<point3>& points, weld_options options) {
             CHECK_FALSE(groups.stopped);
         }
     }
-}
-
-double unit_number(std::mt19937_64& engine) {
-    return static_cast<double>(engine() >> 11) * 0x1p-53;
-}
-
-point3 unit_point(std::mt19937_64& engine) {
-    const double x = unit_number(engine);
-    const double y = unit_number(engine);
-    return {x, y, unit_number(engine)};
 }
 
 std::size_t kept(const std::vector<point3>& points, double tolerance) {
@@ -208,7 +172,7 @@ TEST_CASE("weld_points: agrees with its definition on random points") {
         CAPTURE(seed);
         std::mt19937_64 engine(seed);
         std::vector<point3> points;
-        for (int i = 0; i < 300; ++i) points.push_back(unit_point(engine));
+        for (int i = 0; i < 300; ++i) points.push_back(test::unit_point(engine));
         for (const double tolerance : {0.0, 0.01, 0.07, 0.5, 3.0})
             check_definition(points, {.tolerance = tolerance});
     }
@@ -230,7 +194,8 @@ TEST_CASE("weld_points: scales from denormal to the largest double") {
     std::mt19937_64 engine(7);
     std::vector<point3> unit;
     for (int i = 0; i < 60; ++i)
-        unit.push_back({unit_number(engine) - 0.5, unit_number(engine), unit_number(engine)});
+        unit.push_back({test::unit_number(engine) - 0.5, test::unit_number(engine),
+                        test::unit_number(engine)});
     for (const int exponent : {-1060, -900, -300, 0, 300, 1000, 1023}) {
         CAPTURE(exponent);
         std::vector<point3> points;
@@ -253,7 +218,7 @@ TEST_CASE("join_groups: faces stay, also those that collapse, and kept points ar
     std::mt19937_64 engine(3);
     tf::mesh mesh;
     for (int i = 0; i < 500; ++i)
-        mesh.points.push_back({unit_number(engine), unit_number(engine), 0.0});
+        mesh.points.push_back({test::unit_number(engine), test::unit_number(engine), 0.0});
     for (std::uint32_t i = 0; i + 2 < 500; i += 3) mesh.faces.push_back({i, i + 1, i + 2});
     const auto joined = [](const tf::mesh& m) {
         return tf::join_groups(m, weld_points(m.points, {.tolerance = 0.05}));
@@ -275,85 +240,6 @@ TEST_CASE("join_groups: faces stay, also those that collapse, and kept points ar
 
 namespace {
 
-struct family {
-    const char* name;
-    std::vector<point3> points;
-    double tolerance;
-};
-
-point3 moved(const point3& p, double by, std::mt19937_64& engine) {
-    return {p.x + by * (unit_number(engine) - 0.5), p.y + by * (unit_number(engine) - 0.5),
-            p.z + by * (unit_number(engine) - 0.5)};
-}
-
-/// `count` points each of what windows, cells and dense places find hard.
-std::vector<family> families(std::uint64_t seed, std::size_t count) {
-    std::mt19937_64 engine(seed);
-    const auto filled = [&](const auto& make) {
-        std::vector<point3> points;
-        while (points.size() < count) points.push_back(make(points));
-        return points;
-    };
-    const auto any_of = [&](const std::vector<point3>& points) {
-        return points[engine() % points.size()];
-    };
-    const auto uniform = [&](const auto&) { return unit_point(engine); };
-    const auto copies = [&](double by) {
-        return filled([&](const std::vector<point3>& points) {
-            return points.empty() || engine() % 2 == 0 ? unit_point(engine)
-                                                       : moved(any_of(points), by, engine);
-        });
-    };
-    const auto soup = filled([&](const std::vector<point3>& points) {
-        return points.size() < 30 || engine() % 6 == 0 ? unit_point(engine) : any_of(points);
-    });
-    const auto clustered = filled([&](const std::vector<point3>& points) {
-        return points.size() < 5 ? unit_point(engine) : moved(points[engine() % 5], 1e-6, engine);
-    });
-    const auto line = filled([&](const std::vector<point3>& points) {
-        return point3{static_cast<double>(points.size() * 37 % 211), 0, 0};
-    });
-    const auto plane = filled([&](const auto&) {  // one place along the line windows are sorted by
-        const double u = unit_number(engine), v = unit_number(engine);
-        return point3{0.621 * u, -0.537 * u + 0.570 * v, -0.621 * v};
-    });
-    const auto grid = filled([&](const auto&) {
-        const auto at = [&] { return static_cast<double>(engine() % 9); };
-        const double x = at(), y = at();
-        return point3{x, y, at()};
-    });
-    const auto two_balls = filled([&](const std::vector<point3>& points) {
-        return moved({points.size() % 2 == 0 ? 0.0 : 1.0, 0, 0}, 0.02, engine);
-    });
-    auto outliers = copies(1e-3);
-    outliers[0] = {1e300, 0, 0};
-    outliers[7] = {-1e300, 1e-300, 5e17};
-    auto mixed = filled([&](const auto&) {
-        const point3 p = unit_point(engine);
-        const double scale = std::ldexp(1.0, static_cast<int>(engine() % 40) - 20);
-        return point3{p.x * scale, p.y * scale, p.z * scale};
-    });
-    return {{"uniform", filled(uniform), 0.02},
-            {"moved copies", copies(1e-3), 1e-3},
-            {"moved copies, half within", copies(2e-3), 1e-3},
-            {"copies", copies(0.0), 1e-3},
-            {"copies, tiny tolerance", copies(0.0), 1e-18},
-            {"soup", soup, 0.1},
-            {"soup, all neighbours", soup, 0.7},
-            {"clusters", clustered, 1e-3},
-            {"clusters, dissolved", clustered, 1e-7},
-            {"line", line, 1.0},
-            {"plane", plane, 0.02},
-            {"grid", grid, 1.0},
-            {"grid, diagonals", grid, std::sqrt(2.0)},
-            {"balls at the tolerance", two_balls, 0.985},
-            {"outliers", outliers, 1e-3},
-            {"mixed scales", mixed, 1e-3},
-            {"larger than the box", filled(uniform), 5.0},
-            {"all equal", std::vector<point3>(count, {1, 2, 3}), 0.5},
-            {"all equal, exactly", std::vector<point3>(count, {1, 2, 3}), 0.0}};
-}
-
 weld_options options_of(double tolerance, weld_rule rule,
                         neighbor_search search = neighbor_search::automatic) {
     return {.tolerance = tolerance, .rule = rule, .search = search};
@@ -363,7 +249,7 @@ weld_options options_of(double tolerance, weld_rule rule,
 
 TEST_CASE("weld_points: every search and rule is its definition on every family") {
     for (std::uint64_t seed = 0; seed < 2; ++seed)
-        for (const family& f : families(seed, 240)) {
+        for (const family& f : test::weld_families(seed, 240)) {
             CAPTURE(seed);
             CAPTURE(f.name);
             check_definition(f.points, {.tolerance = f.tolerance});
@@ -376,7 +262,7 @@ TEST_CASE("weld_points: every search and rule is its definition on every family"
 }
 
 TEST_CASE("weld_points: kept points are apart, dropped ones with the nearest earlier kept one") {
-    for (const family& f : families(5, 700)) {
+    for (const family& f : test::weld_families(5, 700)) {
         CAPTURE(f.name);
         const point_groups groups = weld_points(f.points, {.tolerance = f.tolerance});
         const weld_options options{.tolerance = f.tolerance};
@@ -399,8 +285,9 @@ TEST_CASE("weld_points: kept points are apart, dropped ones with the nearest ear
 }
 
 TEST_CASE("weld_points: the number of threads changes nothing") {
-    std::vector<family> all = families(11, 3'000);
-    const std::vector<family> large = families(12, 100'000);  // several chunks of every loop
+    std::vector<family> all = test::weld_families(11, 3'000);
+    const std::vector<family> large =
+        test::weld_families(12, 100'000);  // several chunks of every loop
     all.insert(all.end(), large.begin() + 1, large.begin() + 3);
     all.back().tolerance = 1e-4;
     for (const family& f : all)
@@ -421,7 +308,7 @@ TEST_CASE("weld_points: the number of threads changes nothing") {
 }
 
 TEST_CASE("weld_points: searches agree on many points") {
-    for (const family& f : families(13, 4'000))
+    for (const family& f : test::weld_families(13, 4'000))
         for (const weld_rule rule : rules) {
             CAPTURE(f.name);
             const point_groups expected =
@@ -434,7 +321,7 @@ TEST_CASE("weld_points: searches agree on many points") {
 }
 
 TEST_CASE("weld_points: powers of two scale nothing away") {
-    for (const family& f : families(17, 500)) {
+    for (const family& f : test::weld_families(17, 500)) {
         if (f.points[0].x == 1e300) continue;  // has no room
         for (const weld_rule rule : rules) {
             CAPTURE(f.name);
@@ -453,7 +340,7 @@ TEST_CASE("weld_points: powers of two scale nothing away") {
 }
 
 TEST_CASE("weld_points: chains do not depend on the order of points") {
-    for (const family& f : families(19, 2'000)) {
+    for (const family& f : test::weld_families(19, 2'000)) {
         CAPTURE(f.name);
         numbers order(f.points.size());
         std::iota(order.begin(), order.end(), 0U);
@@ -499,7 +386,7 @@ TEST_CASE("weld_points: agree is asked about equal points, too, and most may agr
 }
 
 TEST_CASE("weld_points: progress never decreases, and stops the work when it says so") {
-    for (const family& f : families(23, 3'000))
+    for (const family& f : test::weld_families(23, 3'000))
         for (const weld_rule rule : rules) {
             CAPTURE(f.name);
             weld_options options = options_of(f.tolerance, rule);

@@ -83,7 +83,8 @@ class planar_triangulation {
     [[nodiscard]] bool is_ahead(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
     [[nodiscard]] place locate(std::uint32_t p);
-    [[nodiscard]] bool place_in(std::uint32_t t, std::uint32_t p, place& found) const;
+    [[nodiscard]] half_edge side_towards(std::uint32_t t, std::uint32_t p, std::uint32_t first,
+                                         half_edge from, place& found) const;
     [[nodiscard]] half_edge find(std::uint32_t from, std::uint32_t to) const;
     [[nodiscard]] half_edge side_between(std::uint32_t u, std::uint32_t v) const;
     template <class Visit>
