@@ -6,6 +6,11 @@
 # DIR/bench.csv, DIR/machine.txt and, with pictures, DIR/index.html (default: build/bench/results).
 # --quick ends within a few minutes, once built. Close other programs first.
 #
+# run.sh --write DIR [--size N] [FAMILY ...]: writes the families of meshes that are hard to decide
+# about (all when none is named) as PLY files of 100 to N faces (default 1000, up to 1000000), each
+# in several places and in float and double, for other programs to be tried on; DIR/index.csv lists
+# them.
+#
 #   TREEFORM_MODELS_DIR=DIR    real models; without it the bunny of a Debian package serves for all
 #   TREEFORM_BENCH_CACHE=DIR   for the larger models made of them (default: a folder of your own in
 #                              TMPDIR; about 1.5 GB, may be removed at any time)
@@ -14,13 +19,19 @@ here=$(pwd)
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 out=build/bench/results
+families=
 options=()
 while (($#)); do
     case $1 in
-        --out)
-            [[ $# -ge 2 ]] || { echo "run.sh: --out needs a folder" >&2; exit 2; }
-            out=$2
-            [[ $out == /* ]] || out=$here/$out
+        --out | --write)
+            [[ $# -ge 2 ]] || { echo "run.sh: $1 needs a folder" >&2; exit 2; }
+            folder=$2
+            [[ $folder == /* ]] || folder=$here/$folder
+            if [[ $1 == --out ]]; then out=$folder; else families=$folder; fi
+            shift
+            ;;
+        --size)
+            size=(--size "${2?run.sh: --size needs a number}")
             shift
             ;;
         -h | --help)
@@ -40,6 +51,10 @@ if command -v ccache >/dev/null; then
 fi
 cmake -G Ninja -S . -B build/bench -DCMAKE_BUILD_TYPE=Release -DTREEFORM_BUILD_BENCH=ON \
     -DTREEFORM_BUILD_TOOLS=OFF >/dev/null
+if [[ -n $families ]]; then
+    cmake --build build/bench --target stress_files
+    exec build/bench/tests/bench/stress_files ${size+"${size[@]}"} "$families" "${options[@]}"
+fi
 cmake --build build/bench --target treeform_bench
 
 models=${TREEFORM_MODELS_DIR-}
