@@ -41,6 +41,10 @@ for model in "${models[@]}"; do
     ((found <= 1)) || status=$found
 done
 
+step "what tf-boolean makes of small ones"
+"$(at tf-boolean)" union data/two_spheres.stl -f -o build/one_solid.stl || status=$?
+"$(at tf-boolean)" difference data/cube.stl data/sphere.ply -f -o build/difference.ply || status=$?
+
 step "what tf-weld and tf-place do with the first"
 "$(at tf-weld)" "${models[0]}" -f -o build/welded.ply || status=$?
 "$(at tf-place)" lay "${models[0]}" -f -o build/laid.ply || status=$?
@@ -49,6 +53,7 @@ cat <<MSG
 
 == next: --help of each is its manual
   $(at tf-selfintersect) YOUR_MODEL.stl -o marked.ply -r report.json
+  $(at tf-boolean) difference YOUR_MODEL.stl YOUR_OTHER.stl -o cut.ply
   $(at tf-weld) YOUR_SCAN.ply -t 0.5 -o thin.ply
   $(at tf-place) drop YOUR_MODEL.stl -o on_bed.stl
   tests/run.sh

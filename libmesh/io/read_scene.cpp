@@ -47,13 +47,18 @@ constexpr transform identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 /// Collects the meshes of all nodes; a mesh that several nodes show comes once for each.
 class scene_reader {
   public:
-    scene_reader(const source& in, const aiScene& scene) : in_(in), scene_(scene), faces_(file_) {}
+    /// With `may_be_empty`, a scene without meshes is one; else a file that was not understood.
+    scene_reader(const source& in, const aiScene& scene, bool may_be_empty)
+        : in_(in),
+          scene_(scene),
+          may_be_empty_(may_be_empty && scene.mNumMeshes == 0),
+          faces_(file_) {}
 
     mesh_file read() {
         file_.indexed = false;
         file_.stored_as = precision::single_;
         if (scene_.mRootNode != nullptr) add_nodes();
-        if (file_.mesh.points.empty()) in_.fail("no triangle found");
+        if (file_.mesh.points.empty() && !may_be_empty_) in_.fail("no triangle found");
         if (dropped_ > 0)
             file_.warnings.push_back(
                 {"skipped-elements", std::to_string(dropped_) + " points and lines were not read"});
@@ -115,6 +120,7 @@ class scene_reader {
 
     const source& in_;
     const aiScene& scene_;
+    bool may_be_empty_;
     mesh_file file_{};
     face_sink faces_;
     std::size_t dropped_ = 0;
@@ -150,7 +156,7 @@ mesh_file read_scene(const source& in, const std::filesystem::path& path,
             ? importer.ReadFileFromMemory(in.begin(), in.size(), steps, hint.c_str())
             : importer.ReadFile(path.string(), steps);
     if (scene == nullptr) in.fail(importer.GetErrorString());
-    mesh_file file = scene_reader(in, *scene).read();
+    mesh_file file = scene_reader(in, *scene, hint == "glb" || hint == "gltf").read();
     file.format = hint;
     return file;
 }

@@ -43,7 +43,7 @@ struct write_result {
 /// other columns of faces those of whole numbers from 0 on, as accessors that the primitive's
 /// `extras.face_properties` names. Polygons are written as such where the format has them.
 ///
-/// A mesh without points and faces can be written in every format but GLB, and read again.
+/// A mesh without points and faces can be written in every format of meshes, and read again.
 ///
 /// \throws io_error when the format cannot hold the file or the file cannot be written
 /// \throws std::invalid_argument when a corner is no point, or an element "vertex" or "face" has

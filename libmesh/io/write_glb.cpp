@@ -197,7 +197,9 @@ struct box {
 
 void write_glb(const write_job& job) {
     const auto& mesh = job.file.mesh;
-    json root = {{"asset", {{"version", "2.0"}, {"generator", "treeform"}}}};
+    json root = {{"asset", {{"version", "2.0"}, {"generator", "treeform"}}},
+                 {"scene", 0},
+                 {"scenes", json::array({json::object()})}};
     std::vector<primitive> primitives;
     std::vector<const column*> numbers;
     point3 offset;

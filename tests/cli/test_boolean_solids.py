@@ -236,19 +236,22 @@ class Solids(BooleanTest):
         self.assertIsNone(self.made("union", "a.obj", "b.obj", "c.obj")["volumes"])
 
     def test_an_empty_result_is_an_empty_solid(self):
-        for extension in ("obj", "stl", "ply", "off"):
+        for extension in ("obj", "stl", "ply", "off", "glb"):
             name = "out." + extension
             entry = self.made("difference", "c.obj", "a.obj", name=name)
             self.assertEqual((entry["output"]["faces"], entry["output"]["volume"]), (0, 0))
             entry = self.entry("union", "a.obj", name, status=0)
             self.assertEqual(entry["output"]["volume"], 8)
             self.assertEqual(entry["inputs"][1]["volume"], 0)
+            self.assertIn("empty", [w["code"] for w in entry["warnings"]])
             run = subprocess.run([TOOL, name], cwd=self.folder, capture_output=True)
             self.assertEqual(run.returncode, 3)
             self.assertIn(b"no triangle", run.stderr)
         self.made("difference", "c.obj", "a.obj", "--ascii", name="out.stl")
         self.run_tool("union", "a.obj", "out.stl", status=0)
-        self.entry("difference", "c.obj", "a.obj", "-o", "out.glb", status=0)
+        self.run_tool("intersection", "out.stl", "out.ply", status=0)
+        self.mesh("points.obj", ([(0, 0, 0)], []))
+        self.run_tool("union", "a.obj", "points.obj", status=3)  # that is no mesh
 
     def test_a_glb_holds_sources_and_is_read_again(self):
         self.made("union", "a.obj", "b.obj", "--source", "from", name="out.glb")

@@ -31,6 +31,7 @@ class Usage(BooleanTest):
         run = self.run_tool("--help", status=0)
         self.assertTrue(run.text.startswith("Usage: tf-boolean OP [OPTIONS] INPUT..."))
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
+        self.assertNotIn("--in-place", run.text)
         for word in ("union", "intersection", "difference", "xor", "split", "--expr", "--matrix",
                      "--inside", "--check", "--accept-open", "--simplify", "--max-move",
                      "--source", "--no-attributes", "--curves",

@@ -34,6 +34,12 @@ bool offers(const common_options& o, const std::string& format) {
 
 void add_output_options(command_line& line, common_options& o, const common_features& features) {
     if (features.output_formats.empty()) return;
+    if (features.one_result) {
+        for (const char* const name : {"--output-dir", "--suffix"})
+            line.refuse(name, true, "all inputs together give one result; use -o");
+        line.refuse("--in-place", false, "all inputs together give one result; use -o");
+        return;
+    }
     line.option({"--output-dir", "DIR", "one result per INPUT, named STEM+SUFFIX.EXT"},
                 [&o](std::string_view value) { o.output_dir = value; });
     line.option(o.suffix, {"--suffix", "TEXT", "SUFFIX for --output-dir", o.suffix});

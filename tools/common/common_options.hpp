@@ -48,6 +48,7 @@ struct common_options {
 struct common_features {
     std::vector<std::string> output_formats;  ///< extensions; empty: writes no mesh
     bool changes_meshes = true;               ///< then --in-place makes sense
+    bool one_result = false;                  ///< of all inputs: then --output-dir makes none
 };
 
 /// Adds them to `line` as a group of their own; `target` must outlive the parsing.

@@ -60,6 +60,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     // A mesh of nothing is what a difference may leave; points alone are no mesh.
     if (s.file.mesh.faces.empty() && !s.file.mesh.points.empty())
         throw failure(bad_input, "no-triangles", path + ": no triangle with finite coordinates");
+    if (s.file.mesh.faces.empty()) work.warn("empty", path + ": no faces: an empty solid");
     about["faces"] = s.file.stored_faces;
     about["triangles"] = s.triangles;
     about["volume"] = tf::signed_volume(s.file.mesh);
