@@ -3,6 +3,7 @@
 #include <libmesh/boolean/boolean.hpp>
 #include <libmesh/boolean/detail/inside_of_cells.hpp>
 #include <libmesh/boolean/detail/joined_operands.hpp>
+#include <libmesh/boolean/detail/mended_operands.hpp>
 #include <libmesh/boolean/detail/merged_faces.hpp>
 #include <libmesh/boolean/detail/sound_pair.hpp>
 #include <libmesh/intersect/point_location.hpp>
@@ -115,6 +116,7 @@ void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact
     result.meeting_faces = std::move(r.meeting);
     result.meeting_count = r.meeting_count;
     result.rounding_steps = r.steps;
+    result.broken = std::move(r.broken);
     result.source_face.resize(r.face_of.size());
     for_chunks(r.face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
@@ -206,10 +208,8 @@ detail::solid_faces kept_of_sheet(mesh_arrangement& cut, const arrangement_cells
     return kept;
 }
 
-}  // namespace
-
-solid_result boolean(std::span<const mesh_view> operands, const boolean_expression& expression,
-                     const boolean_options& options) {
+solid_result boolean_of(std::span<const mesh_view> operands, const boolean_expression& expression,
+                        const boolean_options& options) {
     check_expression("boolean", operands, expression);
     if (options.sound_operands && operands.size() == 2 && !options.simplify && !options.volumes)
         if (auto result = detail::boolean_of_sound_pair(operands.first<2>(), expression, options))
@@ -237,8 +237,8 @@ solid_result boolean(std::span<const mesh_view> operands, const boolean_expressi
     return result;
 }
 
-solid_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
-                  const boolean_expression& expression, const boolean_options& options) {
+solid_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
+                     const boolean_expression& expression, const boolean_options& options) {
     check_expression("clip", operands, expression);
     if (sheet >= operands.size()) throw std::invalid_argument("tf::clip: the sheet is no operand");
     if (!expression.needs(sheet))
@@ -265,7 +265,7 @@ solid_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
     return result;
 }
 
-solid_result split(std::span<const mesh_view> operands, const boolean_options& options) {
+solid_result split_of(std::span<const mesh_view> operands, const boolean_options& options) {
     joined_operands joined = detail::join_operands("split", operands);
     arrange_faces_result arranged =
         arrange_faces(joined.all, {.progress = part_of(options.progress, 0.0, 0.7)});
@@ -279,6 +279,27 @@ solid_result split(std::span<const mesh_view> operands, const boolean_options& o
     finish(result, arranged.cut, std::move(arranged.cut.faces), std::move(all), joined, false,
            as_cut);
     return result;
+}
+
+}  // namespace
+
+solid_result boolean(std::span<const mesh_view> operands, const boolean_expression& expression,
+                     const boolean_options& options) {
+    return detail::with_mended_operands(operands, options, [&](auto given, const auto& how) {
+        return boolean_of(given, expression, how);
+    });
+}
+
+solid_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
+                  const boolean_expression& expression, const boolean_options& options) {
+    return detail::with_mended_operands(operands, options, [&](auto given, const auto& how) {
+        return clip_of(given, sheet, expression, how);
+    });
+}
+
+solid_result split(std::span<const mesh_view> operands, const boolean_options& options) {
+    return detail::with_mended_operands(
+        operands, options, [](auto given, const auto& how) { return split_of(given, how); });
 }
 
 solid_check check_solid(mesh_view mesh, const progress_callback& progress) {

@@ -4,6 +4,7 @@
 
 #include <libmesh/boolean/expression.hpp>
 #include <libmesh/mesh.hpp>
+#include <libtree/aabb.hpp>
 #include <libtree/export.hpp>
 #include <libtree/progress.hpp>
 
@@ -41,8 +42,11 @@ struct boolean_options {
     inside_rule inside = inside_rule::nonzero;
     /// The coordinates written: rounded to float (then widened), or to double.
     bool to_float = false;
-    /// Steps of mending what rounding has broken before it is reported; see `round_surface`.
-    int rounding_steps = 4;
+    /// Steps of mending what rounding has broken before it is reported: two of the surface (see
+    /// `round_surface`), then of the operands, whose faces next to such places are joined where
+    /// they are nearer than 2^-48, 2^-44, 2^-40 ... of the largest coordinate (2^-22, 2^-18, 2^-14
+    /// ... for floats); then all is decided once more, exactly.
+    int rounding_steps = 5;
     /// Of the result, faces in one plane are merged: corners go that nothing but such faces, or
     /// faces along one straight edge, has in common, exactly and before rounding.
     bool simplify = false;
@@ -90,6 +94,8 @@ struct solid_result {
     std::vector<std::array<std::uint32_t, 2>> meeting_faces{};
     std::uint64_t meeting_count = 0;  ///< of all such pairs
     int rounding_steps = 0;           ///< of mending that were taken
+    /// Boxes of all faces that met after a step of mending or before; of faces as rounded.
+    std::vector<aabb<double, 3>> broken{};
     /// Operands that bound no solid: the first open edges, at most 100. Then the rest is empty.
     std::vector<open_operand_edge> open{};
     std::uint64_t open_count = 0;
@@ -107,8 +113,8 @@ struct solid_result {
 ///
 /// The surface is decided exactly on the coordinates as given; only then its constructed points are
 /// rounded, and the rounded surface is checked. Where rounding makes faces meet, what is next to
-/// each other is joined and cut again, step by step (`round_surface`). Given points stay bit for
-/// bit unless floats are asked for or they are next to such a place.
+/// each other is joined and cut again, step by step (`boolean_options::rounding_steps`). Given
+/// points stay bit for bit unless floats are asked for or they are next to such a place.
 ///
 /// Operands may overlap themselves, touch, be nested, be equal, consist of parts, be inside out or
 /// empty; their corners with equal coordinates are one. Each has to bound a solid: along every

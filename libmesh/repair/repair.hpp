@@ -24,8 +24,8 @@ struct repair_options {
     repair_mode mode = repair_mode::outer;
     inside_rule inside = inside_rule::nonzero;  ///< what is solid, for `outer`
     bool to_float = false;                      ///< coordinates become floats (then widened)
-    /// Of `split` and `outer`: see `round_surface`.
-    int rounding_steps = 4;
+    /// Of `split` and `outer`: see `boolean_options`.
+    int rounding_steps = 5;
     /// Of `remove`: how often faces are deleted, each time in a wider ring, before giving up.
     int removal_rounds = 8;
     progress_callback progress{};

@@ -112,7 +112,8 @@ double face_pieces::thickness(const std::array<std::uint32_t, 4>& corners) const
     return largest > 0.0 ? volume / largest : 0.0;
 }
 
-bool face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept) {
+face_pieces::flips face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept,
+                                          double most) {
     struct half_edge {
         std::uint32_t a, b;  // the lower end first
         std::uint32_t piece;
@@ -128,7 +129,7 @@ bool face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept) 
         }
     std::sort(edges.begin(), edges.end());
     std::vector<bool> changed(all_.size(), false);
-    bool any = false;
+    flips done;
     for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
         const half_edge &one = edges[e], &two = edges[e + 1];
         const auto same = [&](const half_edge& x) { return x.a == one.a && x.b == one.b; };
@@ -146,19 +147,26 @@ bool face_pieces::flip_once(std::span<const std::array<std::uint32_t, 2>> kept) 
         if (!(area(a, d, c) > 0.0) || !(area(d, b, c) > 0.0)) continue;
         const bool flat = !(area(a, b, c) > 0.0) || !(area(b, a, d) > 0.0);
         if (!flat && !in_circle(a, b, c, d)) continue;
-        moved_ = std::max(moved_, thickness({a, b, c, d}));
+        const double thick = thickness({a, b, c, d});
+        if (!(thick <= most)) continue;
+        done.moved = std::max(done.moved, thick);
         f = {a, d, c};
         g = {d, b, c};
         changed[one.piece] = changed[two.piece] = true;
-        any = true;
+        done.any = true;
     }
-    return any;
+    return done;
 }
 
-double face_pieces::flip(std::span<const std::array<std::uint32_t, 2>> kept) {
+double face_pieces::flip(std::span<const std::array<std::uint32_t, 2>> kept, double most) {
     constexpr int most_passes = 50;
-    for (int pass = 0; pass < most_passes && flip_once(kept); ++pass) continue;
-    return moved_;
+    double moved = 0.0;
+    for (int pass = 0; pass < most_passes; ++pass) {
+        const flips done = flip_once(kept, most);
+        moved += done.moved;  // what has moved may move again
+        if (!done.any) break;
+    }
+    return moved;
 }
 
 }  // namespace tf::detail

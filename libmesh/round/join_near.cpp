@@ -4,6 +4,7 @@
 #include <libmesh/round/detail/cancelled_faces.hpp>
 #include <libmesh/round/detail/face_pieces.hpp>
 #include <libmesh/round/detail/join_near.hpp>
+#include <libmesh/round/detail/joint_geometry.hpp>
 #include <libtree/build.hpp>
 #include <libtree/parallel.hpp>
 #include <libtree/search.hpp>
@@ -21,31 +22,7 @@ namespace tf::detail {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 10;
-constexpr int most_rounds = 8;
-
-using edge_name = std::array<std::uint32_t, 2>;  // the lower end first
-
-point3 operator-(const point3& p, const point3& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-point3 cross(const point3& u, const point3& v) {
-    return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-}
-double dot(const point3& u, const point3& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
-double length(const point3& v) { return std::sqrt(dot(v, v)); }
-
-edge_name edge_between(std::uint32_t a, std::uint32_t b) {
-    return {std::min(a, b), std::max(a, b)};
-}
-
-std::array<edge_name, 3> edges_of(const face& f) {
-    return {edge_between(f[0], f[1]), edge_between(f[1], f[2]), edge_between(f[2], f[0])};
-}
-
-bool holds(const face& f, std::uint32_t p) { return f[0] == p || f[1] == p || f[2] == p; }
-
-aabb<double, 3> box_around(const point3& p, const point3& q, double by) {
-    return {{std::min(p.x, q.x) - by, std::min(p.y, q.y) - by, std::min(p.z, q.z) - by},
-            {std::max(p.x, q.x) + by, std::max(p.y, q.y) + by, std::max(p.z, q.z) + by}};
-}
+constexpr int most_rounds = 8, most_rounds_of_operands = 3;
 
 /// A place on an edge, from 0 at its lower end to 1, and how far away it is.
 struct place {
@@ -90,16 +67,18 @@ class joining {
         : reach_(how.reach),
           solid_(how.solid),
           source_(how.source),
+          operand_(how.operand),
           bad_(offending.begin(), offending.end()) {
         surface().points.assign(mesh.points.begin(), mesh.points.end());
         surface().faces.assign(mesh.faces.begin(), mesh.faces.end());
         result_.face_of.resize(mesh.faces.size());
         std::iota(result_.face_of.begin(), result_.face_of.end(), 0U);
-        most_faces_ = 3 * mesh.faces.size() + 4000;
+        most_faces_ = (of_operands() ? 6 : 3) * mesh.faces.size() + 4000;
     }
 
     joined_near run() {
-        for (int round = 0; round < most_rounds; ++round) {
+        const int rounds = of_operands() ? most_rounds_of_operands : most_rounds;
+        for (int round = 0; round < rounds; ++round) {
             const joined_near before = result_;
             const std::vector<std::uint8_t> bad_before = bad_;
             const bool corners = join_corners();
@@ -107,8 +86,8 @@ class joining {
             const bool faces = split_faces();
             if (!grows_) flip();
             // Common points ought to make faces the same, so that they go; else this leads nowhere.
-            if (grows_ || surface().faces.size() >
-                              before.surface.faces.size() + before.surface.faces.size() / 4 + 200) {
+            const std::size_t was = before.surface.faces.size();
+            if (grows_ || (!of_operands() && surface().faces.size() > was + was / 4 + 200)) {
                 result_ = before;
                 bad_ = bad_before;
                 break;
@@ -130,7 +109,17 @@ class joining {
         return grows_;
     }
 
-    void note(double distance) { result_.moved = std::max(result_.moved, distance); }
+    [[nodiscard]] bool of_operands() const { return !operand_.empty(); }
+    [[nodiscard]] std::uint32_t operand_of(std::uint32_t f) const {
+        return of_operands() ? operand_[result_.face_of[f]] : 0;
+    }
+
+    /// What moves in one pass may move again in the next.
+    void note(double distance) { pass_ = std::max(pass_, distance); }
+    void end_pass() {
+        result_.moved += pass_;
+        pass_ = 0.0;
+    }
 
     /// The points that faces use, offending ones or all.
     [[nodiscard]] std::vector<std::uint32_t> used_points(bool offending_only) const {
@@ -169,7 +158,7 @@ class joining {
                 const std::uint32_t p = loose[i];
                 search(around, box_around(at(p), at(p), reach_), [&](std::uint32_t id) {
                     const std::uint32_t q = all[id];
-                    const double distance = length(at(p) - at(q));
+                    const double distance = length(difference(at(p), at(q)));
                     if (p != q && distance <= reach_)
                         found.emplace_back(std::min(p, q), std::max(p, q), distance);
                 });
@@ -193,11 +182,12 @@ class joining {
 
     [[nodiscard]] place nearest_on(std::uint32_t p, const edge_name& e) const {
         const point3 &a = at(e[0]), &q = at(p);
-        const point3 way = at(e[1]) - a;
-        const double square = dot(way, way);
-        const double along = square > 0.0 ? std::clamp(dot(q - a, way) / square, 0.0, 1.0) : 0.0;
+        const point3 way = difference(at(e[1]), a);
+        const double square = dot_product(way, way);
+        const double along =
+            square > 0.0 ? std::clamp(dot_product(difference(q, a), way) / square, 0.0, 1.0) : 0.0;
         const point3 there{a.x + along * way.x, a.y + along * way.y, a.z + along * way.z};
-        return {along, length(q - there)};
+        return {along, length(difference(q, there))};
     }
 
     /// Corners next to offending edges.
@@ -218,15 +208,17 @@ class joining {
     /// Where the lines through two edges are nearest, if that is inside of both.
     [[nodiscard]] bool pass(passing_edges& e) const {
         const point3 &p = at(e.a[0]), &q = at(e.b[0]);
-        const point3 u = at(e.a[1]) - p, v = at(e.b[1]) - q, w = q - p;
-        const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+        const point3 u = difference(at(e.a[1]), p), v = difference(at(e.b[1]), q),
+                     w = difference(q, p);
+        const double uu = dot_product(u, u), uv = dot_product(u, v), vv = dot_product(v, v),
+                     uw = dot_product(u, w), vw = dot_product(v, w);
         const double turn = uu * vv - uv * uv;
         if (!(turn > 0x1p-40 * uu * vv)) return false;  // along each other: their ends are near
         const double s = (uw * vv - vw * uv) / turn, t = (uw * uv - vw * uu) / turn;
         if (!(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)) return false;
         const point3 on_a{p.x + s * u.x, p.y + s * u.y, p.z + s * u.z};
         const point3 on_b{q.x + t * v.x, q.y + t * v.y, q.z + t * v.z};
-        const double distance = length(on_a - on_b);
+        const double distance = length(difference(on_a, on_b));
         if (!(distance <= near())) return false;
         e.on_a = {s, distance};
         e.on_b = {t, distance};
@@ -257,10 +249,10 @@ class joining {
     /// made for other edges there, or a new one.
     std::uint32_t point_for(const passing_edges& e, std::size_t first_made) {
         for (const std::uint32_t end : {e.a[0], e.a[1], e.b[0], e.b[1]})
-            if (length(at(end) - e.between) <= reach_) return end;
+            if (length(difference(at(end), e.between)) <= reach_) return end;
         const auto made = static_cast<std::uint32_t>(surface().points.size());
         for (std::uint32_t p = made; p-- > first_made && made - p < 64;)
-            if (length(at(p) - e.between) <= reach_) return p;
+            if (length(difference(at(p), e.between)) <= reach_) return p;
         surface().points.push_back(e.between);
         return made;
     }
@@ -271,7 +263,8 @@ class joining {
         const std::vector<edge_name> edges = offending_edges();
         std::vector<edge_point> in_edges = corners_near(edges);
         const std::size_t first_made = surface().points.size();
-        for (const passing_edges& e : edges_passing(edges)) {
+        const auto passing = of_operands() ? std::vector<passing_edges>{} : edges_passing(edges);
+        for (const passing_edges& e : passing) {
             const std::uint32_t p = point_for(e, first_made);
             if (p != e.a[0] && p != e.a[1])
                 in_edges.push_back({e.a, e.on_a.along, p, e.on_a.distance});
@@ -382,15 +375,16 @@ class joining {
                 if (c != e[0] && c != e[1]) return c;
             return e[0];
         };
-        const point3 along = at(e[1]) - at(e[0]);
-        point3 large = at(apex(f)) - at(e[0]), small = at(apex(g)) - at(e[0]);
-        if (length(cross(along, large)) < length(cross(along, small))) std::swap(large, small);
+        const point3 along = difference(at(e[1]), at(e[0]));
+        point3 large = difference(at(apex(f)), at(e[0])), small = difference(at(apex(g)), at(e[0]));
+        if (length(cross_product(along, large)) < length(cross_product(along, small)))
+            std::swap(large, small);
         // The apex of the smaller one as seen from the larger one: how high, and on which side.
-        const point3 normal = cross(along, large);
+        const point3 normal = cross_product(along, large);
         const double size = length(normal);
         if (!(size > 0.0)) return false;
-        const double height = std::abs(dot(normal, small)) / size;
-        const double across = dot(normal, cross(along, small)) / size;
+        const double height = std::abs(dot_product(normal, small)) / size;
+        const double across = dot_product(normal, cross_product(along, small)) / size;
         return height <= near() && across <= near() * length(along);
     }
 
@@ -401,19 +395,22 @@ class joining {
         std::vector<edge_name> borders;
     };
     [[nodiscard]] flat_patches find_patches() const {
-        std::vector<std::pair<edge_name, std::uint32_t>> edges;
+        using edge_of_operand = std::pair<edge_name, std::uint32_t>;
+        std::vector<std::pair<edge_of_operand, std::uint32_t>> edges;
         for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
-            for (const edge_name& e : edges_of(surface().faces[f])) edges.emplace_back(e, f);
+            for (const edge_name& e : edges_of(surface().faces[f]))
+                edges.push_back({{e, operand_of(f)}, f});
         std::sort(edges.begin(), edges.end());
         union_find sets(surface().faces.size());
         flat_patches found;
         for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
             while (end < edges.size() && edges[end].first == edges[begin].first) ++end;
             const std::uint32_t f = edges[begin].second, g = edges[end - 1].second;
-            if (end - begin == 2 && bad_[f] != 0 && bad_[g] != 0 && flat(f, g, edges[begin].first))
+            const edge_name& name = edges[begin].first.first;
+            if (end - begin == 2 && bad_[f] != 0 && bad_[g] != 0 && flat(f, g, name))
                 sets.join(f, g);
             else
-                found.borders.push_back(edges[begin].first);
+                found.borders.push_back(name);
         }
         for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
             if (bad_[f] != 0) found.by_patch.push_back({sets.root(f), f});
@@ -432,16 +429,19 @@ class joining {
                 faces.push_back(surface().faces[by_patch[end][1]]);
             if (faces.size() == 1) continue;
             face_pieces pieces(std::move(faces), surface().points);
-            note(pieces.flip(found.borders));
+            note(pieces.flip(found.borders, reach_));
             for (std::size_t i = begin; i < end; ++i)
                 surface().faces[by_patch[i][1]] = pieces.all()[i - begin];
         }
+        end_pass();
         cancel();
     }
 
-    /// Puts the pieces that `cut(number, face, pieces)` adds in the place of each face.
+    /// Ends a pass: puts the pieces that `cut(number, face, pieces)` adds in the place of each
+    /// face.
     template <class Cut>
     void replace_faces(const Cut& cut) {
+        end_pass();
         std::vector<face> faces, pieces;
         std::vector<std::uint32_t> face_of;
         std::vector<std::uint8_t> bad;
@@ -463,6 +463,7 @@ class joining {
 
     /// Of faces that cover each other, what bounds nothing goes.
     void cancel() {
+        if (of_operands()) return;
         const std::vector<std::uint8_t> gone = cancelled_faces(surface().faces, solid_);
         std::size_t kept = 0;
         for (std::size_t f = 0; f < gone.size(); ++f) {
@@ -482,6 +483,8 @@ class joining {
     double reach_;
     bool solid_;
     std::span<const std::uint32_t> source_;
+    std::span<const std::uint32_t> operand_;
+    double pass_ = 0.0;  ///< the largest distance closed since the last pass
     std::size_t most_faces_ = 0;
     bool grows_ = false;
     std::vector<std::uint8_t> bad_;  ///< by face

@@ -79,6 +79,7 @@ class rounding {
             ++result_.steps;
             if (!cut_again()) break;
         }
+        point_of_.resize(result_.surface.points.size());  // a step may have ended half way
         result_.point_of = std::move(point_of_);
         return std::move(result_);
     }
@@ -219,6 +220,11 @@ class rounding {
         if (faults.cancelled) return false;
         for (const std::uint32_t f : faults.degenerate) complain(f, f);
         for (const face_pair& pair : faults.pairs) complain(pair.a, pair.b);
+        for (std::size_t f = 0; f < now.faces.size(); ++f) {
+            if (offending_[f] == 0) continue;
+            aabb<double, 3>& box = result_.broken.emplace_back();
+            for (const std::uint32_t corner : now.faces[f]) box.include(now.points[corner]);
+        }
         return result_.meeting_count == 0 && !faults.open;
     }
 

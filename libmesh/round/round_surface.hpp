@@ -5,6 +5,7 @@
 
 #include <libmesh/exact/constructed_point.hpp>
 #include <libmesh/mesh.hpp>
+#include <libtree/aabb.hpp>
 #include <libtree/export.hpp>
 #include <libtree/progress.hpp>
 
@@ -56,6 +57,7 @@ struct rounded_surface {
                                                           ///< most 100; twice the same: degenerate
     std::uint64_t meeting_count = 0;                      ///< of all such pairs
     int steps = 0;                                        ///< of mending that were taken
+    std::vector<aabb<double, 3>> broken{};  ///< boxes of all faces that met in any step
     bool cancelled = false;
 };
 

@@ -25,9 +25,10 @@ class face_pieces {
     void split_edge(std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> inner);
     /// Puts a point into the piece in which it seems to lie, if none has it yet.
     void split_inside(std::uint32_t p);
-    /// Exchanges diagonals towards Delaunay's triangles, but not the edges in `kept`, which are
-    /// ascending, the lower end of each first. Bound of how far that has moved the surface.
-    double flip(std::span<const std::array<std::uint32_t, 2>> kept);
+    /// Exchanges diagonals towards Delaunay's triangles where that moves the surface by at most
+    /// `most`, but not the edges in `kept`, which are ascending, the lower end of each first. Bound
+    /// of how far all of it has moved the surface.
+    double flip(std::span<const std::array<std::uint32_t, 2>> kept, double most);
     /// Some may repeat a corner.
     [[nodiscard]] const std::vector<face>& all() const { return all_; }
 
@@ -43,13 +44,16 @@ class face_pieces {
     void split_at(std::uint32_t a, std::uint32_t b, std::uint32_t p);
     /// How thick the tetrahedron is that the two diagonals of four corners span.
     [[nodiscard]] double thickness(const std::array<std::uint32_t, 4>& corners) const;
-    bool flip_once(std::span<const std::array<std::uint32_t, 2>> kept);
+    struct flips {
+        bool any = false;
+        double moved = 0.0;
+    };
+    flips flip_once(std::span<const std::array<std::uint32_t, 2>> kept, double most);
 
     std::span<const point3> points_;
     std::array<std::size_t, 2> axes_{};  ///< that are left of the three, in an order that turns
     point3 origin_{};
     std::vector<face> all_;
-    double moved_ = 0.0;
 };
 
 }  // namespace tf::detail

@@ -13,7 +13,7 @@ namespace tf::detail {
 struct joined_near {
     mesh surface;                        ///< points as they were, with their numbers
     std::vector<std::uint32_t> face_of;  ///< [F] face that each one was, or was a part of
-    double moved = 0.0;                  ///< the largest distance that was closed
+    double moved = 0.0;                  ///< bound of how far anything was moved
 };
 
 struct joint {
@@ -21,6 +21,9 @@ struct joint {
     /// [F] faces with the same number lie in one plane, but for rounding.
     std::span<const std::uint32_t> source{};
     bool solid = true;  ///< the faces bound a solid: what covers each other back to back goes
+    /// [F], or empty: the faces are those of several operands, which may pass through each other.
+    /// Then none goes that has three corners, and edges that pass each other are left to be cut.
+    std::span<const std::uint32_t> operand{};
 };
 
 /// Joins corners within reach of each other to the lower one; splits offending edges, with all

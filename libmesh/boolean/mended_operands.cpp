@@ -1,0 +1,172 @@
+#include <libmesh/boolean/detail/joined_operands.hpp>
+#include <libmesh/boolean/detail/mended_operands.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libmesh/round/detail/join_near.hpp>
+#include <libtree/aabb.hpp>
+#include <libtree/search.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace tf::detail {
+namespace {
+
+constexpr int steps_of_surface = 2;
+
+/// How near is next to each other, in step 0, 1, ...
+double reach_of_step(int step, points_view points, bool to_float) {
+    double largest = 0.0;
+    for (const point3& p : points)
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    const int bits = (to_float ? 22 : 48) - 4 * step;
+    return std::max(std::ldexp(1.0, exponent - bits), std::numeric_limits<double>::min());
+}
+
+/// Operands as joined, each with its own points, and the way back.
+struct near_operands {
+    std::vector<mesh> meshes;
+    std::vector<std::vector<std::uint32_t>> face_of;   ///< [k][F] face of all operands as given
+    std::vector<std::vector<std::uint32_t>> point_of;  ///< [k][V] point of all, or beyond them
+
+    explicit near_operands(const joined_near& near, const joined_operands& given)
+        : meshes(given.first_face.size() - 1), face_of(meshes.size()), point_of(meshes.size()) {
+        constexpr std::uint32_t none = operand_element::none;
+        std::vector<std::uint32_t> number(near.surface.points.size(), none);
+        const auto& faces = near.surface.faces;
+        for (std::size_t f = 0, end = 0; f < faces.size(); f = end) {
+            const std::uint32_t k = given.operand_of_face[near.face_of[f]];
+            for (; end < faces.size() && given.operand_of_face[near.face_of[end]] == k; ++end) {
+                face local = faces[end];
+                for (std::uint32_t& corner : local) {
+                    const std::uint32_t p = corner;
+                    if (number[p] == none) {
+                        number[p] = static_cast<std::uint32_t>(point_of[k].size());
+                        point_of[k].push_back(p);
+                        meshes[k].points.push_back(near.surface.points[p]);
+                    }
+                    corner = number[p];
+                }
+                meshes[k].faces.push_back(local);
+                face_of[k].push_back(near.face_of[end]);
+            }
+            for (const std::uint32_t p : point_of[k]) number[p] = none;
+        }
+    }
+};
+
+/// Faces of the operands whose boxes are next to a broken place.
+std::vector<std::uint8_t> next_to(const std::vector<aabb<double, 3>>& broken, mesh_view all,
+                                  double reach) {
+    std::vector<std::uint8_t> marked(all.faces.size(), 0);
+    const tree<3> tree = face_tree(all);
+    for (aabb<double, 3> box : broken) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.min[k] -= reach;
+            box.max[k] += reach;
+        }
+        search(tree, box, [&](std::uint32_t f) { marked[f] = 1; });
+    }
+    return marked;
+}
+
+/// The question once more, of operands joined where they are next to broken places.
+class mending {
+  public:
+    mending(std::span<const mesh_view> operands, const boolean_options& options)
+        : options_(options), given_(join_operands("boolean", operands)) {
+        source_.resize(given_.all.faces.size());
+        std::iota(source_.begin(), source_.end(), 0U);
+    }
+
+    template <class Ask>
+    solid_result step(int number, const std::vector<aabb<double, 3>>& broken, const Ask& ask) {
+        const double reach = reach_of_step(number, given_.all.points, options_.to_float);
+        const joined_near near = join_near(
+            given_.all, next_to(broken, given_.all, reach),
+            {.reach = reach, .source = source_, .solid = false, .operand = given_.operand_of_face});
+        const near_operands joined(near, given_);
+        boolean_options how = options_;
+        how.rounding_steps = 1;
+        how.sound_operands = false;
+        how.volumes = false;
+        if (options_.progress) how.progress = [&](double) { return options_.progress(1.0); };
+        std::vector<std::uint32_t> groups;
+        if (!how.face_groups.empty()) {
+            for (const auto& faces : joined.face_of)
+                for (const std::uint32_t f : faces) groups.push_back(options_.face_groups[f]);
+            how.face_groups = groups;
+        }
+        const std::vector<mesh_view> views(joined.meshes.begin(), joined.meshes.end());
+        solid_result result = ask(std::span<const mesh_view>(views), how);
+        result.max_move += near.moved;
+        for (operand_element& face : result.source_face) face = face_source(joined, face);
+        for (operand_element& face : result.face_of_cut_point) face = face_source(joined, face);
+        for (operand_element& point : result.source_point) point = point_source(joined, point);
+        return result;
+    }
+
+  private:
+    [[nodiscard]] operand_element face_source(const near_operands& joined,
+                                              const operand_element& face) const {
+        if (face.operand == operand_element::none) return face;
+        return given_.face_source(joined.face_of[face.operand][face.index]);
+    }
+    [[nodiscard]] operand_element point_source(const near_operands& joined,
+                                               const operand_element& point) const {
+        if (point.operand == operand_element::none) return point;
+        const std::uint32_t p = joined.point_of[point.operand][point.index];
+        return p < given_.number_of_point.size() ? given_.point_source(p) : operand_element{};
+    }
+
+    const boolean_options& options_;
+    joined_operands given_;
+    std::vector<std::uint32_t> source_;
+};
+
+/// The surface of `mended`, and what is certain about it, with the rest as it was said before.
+void take_surface(solid_result& result, solid_result&& mended) {
+    result.surface = std::move(mended.surface);
+    result.source_face = std::move(mended.source_face);
+    result.source_point = std::move(mended.source_point);
+    result.face_of_cut_point = std::move(mended.face_of_cut_point);
+    result.max_move = mended.max_move;
+    result.certified = mended.certified;
+    result.meeting_faces = std::move(mended.meeting_faces);
+    result.meeting_count = mended.meeting_count;
+}
+
+}  // namespace
+
+solid_result with_mended_operands(
+    std::span<const mesh_view> operands, const boolean_options& options,
+    function_ref<solid_result(std::span<const mesh_view>, const boolean_options&)> ask) {
+    boolean_options first = options;
+    first.rounding_steps = std::min(options.rounding_steps, steps_of_surface);
+    solid_result result = ask(operands, first);
+    const auto is_done = [&](const solid_result& r) {
+        return r.certified || r.cancelled || r.open_count > 0 || !std::isfinite(r.max_move);
+    };
+    if (is_done(result) || options.rounding_steps <= steps_of_surface) return result;
+    mending again(operands, options);
+    for (int step = 0; step < options.rounding_steps - steps_of_surface; ++step) {
+        solid_result mended = again.step(step, result.broken, ask);
+        result.cancelled = mended.cancelled;
+        if (mended.cancelled) break;
+        ++result.rounding_steps;
+        result.broken.insert(result.broken.end(), mended.broken.begin(), mended.broken.end());
+        if (is_done(mended) && !mended.certified) continue;
+        if (mended.certified || mended.meeting_count < result.meeting_count)
+            take_surface(result, std::move(mended));
+        if (result.certified) break;
+    }
+    return result;
+}
+
+}  // namespace tf::detail
