@@ -1,6 +1,7 @@
 /// \file
 /// B7: two large meshes met for the first time: tree and distance, tree and collision, beside FCL;
-/// and the first contact along a direction beside one distance, trees given.
+/// collision with trees given; the first contact along a direction beside one distance, trees
+/// given; and one of many parts moved.
 
 #include "bench/peers/fcl_models.hpp"
 #include "bench/peers/versions.hpp"
@@ -83,6 +84,27 @@ contest from_arrays(const setting& setting, scene_name name, const std::string& 
     add(fcl_name() + " OBBRSS", 1, fcl_from_arrays(fcl_volume::obbrss, question));
     if (question == pose_question::distance)
         add(fcl_name() + " RSS", 1, fcl_from_arrays(fcl_volume::rss, question));
+    return contest;
+}
+
+/// Collision alone, trees given, as in B2: there over a thousand positions, here beside the rest.
+contest collision_with_trees(const setting& setting, const scene_name& name) {
+    const std::function<shared_scene()> given = [=] { return load(setting, name); };
+    const auto expected = answered_once(given, pose_question::collide, own_collide);
+    contest contest{.name = name_of(setting, name) + "/collide",
+                    .size = [=] { return triangles_of(setting, name); },
+                    .unit = per_pose(name.poses),
+                    .with_memory = false,
+                    .long_runs = 3};
+    const auto add = [&](const std::string& who, const make_asker& make) {
+        contest.contestants.push_back(
+            {who, 1, [=] { return pose_job(given(), pose_question::collide, make, expected); }});
+    };
+    add("treeform", own_collide);
+    add(fcl_name() + " OBBRSS", [](const scene& scene) -> ask_pose {
+        return [models = fcl_pair_of(*scene.a, *scene.b, fcl_volume::obbrss)](
+                   const transform<3>& pose) -> double { return models->collide(pose) ? 1 : 0; };
+    });
     return contest;
 }
 
@@ -224,6 +246,7 @@ void placement(const setting& setting, const contest_visitor& visit) {
     for (const scene_name& name : scenes(setting)) {
         visit(from_arrays(setting, name, "/build+distance", pose_question::distance));
         visit(from_arrays(setting, name, "/build+collide", pose_question::collide));
+        visit(collision_with_trees(setting, name));
         visit(contact_beside_distance(setting, name));
     }
     visit(scene_of_parts(setting));
