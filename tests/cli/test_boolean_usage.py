@@ -72,6 +72,7 @@ class Usage(BooleanTest):
         self.refused("--check", "a.obj", "--max-move", "1")
         self.refused("--check", "a.obj", "--simplify")
         self.refused("--check", "a.obj", "--accept-open")
+        self.refused("--check", "a.obj", "--curves", "out.obj")
         self.refused("split", "a.obj", "--inside", "odd")
         self.refused("split", "a.obj", "--simplify")
         self.refused("union", "a.obj", "--curves", "out.stl")

@@ -35,6 +35,21 @@ class Repair(ToolTest):
         self.assertGreater(repair["nonmanifold_edges"], 0)
         self.no_pairs("out.ply")
 
+    def test_faces_that_lie_on_others_are_not_removed_but_counted(self):
+        part = write(self.path("part.obj"), together(cube(), cube()))
+        repair = self.repaired(part, "--repair=split", "-o", "out.obj")["repair"]
+        self.assertEqual((repair["removed_faces"], repair["covered_faces"], repair["faces"]),
+                         (0, 12, 12))
+        self.assertIn("12 faces lie on others",
+                      self.run_tool(part, "--repair=split", status=0).text)
+
+    def test_parts_that_touch_have_points_of_their_own(self):
+        part = write(self.path("part.obj"), together(cube(), cube((1.0, 1.0, 0.0))))
+        repair = self.repaired(part, "--repair", "-o", "out.obj")["repair"]
+        self.assertEqual((repair["separated_points"], repair["nonmanifold_edges"]), (2, 0))
+        self.run_tool(self.path("out.obj"), status=0)
+        self.assertEqual(len(obj_mesh(self.read("out.obj"))[0]), 16)
+
     def test_what_is_written_is_checked_in_the_precision_written(self):
         part = write(self.path("part.obj"), together(cube((0.1, 0.2, 0.3)), cube((0.4, 0.5, 0.7))))
         entry = self.repaired(part, "--repair", "-o", "out.stl")

@@ -253,6 +253,7 @@ std::vector<std::uint32_t> groups_of_faces(std::span<const property_source> inpu
                                            bool by_input) {
     std::vector<property> properties;
     if (by_values) properties = properties_of(inputs, "face");
+    if (properties.empty() && !by_input) return {};
     constexpr double nothing = -std::numeric_limits<double>::infinity();
     std::map<std::vector<double>, std::uint32_t> numbers;
     std::vector<std::uint32_t> groups;

@@ -46,7 +46,8 @@ void carry_properties(tf::mesh_file& file, std::span<const property_source> inpu
                       const carried_to& made);
 
 /// [faces of all inputs, one input after the other] Numbers that are equal for faces with equal
-/// values in all columns that are carried, if `by_values`, and of one input, if `by_input`.
+/// values in all columns that are carried, if `by_values`, and of one input, if `by_input`. Empty
+/// when that tells no faces apart.
 [[nodiscard]] std::vector<std::uint32_t> groups_of_faces(std::span<const property_source> inputs,
                                                          bool by_values, bool by_input);
 

@@ -92,9 +92,10 @@ const char* const epilogue =
     "  tf-boolean --check *.stl\n"
     "\n"
     "Exit status: 0 done, output is closed, consistently oriented and free of\n"
-    "  self-intersections in the precision written; 1 an input is not a solid (the\n"
-    "  report says where) or the result could not be written so; 2 usage; 3 input;\n"
-    "  4 output; 5 stopped (memory, timeout, signal); 70 bug.\n";
+    "  self-intersections in the precision written (split and --accept-open: free of\n"
+    "  self-intersections); 1 an input is not a solid (the report says where) or the\n"
+    "  result could not be written so; 2 usage; 3 input; 4 output; 5 stopped (memory,\n"
+    "  timeout, signal); 70 bug.\n";
 
 /// Merging is not to lose what is written of faces.
 std::vector<std::uint32_t> groups_of(const tools::job& work, const boolean_settings& s,

@@ -71,6 +71,7 @@ void refuse_what_does_nothing(const boolean_settings& s, const common_options& o
     if (s.check && (s.simplify || s.accept_open))
         refuse("--simplify and --accept-open: --check only looks");
     check_curve_path(s.curves);
+    if (s.check && !s.curves.empty()) refuse("--curves: --check only looks");
     if (s.splits() && s.inside != tf::inside_rule::nonzero)
         refuse("--inside: split keeps every piece");
     if (s.source.empty() || s.source.find_first_of(" \t\r\n") != std::string::npos)
