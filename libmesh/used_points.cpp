@@ -1,3 +1,4 @@
+#include <libmesh/detail/compact.hpp>
 #include <libmesh/detail/used_points.hpp>
 #include <libtree/parallel.hpp>
 
@@ -13,19 +14,11 @@ std::vector<std::uint32_t> used_points(std::size_t point_count, std::span<const 
             for (const std::uint32_t corner : faces[f])
                 std::atomic_ref(used[corner]).store(1, std::memory_order_relaxed);
     });
-    std::vector<std::size_t> first(chunk_count(point_count, grain) + 1, 0);
-    for_chunks(point_count, grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        std::size_t count = 0;
-        for (std::size_t p = begin; p < end; ++p) count += used[p];
-        first[c + 1] = count;
-    });
-    for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
-    std::vector<std::uint32_t> points(first.back());
-    for_chunks(point_count, grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        std::size_t next = first[c];
-        for (std::size_t p = begin; p < end; ++p)
-            if (used[p] != 0) points[next++] = static_cast<std::uint32_t>(p);
-    });
+    std::vector<std::uint32_t> points;
+    compact(
+        point_count, [&](std::size_t p) { return used[p] != 0; },
+        [&](std::size_t count) { points.resize(count); },
+        [&](std::size_t p, std::size_t place) { points[place] = static_cast<std::uint32_t>(p); });
     return points;
 }
 

@@ -108,17 +108,18 @@ bool spares(const meeting& m, std::uint32_t f) {
     return true;
 }
 
-clusters gather(std::size_t face_count, const mesh_meetings& met, const meetings_by_face& by_face) {
+clusters gather(std::size_t face_count, const mesh_meetings& met) {
     detail::union_find sets(face_count);
-    for (const meeting& m : met.meetings)
+    std::vector<std::uint32_t> cut;
+    for (const meeting& m : met.meetings) {
         if (m.kind == overlap::area) sets.join(m.a, m.b);
-    std::vector<std::array<std::uint32_t, 2>> rooted;
-    for (std::uint32_t f = 0; f < face_count; ++f) {
-        bool is_cut = false;
-        for (std::size_t i = by_face.begin[f]; i < by_face.begin[f + 1] && !is_cut; ++i)
-            is_cut = !spares(met.meetings[by_face.which[i]], f);
-        if (is_cut) rooted.push_back({sets.root(f), f});
+        for (const std::uint32_t f : {m.a, m.b})
+            if (!spares(m, f)) cut.push_back(f);
     }
+    std::sort(cut.begin(), cut.end());
+    cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
+    std::vector<std::array<std::uint32_t, 2>> rooted;
+    for (const std::uint32_t f : cut) rooted.push_back({sets.root(f), f});
     std::sort(rooted.begin(), rooted.end());
     clusters result;
     for (std::size_t i = 0; i < rooted.size(); ++i) {
@@ -322,7 +323,7 @@ arrange_faces_result detail::arrange_pairs(mesh_view mesh, std::span<const face_
     result.pairs = pairs.size();
     const mesh_meetings met = detail::meetings_of(mesh, pairs);
     const meetings_by_face by_face(count, met.meetings);
-    const clusters groups = gather(count, met, by_face);
+    const clusters groups = gather(count, met);
     result.cut_faces = groups.members.size();
 
     constexpr std::size_t clusters_a_chunk = 16;

@@ -17,7 +17,6 @@ namespace tf::detail {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 14;
-constexpr std::size_t edge_grain = 256;
 
 /// Of a face or point: the operands whose surface it is on, as bits.
 using operand_set = std::uint8_t;
@@ -105,8 +104,8 @@ class finder {
         });
     }
 
-    /// The edges between points on both surfaces, face by face, sorted.
-    [[nodiscard]] std::vector<edge_use> shared_edges() const {
+    /// The edges between points on both surfaces, in parts, all faces at an edge in one part.
+    [[nodiscard]] std::vector<std::vector<edge_use>> shared_edges() const {
         std::vector<std::vector<edge_use>> found(chunk_count(cut_.faces.size(), grain));
         for_chunks(
             cut_.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
@@ -120,32 +119,33 @@ class finder {
                             {std::min(a, b), std::max(a, b), a < b ? front_of(id) : behind(id)});
                     }
             });
-        std::vector<edge_use> all;
-        for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-        std::sort(all.begin(), all.end());
-        return all;
+        std::vector<std::vector<edge_use>> parts(64);
+        for (const auto& chunk : found)
+            for (const edge_use& use : chunk) parts[use.low % parts.size()].push_back(use);
+        return parts;
     }
 
     bool look_at_edges() {
-        const std::vector<edge_use> uses = shared_edges();
-        std::vector<std::size_t> begins;
-        for (std::size_t i = 0; i < uses.size(); ++i)
-            if (i == 0 || !uses[i].same_edge(uses[i - 1])) begins.push_back(i);
-        begins.push_back(uses.size());
+        std::vector<std::vector<edge_use>> parts = shared_edges();
         std::atomic<bool> bad{false};
-        for_chunks(begins.size() - 1, edge_grain,
-                   [&](std::size_t begin, std::size_t end, std::size_t) {
-                       radial_order radial(near_.local, cut_);
-                       std::vector<face_side> sides;
-                       for (std::size_t e = begin; e < end; ++e) {
-                           const edge_use& first = uses[begins[e]];
-                           sides.clear();
-                           for (std::size_t i = begins[e]; i < begins[e + 1]; ++i)
-                               sides.push_back(uses[i].side);
-                           if (!look_at_edge({first.low, first.high}, sides, radial)) bad = true;
-                       }
-                   });
+        for_chunks(parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+            if (!look_at_edges(parts[i])) bad = true;
+        });
         return !bad && settle_told();
+    }
+
+    bool look_at_edges(std::vector<edge_use>& uses) {
+        std::sort(uses.begin(), uses.end());
+        radial_order radial(near_.local, cut_);
+        std::vector<face_side> sides;
+        for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+            const edge_use& first = uses[begin];
+            sides.clear();
+            for (; end < uses.size() && uses[end].same_edge(first); ++end)
+                sides.push_back(uses[end].side);
+            if (!look_at_edge({first.low, first.high}, sides, radial)) return false;
+        }
+        return true;
     }
 
     /// `sides` are all faces at the edge. False when they contradict each other.
@@ -197,27 +197,56 @@ class finder {
     /// Points of one surface that are not in the box of the other operand are outside that. Told of
     /// sets of which nothing is known, as edges are the better witnesses.
     void look_at_boxes() {
-        for (std::uint32_t p = 0; p < cut_.given_points.size(); ++p) {
-            if (on_[p] == 0 || on_[p] == both) continue;
-            const std::uint32_t root = alike_.root(p);
-            if (told_[root] != 0) continue;
-            aabb<double, 3> at;
-            at.include(cut_.given_points[p]);
-            if (!overlaps(at, near_.box[on_[p] == 1 ? 1 : 0])) told_[root] = outside;
+        const std::size_t given = cut_.given_points.size();
+        for_chunks(given, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (on_[i] == 0 || on_[i] == both) continue;
+                aabb<double, 3> at;
+                at.include(cut_.given_points[i]);
+                if (overlaps(at, near_.box[on_[i] == 1 ? 1 : 0])) continue;
+                const std::uint32_t root = alike_.root(static_cast<std::uint32_t>(i));
+                if (said_of(root) == 0) tell(root, outside);
+            }
+        });
+    }
+
+    [[nodiscard]] told said_of(std::uint32_t root) {
+        return std::atomic_ref(told_[root]).load(std::memory_order_relaxed);
+    }
+
+    /// The sets of faces of which nothing is known, by the lowest element; by the operand that they
+    /// may be in.
+    [[nodiscard]] std::array<std::vector<std::uint32_t>, 2> unknown_sets() {
+        using lists = std::array<std::vector<std::uint32_t>, 2>;
+        std::vector<lists> found(chunk_count(cut_.faces.size(), grain));
+        for_chunks(cut_.faces.size(), grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                       for (std::size_t f = begin; f < end; ++f) {
+                           if (!is_alone(f)) continue;
+                           const std::uint32_t root = alike_.root(element(f));
+                           auto& list = found[chunk][covered_[f] == 1 ? 1 : 0];
+                           if (told_[root] == 0 && (list.empty() || list.back() != root))
+                               list.push_back(root);
+                       }
+                   });
+        lists all;
+        for (std::size_t k = 0; k < 2; ++k) {
+            for (const lists& part : found)
+                all[k].insert(all[k].end(), part[k].begin(), part[k].end());
+            std::sort(all[k].begin(), all[k].end());
+            all[k].erase(std::unique(all[k].begin(), all[k].end()), all[k].end());
         }
+        return all;
     }
 
     /// False where a set has no given point apart from the other surface.
     bool ask_rays() {
-        std::array<std::vector<std::uint32_t>, 2> asking;  // by the operand that is asked
-        for (std::size_t f = 0; f < cut_.faces.size(); ++f) {
-            if (!is_alone(f)) continue;
-            const std::uint32_t root = alike_.root(element(f));
-            if (told_[root] != 0) continue;
-            if (root >= cut_.given_points.size()) return false;
-            told_[root] = outside;
-            asking[covered_[f] == 1 ? 1 : 0].push_back(root);
-        }
+        const auto asking = unknown_sets();
+        for (const auto& sets : asking)
+            for (const std::uint32_t root : sets) {
+                if (root >= cut_.given_points.size()) return false;
+                told_[root] = outside;
+            }
         for (std::size_t k = 0; k < 2; ++k) {
             if (asking[k].empty()) continue;
             const tree<3> tree = face_tree(operands_[k]);

@@ -1,5 +1,6 @@
 #include <libmesh/boolean/detail/near_faces.hpp>
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/compact.hpp>
 #include <libmesh/weld/equal_points.hpp>
 #include <libtree/detail/buffer.hpp>
 #include <libtree/parallel.hpp>
@@ -23,7 +24,7 @@ bool can_be_used(const point3& p) {
            std::abs(p.z) <= largest_coordinate;
 }
 
-/// `join(chunk's value)` in order, of the values that `make(begin, end)` gives for chunks.
+/// What `make(begin, end)` gives for chunks, in order.
 template <class T, class Make>
 std::vector<T> by_chunks(std::size_t count, const Make& make) {
     std::vector<T> made(chunk_count(count, grain));
@@ -128,12 +129,18 @@ void append(mesh_view mesh, const ids& faces, std::uint32_t points_before,
             for (const std::uint32_t corner : mesh.faces[faces[i]])
                 std::atomic_ref(number[corner]).store(1, std::memory_order_relaxed);
     });
-    for (std::uint32_t p = 0; p < number.size(); ++p) {
-        if (number[p] == 0) continue;
-        number[p] = static_cast<std::uint32_t>(result.local.points.size());
-        result.local.points.push_back(mesh.points[p]);
-        result.point_of.push_back(points_before + p);
-    }
+    const std::size_t points = result.local.points.size();
+    compact(
+        number.size(), [&](std::size_t p) { return number[p] != 0; },
+        [&](std::size_t count) {
+            result.local.points.resize(points + count);
+            result.point_of.resize(points + count);
+        },
+        [&](std::size_t p, std::size_t place) {
+            number[p] = static_cast<std::uint32_t>(points + place);
+            result.local.points[points + place] = mesh.points[p];
+            result.point_of[points + place] = points_before + static_cast<std::uint32_t>(p);
+        });
     const std::size_t first = result.local.faces.size();
     result.local.faces.resize(first + faces.size());
     result.face_of.resize(first + faces.size());
@@ -152,13 +159,21 @@ bool join_equal(const box& common, std::uint32_t points_of_a, near_faces& near) 
     mesh& local = near.local;
     ids inside;  // points that can equal one of the other operand
     std::vector<point3> at;
-    for (std::uint32_t p = 0; p < local.points.size(); ++p) {
-        box point;
-        point.include(local.points[p]);
-        if (!overlaps(point, common)) continue;
-        inside.push_back(p);
-        at.push_back(local.points[p]);
-    }
+    compact(
+        local.points.size(),
+        [&](std::size_t p) {
+            box point;
+            point.include(local.points[p]);
+            return overlaps(point, common);
+        },
+        [&](std::size_t count) {
+            inside.resize(count);
+            at.resize(count);
+        },
+        [&](std::size_t p, std::size_t place) {
+            inside[place] = static_cast<std::uint32_t>(p);
+            at[place] = local.points[p];
+        });
     const equal_points equal = find_equal_points(at);
     if (equal.first_of_new.size() == at.size()) return true;
     ids same(local.points.size());

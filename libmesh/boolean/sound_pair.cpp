@@ -2,6 +2,7 @@
 #include <libmesh/boolean/detail/mutual_insides.hpp>
 #include <libmesh/boolean/detail/near_faces.hpp>
 #include <libmesh/boolean/detail/sound_pair.hpp>
+#include <libmesh/detail/compact.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/intersect/detail/classify_pair.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
@@ -82,24 +83,32 @@ struct chosen_faces {
     ids face_of;
 };
 
+kept choice_of(const near_faces& near, const mesh_arrangement& cut, std::size_t f, bool inside,
+               const choice& choice) {
+    const auto covers = cut.covers_of(f);
+    if (covers.size() == 1) return choice.of(near.operand_of(covers[0].face), inside);
+    unsigned front = 0, behind = 0;
+    for (const covering_face& cover : covers)
+        (cover.opposite ? front : behind) |= 1U << near.operand_of(cover.face);
+    return choice(front, behind);
+}
+
 chosen_faces choose(const near_faces& near, const mesh_arrangement& cut,
                     const std::vector<std::uint8_t>& inside, const choice& choice) {
+    const auto kept_of = [&](std::size_t f) {
+        return choice_of(near, cut, f, inside[f] != 0, choice);
+    };
     chosen_faces result;
-    for (std::size_t f = 0; f < cut.faces.size(); ++f) {
-        const auto covers = cut.covers_of(f);
-        kept keeps = kept::no;
-        if (covers.size() == 1) {
-            keeps = choice.of(near.operand_of(covers[0].face), inside[f] != 0);
-        } else {
-            unsigned front = 0, behind = 0;
-            for (const covering_face& cover : covers)
-                (cover.opposite ? front : behind) |= 1U << near.operand_of(cover.face);
-            keeps = choice(front, behind);
-        }
-        if (keeps == kept::no) continue;
-        result.faces.push_back(turned_if(keeps == kept::turned, cut.faces[f]));
-        result.face_of.push_back(static_cast<std::uint32_t>(f));
-    }
+    compact(
+        cut.faces.size(), [&](std::size_t f) { return kept_of(f) != kept::no; },
+        [&](std::size_t count) {
+            result.faces.resize(count);
+            result.face_of.resize(count);
+        },
+        [&](std::size_t f, std::size_t place) {
+            result.faces[place] = turned_if(kept_of(f) == kept::turned, cut.faces[f]);
+            result.face_of[place] = static_cast<std::uint32_t>(f);
+        });
     return result;
 }
 
@@ -281,15 +290,22 @@ std::optional<solid_result> boolean_of_sound_pair(std::span<const mesh_view, 2> 
     chosen_faces chosen = choose(*near, cut, *inside, choice);
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(chosen.faces)};
-    for (const std::uint32_t f : chosen.face_of) exact.sound.push_back(cut.whole[f]);
+    exact.sound.resize(chosen.face_of.size());
+    for_chunks(exact.sound.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f) exact.sound[f] = cut.whole[chosen.face_of[f]];
+    });
     // What was left out meets no box of what was cut, and so no piece of it either, rounded or not:
     // rounding to nearest takes no coordinate out of a box of doubles.
     rounded_surface rounded = round_surface(std::move(exact), {.steps = 0});
     if (!rounded.certified) return std::nullopt;
     if (!goes_on(0.8)) return result;
-    ids source;
-    for (const std::uint32_t f : rounded.face_of)
-        source.push_back(near->face_of[cut.covers_of(chosen.face_of[f]).front().face]);
+    ids source(rounded.face_of.size());
+    for_chunks(source.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t f = chosen.face_of[rounded.face_of[i]];
+            source[i] = near->face_of[cut.covers_of(f).front().face];
+        }
+    });
     assembly(operands, *near, choice).write(rounded, source, result);
     result.max_move = rounded.max_move;
     result.certified = true;

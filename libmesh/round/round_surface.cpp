@@ -1,5 +1,6 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/detail/compact.hpp>
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/detail/stars.hpp>
 #include <libmesh/detail/used_points.hpp>
@@ -22,7 +23,6 @@ namespace tf {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 12;
-constexpr std::size_t face_grain = std::size_t{1} << 15;
 constexpr std::size_t listed_pairs = 100;
 
 bool is_finite(const point3& p) {
@@ -166,28 +166,20 @@ class rounding {
             const auto [a, b, c] = exact[f];
             return face{new_of_old[a], new_of_old[b], new_of_old[c]};
         };
-        std::vector<std::size_t> first(chunk_count(exact.size(), face_grain) + 1, 0);
-        for_chunks(exact.size(), face_grain,
-                   [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                       for (std::size_t f = begin; f < end; ++f)
-                           first[chunk + 1] += detail::has_three_corners(renumbered(f)) ? 1 : 0;
-                   });
-        for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
         mesh& now = result_.surface;
-        now.faces.resize(first.back());
-        sound_.resize(exact_.sound.empty() ? 0 : first.back());
-        std::vector<std::uint32_t> face_of(first.back());
-        for_chunks(exact.size(), face_grain,
-                   [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                       std::size_t next = first[chunk];
-                       for (std::size_t f = begin; f < end; ++f) {
-                           const face joined = renumbered(f);
-                           if (!detail::has_three_corners(joined)) continue;
-                           now.faces[next] = joined;
-                           if (!sound_.empty()) sound_[next] = stays_sound(f, now.points, joined);
-                           face_of[next++] = result_.face_of[f];
-                       }
-                   });
+        std::vector<std::uint32_t> face_of;
+        detail::compact(
+            exact.size(), [&](std::size_t f) { return detail::has_three_corners(renumbered(f)); },
+            [&](std::size_t count) {
+                now.faces.resize(count);
+                face_of.resize(count);
+                sound_.resize(exact_.sound.empty() ? 0 : count);
+            },
+            [&](std::size_t f, std::size_t place) {
+                now.faces[place] = renumbered(f);
+                face_of[place] = result_.face_of[f];
+                if (!sound_.empty()) sound_[place] = stays_sound(f, now.points, now.faces[place]);
+            });
         result_.face_of = std::move(face_of);
     }
 

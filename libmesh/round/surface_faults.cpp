@@ -7,6 +7,7 @@
 #include <libtree/search.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <numeric>
 #include <tuple>
@@ -78,21 +79,7 @@ struct edge_use {
     bool doubted;  ///< the face is not sound
 };
 
-/// Whether an edge of a face that is not sound is open. At edges of sound faces alone nothing has
-/// changed.
-bool is_open(mesh_view surface, const ids& faces, std::span<const std::uint8_t> sound) {
-    std::vector<std::uint8_t> at_doubted(surface.points.size(), 0);
-    for (const std::uint32_t f : faces)
-        if (sound[f] == 0)
-            for (const std::uint32_t corner : surface.faces[f]) at_doubted[corner] = 1;
-    std::vector<edge_use> uses;
-    for (const std::uint32_t f : faces)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = surface.faces[f][i];
-            const std::uint32_t b = surface.faces[f][i == 2 ? 0 : i + 1];
-            if (at_doubted[a] == 0 || at_doubted[b] == 0) continue;
-            uses.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1, sound[f] == 0});
-        }
+bool is_open(std::vector<edge_use>& uses) {
     std::sort(uses.begin(), uses.end(), [](const edge_use& x, const edge_use& y) {
         return std::tie(x.low, x.high) < std::tie(y.low, y.high);
     });
@@ -108,6 +95,30 @@ bool is_open(mesh_view surface, const ids& faces, std::span<const std::uint8_t> 
         if (doubted && sum != 0) return true;
     }
     return false;
+}
+
+/// Whether an edge of a face that is not sound is open. At edges of sound faces alone nothing has
+/// changed.
+bool is_open(mesh_view surface, const ids& faces, std::span<const std::uint8_t> sound) {
+    std::vector<std::uint8_t> at_doubted(surface.points.size(), 0);
+    for (const std::uint32_t f : faces)
+        if (sound[f] == 0)
+            for (const std::uint32_t corner : surface.faces[f]) at_doubted[corner] = 1;
+    std::vector<std::vector<edge_use>> parts(64);  // all uses of an edge in one
+    for (const std::uint32_t f : faces)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = surface.faces[f][i];
+            const std::uint32_t b = surface.faces[f][i == 2 ? 0 : i + 1];
+            if (at_doubted[a] == 0 || at_doubted[b] == 0) continue;
+            const std::uint32_t low = std::min(a, b);
+            parts[low % parts.size()].push_back(
+                {low, std::max(a, b), a < b ? 1 : -1, sound[f] == 0});
+        }
+    std::atomic<bool> open{false};
+    for_chunks(parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+        if (is_open(parts[i])) open = true;
+    });
+    return open;
 }
 
 }  // namespace
