@@ -19,6 +19,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace {
 
@@ -74,6 +75,26 @@ std::string encoded(std::string_view target, const tf::mesh& mesh) {
     return to.text();
 }
 
+/// Two solids over the corners of a pair: tetrahedra, boxes or octahedra.
+std::string encoded_solids(const tf::test::triangle_pair& pair, int kind) {
+    const auto& [a, b] = pair;
+    encoder to;
+    for (const int option : {0, 0, 0, 7}) to.byte(option);  // the union, in doubles, all asked
+    for (const auto& [first, second] : {std::pair{a, b}, std::pair{b, a}}) {
+        to.byte(0);  // one solid
+        to.byte(kind);
+        if (kind == 1) {
+            to.point(first[0]);
+            to.point(second[1]);
+        } else {
+            to.points(first);
+            if (kind == 0) to.point(second[0]);
+            if (kind == 2) to.points(second);
+        }
+    }
+    return to.text();
+}
+
 /// Three triangles of a family, as what the target of that name reads.
 std::string encoded(std::string_view target, tf::test::stress_stream& stream) {
     const auto first = stream.next();
@@ -90,14 +111,6 @@ std::string encoded(std::string_view target, tf::test::stress_stream& stream) {
         to.byte(0);
         to.point(second.b[0]);
         to.points(second.b);
-    } else if (target == "boolean") {
-        for (int i = 0; i < 3; ++i) to.byte(0);  // the union, in doubles, nonzero
-        for (const auto& pair : {first, second}) {
-            to.byte(0);  // one solid,
-            to.byte(0);  // a tetrahedron
-            to.points(pair.a);
-            to.point(pair.b[0]);
-        }
     } else {
         if (target == "weld") {
             for (int i = 0; i < 2; ++i) to.byte(0);
@@ -129,13 +142,14 @@ void write_seeds(const std::filesystem::path& folder) {
         for (std::size_t f = 0; f < tf::test::stress_family_count; ++f) {
             const auto family = static_cast<stress_family>(f);
             tf::test::stress_stream stream(family, 1);
-            for (int i = 0; i < 4; ++i) {
+            for (int i = 0; i < 6; ++i) {
                 const std::string_view name(target);
                 const bool takes_mesh = name == "self_intersections" || name == "repair";
                 const auto seed = static_cast<std::uint64_t>(i);
                 write(to / (std::string(name_of(family)) + '-' + std::to_string(i)),
-                      takes_mesh ? encoded(name, stress_mesh(family, 12, seed))
-                                 : encoded(name, stream));
+                      takes_mesh          ? encoded(name, stress_mesh(family, 12, seed))
+                      : name == "boolean" ? encoded_solids(stream.next(), i % 3)
+                                          : encoded(name, stream));
             }
         }
     }
