@@ -48,11 +48,11 @@ struct repaired_mesh {
     std::vector<open_operand_edge> open{};  ///< of `outer`, where the mesh bounds no solid: then
     std::uint64_t open_count = 0;           ///< the rest is empty
     std::uint64_t lost_components = 0;      ///< components, by points, no face of which is left
-    std::uint64_t removed = 0;  ///< faces of the mesh no part of which is left
+    std::uint64_t removed = 0;              ///< faces of the mesh no part of which is left
     /// Of `split`, faces that lie on lower ones altogether: one piece stands for all, and they are
     /// not counted as removed.
     std::uint64_t covered = 0;
-    std::uint64_t filled = 0;               ///< faces that fill holes
+    std::uint64_t filled = 0;  ///< faces that fill holes
     bool cancelled = false;
 };
 

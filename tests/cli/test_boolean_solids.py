@@ -65,6 +65,16 @@ class Solids(BooleanTest):
         self.assertEqual({row[4] for row in rows}, {"0", "1"})
         self.assertTrue(all(int(row[5]) < 12 for row in rows))
 
+    def test_a_result_is_an_input_again_with_sources_of_its_own(self):
+        self.mesh("right.obj", box((2, 0, 0), (3, 2, 2)))
+        self.made("union", "a.obj", "right.obj", "--ascii", name="first.ply")
+        self.made("difference", "b.obj", "first.ply", "--ascii", name="second.ply")
+        head = self.read("second.ply").split("end_header")[0]
+        self.assertEqual(head.count("property uint source_mesh"), 1)
+        self.assertEqual(head.count("comment source_mesh"), 2)
+        entry = self.made("union", "first.ply", "--simplify", name="third.ply")
+        self.assertEqual(entry["output"]["faces"], 12)
+
     def test_floats_are_certified_as_floats(self):
         points = [(x + 0.1, y / 3, z - 0.7) for x, y, z in cube()[0]]
         self.mesh("odd.obj", (points, cube()[1]))
@@ -169,6 +179,17 @@ class Solids(BooleanTest):
         self.assertEqual(entry["output"]["volume"], 15)
         self.assertIsNone(entry["output"]["file"])
         self.assertNotIn("out.obj", self.listing())
+
+    def test_attributes_of_an_stl_go_along(self):
+        data = bytearray(stl_bytes(box((0, 0, 0), (2, 2, 2))))
+        for i in range(12):
+            struct.pack_into("<H", data, 84 + 50 * i + 48, 1000 + i)
+        with open(self.path("marked.stl"), "wb") as file:
+            file.write(data)
+        self.made("difference", "marked.stl", "b.obj", name="out.stl")
+        out = self.read_bytes("out.stl")
+        found = {struct.unpack_from("<H", out, at + 48)[0] for at in range(84, len(out), 50)}
+        self.assertEqual(found, {0} | set(range(1000, 1012)))
 
     def test_normals_turn_around_with_what_is_cut_away(self):
         points, faces = box((1, 1, 1), (3, 3, 3))

@@ -113,11 +113,15 @@ class Repair(ToolTest):
         lines = self.read("out.ply").splitlines()
         self.assertIn("property double heat", lines)
         self.assertIn("property int id", lines)
+        names = [l.split()[-1] for l in lines if l.startswith("property int")]
+        self.assertEqual(names, ["id", "source_face"])
         count = int(next(l for l in lines if l.startswith("element vertex")).split()[2])
         body = lines[lines.index("end_header") + 1:]
         for line in body[:count]:
             x, _, _, heat = map(float, line.split())
             self.assertAlmostEqual(x, heat)
+        for *_, number, source in (line.split() for line in body[count:]):
+            self.assertEqual(number, source)
 
     def test_what_makes_no_sense_is_refused(self):
         part = write(self.path("part.obj"), TWO_CUBES)

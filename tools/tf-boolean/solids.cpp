@@ -43,6 +43,18 @@ void keep_usable(job& work, solid& s) {
                                 " with a NaN or infinite coordinate left out");
 }
 
+/// Where faces of an earlier result came from is not what those of this one come from.
+void forget_sources(tf::mesh_file& file, const std::string& source) {
+    for (tf::element& e : file.attributes.elements)
+        if (e.name == "face")
+            std::erase_if(e.columns, [&](const tf::column& c) {
+                return c.name == source + "_mesh" || c.name == source + "_face";
+            });
+    std::erase_if(file.attributes.comments, [&](const std::string& comment) {
+        return comment.starts_with(source + "_mesh ");
+    });
+}
+
 solid read_solid(job& work, const std::string& path, const std::filesystem::path& matrix_file,
                  json& about) {
     solid s;
@@ -95,6 +107,7 @@ std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
         about["open"] = {{"count", nullptr}, {"list", json::array()}};
         about["skipped"] = {{"non_finite", nullptr}};
         solids.push_back(read_solid(work, path, settings.matrix_files[i], about));
+        forget_sources(solids.back().file, settings.source);
     }
     return solids;
 }

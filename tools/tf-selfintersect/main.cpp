@@ -87,7 +87,8 @@ void add_what_to_give_back(command_line& line, request& r, common_options& optio
     line.output(options.output, {"-o, --output", "FILE",
                                  "the mesh with the faces coloured by kind, and its\n"
                                  "properties tf_class and tf_region (PLY, GLB); the\n"
-                                 "repaired mesh with --repair"});
+                                 "repaired mesh with --repair, and the face that each\n"
+                                 "one lies in as property source_face (PLY)"});
 }
 
 tf::repair_mode parse_repair(std::string_view text) {

@@ -2,6 +2,7 @@
 
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
+#include <libmesh/attributes.hpp>
 #include <libmesh/boolean/separate_fans.hpp>
 #include <libmesh/topology.hpp>
 #include <libmesh/volume.hpp>
@@ -131,6 +132,17 @@ std::vector<tf::operand_element> of_input(const std::vector<std::uint32_t>& indi
     return elements;
 }
 
+/// The face that each one lies in, -1 where it fills a hole.
+void add_source_faces(tf::mesh_file& file, const findings& result,
+                      const std::vector<std::uint32_t>& face_of) {
+    std::vector<std::int32_t> sources;
+    for (const std::uint32_t f : face_of)
+        sources.push_back(
+            f == tf::repaired_mesh::none ? -1 : static_cast<std::int32_t>(result.stored_face(f)));
+    tf::element& rows = tf::obtain_element(file.attributes, "face", file.mesh.faces.size());
+    tf::set_column(rows, tf::make_column<std::int32_t>("source_face", sources));
+}
+
 void write_repaired(job& work, const tf::mesh_file& input, const findings& result,
                     tf::repaired_mesh& repaired, const std::filesystem::path& output,
                     bool to_single) {
@@ -147,6 +159,7 @@ void write_repaired(job& work, const tf::mesh_file& input, const findings& resul
     if ((!same_points && !input.attributes.elements.empty() && input.indexed) ||
         leaves_out_properties({&source, 1}))
         work.warn("attributes", "not all properties of the input are carried over");
+    add_source_faces(file, result, repaired.face_of);
     const tf::write_result written = write_certified(work, file, output);
     work.entry["output"] = {{"file", output.string()},
                             {"format", written.format},
@@ -175,8 +188,9 @@ bool repair_and_write(job& work, const tf::mesh_file& file, const findings& resu
     const property_source source{&file, &result.triangle_of_face};
     const bool to_single = writes_single(work.options, output, {&source, 1});
     tf::repaired_mesh repaired = compute(work, result, settings, to_single);
-    const std::uint64_t separated =
-        settings.mode == tf::repair_mode::outer && repaired.certified ? separate_parts(repaired) : 0;
+    const std::uint64_t separated = settings.mode == tf::repair_mode::outer && repaired.certified
+                                        ? separate_parts(repaired)
+                                        : 0;
     const double allowed = settings.max_move.used(result.box ? tf::diagonal(*result.box) : 0.0);
     enter_repair(work, result, settings, repaired, allowed, to_single);
     work.entry["repair"]["separated_points"] = separated;
