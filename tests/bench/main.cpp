@@ -26,9 +26,14 @@ std::string key_of(const bench::contest& contest, const bench::contestant& conte
     return fmt::format("{}|{}|{}", contest.name, contestant.threads, contestant.who);
 }
 
+/// "E1" names itself, "E" all that begin with it.
+bool names(const std::string& id, const bench::workload& workload) {
+    return workload.id == id || (id.size() == 1 && workload.id.starts_with(id));
+}
+
 void check_ids(const std::vector<std::string>& ids) {
     for (const std::string& id : ids)
-        if (std::ranges::none_of(bench::workloads(), [&](const auto& w) { return w.id == id; }))
+        if (std::ranges::none_of(bench::workloads(), [&](const auto& w) { return names(id, w); }))
             throw std::runtime_error("no workload is called " + id);
 }
 
@@ -52,7 +57,9 @@ void measure_all(const bench::setting& setting, const std::vector<std::string>& 
     bench::table table;
     bench::page page(bench::machine_name());
     for (const bench::workload& workload : bench::workloads()) {
-        if (!ids.empty() && std::ranges::find(ids, workload.id) == ids.end()) continue;
+        if (!ids.empty() &&
+            std::ranges::none_of(ids, [&](const std::string& id) { return names(id, workload); }))
+            continue;
         fmt::print("\n== {}  {}\n", workload.id, workload.title);
         std::vector<bench::outcome> outcomes;
         workload.contests(setting, [&](const bench::contest& contest) {
@@ -81,7 +88,8 @@ int run(int argc, char** argv) {
     std::string peak_of;
     bool quick = false;
     bool tiny = false;
-    app.add_option("ID", ids, "workloads, such as B1; all when none is named");
+    app.add_option("ID", ids,
+                   "workloads, such as B1, or B for all of them; all when none is named");
     app.add_flag("--quick", quick, "smaller models, within three minutes");
     app.add_flag("--tiny", tiny, "only see that everything runs");
     app.add_option("--out", folder, "folder of bench.csv, machine.txt and index.html");

@@ -93,6 +93,8 @@ void page::add(const workload& workload, const std::vector<outcome>& outcomes) {
         pictures_.push_back(std::move(picture));
     }
     if (!section.table.empty()) body_ += html_table(section.table);
+    for (const std::string& remark : section.remarks)
+        body_ += fmt::format("<p>{}</p>\n", escaped(remark));
 }
 
 void page::write(const std::string& folder) const {

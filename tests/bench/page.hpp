@@ -38,6 +38,7 @@ struct section {
     std::string ours;   ///< what was measured, in one sentence
     std::vector<picture> pictures{};
     std::vector<std::vector<std::string>> table{};  ///< the first row is the head
+    std::vector<std::string> remarks{};             ///< paragraphs: what is to be seen, and why
 };
 
 /// Collects sections and writes them with their pictures.

@@ -140,8 +140,9 @@ std::string machine_name() {
 #else
     const std::string compiler = fmt::format("g++ {}.{}", __GNUC__, __GNUC_MINOR__);
 #endif
-    return fmt::format("{}, {} threads, {}", field("/proc/cpuinfo", "model name"), thread_count(),
-                       compiler);
+    return fmt::format("treeform {}.{}.{}, {}, {} threads, {}", TREEFORM_VERSION_MAJOR,
+                       TREEFORM_VERSION_MINOR, TREEFORM_VERSION_PATCH,
+                       field("/proc/cpuinfo", "model name"), thread_count(), compiler);
 }
 
 void write_machine(const std::string& folder) {

@@ -36,7 +36,7 @@ class table {
     std::string columns_;  ///< heads of the lines printed last
 };
 
-/// Processor, threads at hand and compiler, in a line.
+/// Version, processor, threads at hand and compiler, in a line.
 [[nodiscard]] std::string machine_name();
 
 /// Writes DIR/machine.txt: processor, threads, memory, compiler, versions of the peers.

@@ -17,6 +17,15 @@ TREEFORM_WORKLOAD(booleans);                   // b6
 TREEFORM_WORKLOAD(placement);                  // b7
 TREEFORM_WORKLOAD(files);                      // b8
 TREEFORM_WORKLOAD(predicates);                 // b9
+TREEFORM_WORKLOAD(triangle_pairs);             // e1
+TREEFORM_WORKLOAD(self_intersection_errors);   // e2
+TREEFORM_WORKLOAD(distances);                  // e3
+TREEFORM_WORKLOAD(solids);                     // e4
+TREEFORM_WORKLOAD(weld_errors);                // e5
+TREEFORM_WORKLOAD(first_contact_errors);       // e6
+TREEFORM_WORKLOAD(nearest_point_errors);       // e7
+TREEFORM_WORKLOAD(scaling);                    // e8
+TREEFORM_WORKLOAD(stability);                  // e9
 TREEFORM_WORKLOAD(build_by_peers);             // f2
 TREEFORM_WORKLOAD(build_by_threads);           // f5
 TREEFORM_WORKLOAD(strategies);                 // f6
@@ -32,6 +41,15 @@ TREEFORM_WORKLOAD(weld_quality_by_tolerance);  // w2
 TREEFORM_DRAWING(draw_poses_by_peers);
 TREEFORM_DRAWING(draw_near_pairs_from_arrays);
 TREEFORM_DRAWING(draw_nearness);
+TREEFORM_DRAWING(draw_triangle_pairs);
+TREEFORM_DRAWING(draw_self_intersection_errors);
+TREEFORM_DRAWING(draw_distances);
+TREEFORM_DRAWING(draw_solids);
+TREEFORM_DRAWING(draw_weld_errors);
+TREEFORM_DRAWING(draw_first_contact_errors);
+TREEFORM_DRAWING(draw_nearest_point_errors);
+TREEFORM_DRAWING(draw_scaling);
+TREEFORM_DRAWING(draw_stability);
 TREEFORM_DRAWING(draw_build_by_peers);
 TREEFORM_DRAWING(draw_build_by_threads);
 TREEFORM_DRAWING(draw_strategies);
@@ -56,6 +74,21 @@ std::span<const workload> workloads() {
         workload{"B7", "two meshes met for the first time, and their first contact", placement},
         workload{"B8", "files: read and write, page cache warm", files},
         workload{"B9", "predicates and triangle pairs, by family of hard cases", predicates},
+        workload{"E1", "time against error: whether two triangles meet", triangle_pairs,
+                 draw_triangle_pairs},
+        workload{"E2", "time against error: self-intersections", self_intersection_errors,
+                 draw_self_intersection_errors},
+        workload{"E3", "time against error: distances of points and triangles", distances,
+                 draw_distances},
+        workload{"E4", "time against error: set operations and repair", solids, draw_solids},
+        workload{"E5", "time against error: welding", weld_errors, draw_weld_errors},
+        workload{"E6", "time against error: first contact", first_contact_errors,
+                 draw_first_contact_errors},
+        workload{"E7", "time against error: nearest points", nearest_point_errors,
+                 draw_nearest_point_errors},
+        workload{"E8", "time and memory by size", scaling, draw_scaling},
+        workload{"E9", "whether two triangles meet, harder step by step", stability,
+                 draw_stability},
         workload{"F2", "tree build beside CGAL and FCL, by size", build_by_peers,
                  draw_build_by_peers},
         workload{"F5", "tree build by threads", build_by_threads, draw_build_by_threads},

@@ -50,6 +50,55 @@ std::vector<std::uint32_t> nanoflann_tree::k_nearest(const std::vector<point3>& 
     return ids;
 }
 
+struct nanoflann_float_tree::state {
+    struct cloud {
+        std::vector<std::array<float, 3>> points;
+
+        [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+        [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t k) const {
+            return points[i][k];
+        }
+        template <class Box>
+        bool kdtree_get_bbox(Box&) const {
+            return false;
+        }
+    };
+    using index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, cloud>,
+                                                      cloud, 3, std::uint32_t>;
+
+    static std::array<float, 3> rounded(const point3& p) {
+        return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    }
+    static cloud cloud_of(const std::vector<point3>& points) {
+        cloud result;
+        for (const point3& p : points) result.points.push_back(rounded(p));
+        return result;
+    }
+
+    cloud given;
+    index tree;
+
+    explicit state(const std::vector<point3>& points)
+        : given(cloud_of(points)), tree(3, given, nanoflann::KDTreeSingleIndexAdaptorParams(10)) {}
+};
+
+nanoflann_float_tree::nanoflann_float_tree(const std::vector<point3>& points)
+    : state_(std::make_unique<state>(points)) {
+    state_->tree.buildIndex();
+}
+
+nanoflann_float_tree::~nanoflann_float_tree() = default;
+
+std::vector<std::uint32_t> nanoflann_float_tree::k_nearest(const std::vector<point3>& queries,
+                                                           std::size_t k) const {
+    std::vector<std::uint32_t> ids(queries.size() * k);
+    std::vector<float> distances(k);
+    for (std::size_t i = 0; i < queries.size(); ++i)
+        state_->tree.knnSearch(state::rounded(queries[i]).data(), k, ids.data() + i * k,
+                               distances.data());
+    return ids;
+}
+
 std::string nanoflann_name() {
     return "nanoflann " + std::to_string(NANOFLANN_VERSION >> 8) + "." +
            std::to_string(NANOFLANN_VERSION >> 4 & 15) + "." +

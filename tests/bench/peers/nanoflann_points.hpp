@@ -30,4 +30,18 @@ class nanoflann_tree {
     std::unique_ptr<state> state_;
 };
 
+/// The same over points rounded to float, asked in float.
+class nanoflann_float_tree {
+  public:
+    explicit nanoflann_float_tree(const std::vector<point3>& points);
+    ~nanoflann_float_tree();
+
+    [[nodiscard]] std::vector<std::uint32_t> k_nearest(const std::vector<point3>& queries,
+                                                       std::size_t k) const;
+
+  private:
+    struct state;
+    std::unique_ptr<state> state_;
+};
+
 }  // namespace tf::bench

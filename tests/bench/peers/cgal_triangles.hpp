@@ -1,0 +1,20 @@
+#pragma once
+/// \file
+/// Pairs of triangles by CGAL: the kind of their intersection, and their squared distance.
+
+#include "bench/peers/cgal_predicates.hpp"
+#include "support/stress_families.hpp"
+
+#include <span>
+#include <vector>
+
+namespace tf::bench {
+
+/// What the intersection of two triangles may be said to be, beside the values of `overlap`.
+inline constexpr signed char kind_failed = -1;  ///< an exception
+
+/// [pairs] the `overlap` of each pair as `CGAL::intersection` constructs it; with the kernel EPECK
+/// exact, with EPICK in double.
+[[nodiscard]] verdicts cgal_kinds(std::span<const test::triangle_pair> pairs, bool exact);
+
+}  // namespace tf::bench
