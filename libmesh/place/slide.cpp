@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace tf {
@@ -38,6 +39,8 @@ part_end end_at(mesh_view a, const tree<3>& tree_a, const still_part& part, cons
 
 slide_result slide(mesh_view a, const tree<3>& tree_a, std::span<const still_part> parts,
                    const point3& motion, const slide_options& options) {
+    if (!(options.clearance >= 0.0))
+        throw std::invalid_argument("tf::slide: the clearance is negative or NaN");
     slide_result result;
     sweep_contact earliest;
     double latest = options.latest;

@@ -49,7 +49,7 @@ struct slide_result {
 /// or nearer than the clearance, at the start ends it there.
 ///
 /// \pre    `tree_a` is `face_tree(a)`
-/// \throws std::invalid_argument as these two
+/// \throws std::invalid_argument as these two, and for a clearance that is negative or NaN
 /// \cost   that of these two for each part; parts are asked for no more than the time so far
 /// \same   on every machine
 [[nodiscard]] TREEFORM_API slide_result slide(mesh_view a, const tree<3>& tree_a,

@@ -5,6 +5,7 @@
 #include <libmesh/face_tree.hpp>
 #include <libmesh/place/clear.hpp>
 #include <libmesh/place/lay.hpp>
+#include <libmesh/place/mate.hpp>
 #include <libmesh/place/settle_among.hpp>
 #include <libmesh/place/slide.hpp>
 
@@ -265,24 +266,26 @@ class placing {
 
     void mate() {
         if (stuck_at_start()) return;
-        const auto& near = *result_.nearest;
-        const tf::point3 &from = near.how.on_a.point, &to = near.how.on_b.point;
-        const tf::point3 way{to.x - from.x, to.y - from.y, to.z - from.z};
-        // Nothing is nearer than the nearest point. Corners that are to meet there may miss each
-        // other by the rounding of their distance.
-        const double latest = 1.0 + 0x1p-20;
-        const chosen_parts parts = among_.on_the_way(*moving_.box, way, latest, result_.clearance);
+        const tf::mesh_measure& near = result_.nearest->how;
+        const tf::point3 way = tf::way_between(near);
+        if (way == tf::point3{}) return stay();
+        const chosen_parts parts =
+            among_.on_the_way(*moving_.box, way, 1.0 + 0x1p-20, result_.clearance);
         result_.skipped.parts_culled = among_.all().size() - parts.parts.size();
-        const auto slid = slide(parts, way, latest);
-        const double time = slid.end == tf::motion_end::contact
-                                ? slid.time
-                                : 1.0 - result_.clearance / near.how.distance;
-        result_.contacts = contacts_of(moving_, among_.all(), parts, slid, way);
-        result_.contact_count = slid.contact_count;
-        if (time * length(way) > longest_.value_or(infinity))
+        const auto timing = work_.time("search");
+        const tf::mate_result found = tf::mate(near, moving_.mesh, moving_.faces(), parts.parts,
+                                               {.clearance = result_.clearance,
+                                                .limit = contact_limit,
+                                                .progress = work_.progress("search")});
+        over();
+        result_.skipped.pairs_tested = found.met.pairs_tested;
+        result_.skipped.predicates = found.met.predicates;
+        result_.contacts = contacts_of(moving_, among_.all(), parts, found.met, way);
+        result_.contact_count = found.met.contact_count;
+        if (found.time * length(way) > longest_.value_or(infinity))
             fail("the nearest point is further away than " + shortest(*longest_));
         else
-            settle(parts, way, time, false, false);
+            settle(parts, way, found.time, false, false);
     }
 
     void make_clear() {
