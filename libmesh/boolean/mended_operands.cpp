@@ -93,7 +93,7 @@ class mending {
             {.reach = reach, .source = source_, .solid = false, .operand = given_.operand_of_face});
         const near_operands joined(near, given_);
         boolean_options how = options_;
-        how.rounding_steps = 1;
+        how.rounding_steps = steps_of_surface;
         how.sound_operands = false;
         how.volumes = false;
         if (options_.progress) how.progress = [&](double) { return options_.progress(1.0); };

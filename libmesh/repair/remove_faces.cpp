@@ -27,6 +27,7 @@ class remover {
     }
 
     repaired_mesh run() {
+        if (!std::isfinite(result_.max_move)) return finished();  // beyond the range of float
         const int rounds = std::max(options_.removal_rounds, 0);
         for (int round = 0; look() && round < rounds; ++round) {
             widen(1 + round / 2);
@@ -125,8 +126,8 @@ class remover {
 
     /// Without the points that no face uses.
     repaired_mesh finished() {
-        result_.certified =
-            !result_.cancelled && result_.meeting_count == 0 && !has_new_open_edge();
+        result_.certified = std::isfinite(result_.max_move) && !result_.cancelled &&
+                            result_.meeting_count == 0 && !has_new_open_edge();
         std::vector<std::uint32_t> number(now_.points.size(), repaired_mesh::none);
         for (const face& f : now_.faces)
             for (const std::uint32_t c : f) number[c] = 0;

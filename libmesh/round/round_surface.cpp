@@ -229,8 +229,10 @@ class rounding {
     /// The rounded surface, with what is next to each other joined, and cut along itself, becomes
     /// the exact one; false when that fails.
     bool cut_again() {
-        const detail::joined_near near = join_what_is_near();
+        std::size_t pairs = 0;
+        const detail::joined_near near = join_what_is_near(pairs);
         const mesh& now = near.surface;
+        if (pairs > 8 * result_.meeting_count + 2000) return false;  // that would take forever
         arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
         result_.cancelled = arranged.cancelled;
         if (arranged.cancelled) return false;
@@ -265,7 +267,8 @@ class rounding {
     }
 
     /// Faces that meet once others are joined are next to something, too.
-    detail::joined_near join_what_is_near() {
+    /// `pairs` becomes the number of those left.
+    detail::joined_near join_what_is_near(std::size_t& pairs) {
         const mesh& now = result_.surface;
         const detail::joint how{
             .reach =
@@ -277,7 +280,9 @@ class rounding {
         for (int round = 0; round < most_rounds; ++round) {
             near = detail::join_near(now, offending_, how);
             bool more = false;
-            for (const face_pair& pair : self_intersections(near.surface).pairs)
+            const std::vector<face_pair> meeting = self_intersections(near.surface).pairs;
+            pairs = meeting.size();
+            for (const face_pair& pair : meeting)
                 for (const std::uint32_t f : {near.face_of[pair.a], near.face_of[pair.b]}) {
                     more = more || offending_[f] == 0;
                     offending_[f] = 1;

@@ -13,6 +13,7 @@
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>
+#include <support/rational_volume.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
@@ -28,84 +29,21 @@
 
 namespace {
 
-using rational_point = std::array<mpq_class, 3>;
+using test::cross;
+using test::dot;
+using test::meeting;
+using test::minus;
+using test::rational;
+using test::rational_point;
+using test::under;
+using test::volume_of;
+using plane = test::rational_plane;
 
 std::size_t setting(const char* name, std::size_t otherwise) {
     const char* text = std::getenv(name);
     return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 std::size_t pairs_of_family() { return setting("TREEFORM_STRESS_COUNT", 40); }
-
-rational_point rational(const tf::point3& p) { return {p.x, p.y, p.z}; }
-
-rational_point minus(const rational_point& p, const rational_point& q) {
-    return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-}
-rational_point cross(const rational_point& p, const rational_point& q) {
-    return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
-mpq_class dot(const rational_point& p, const rational_point& q) {
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-}
-rational_point along(const rational_point& p, const rational_point& q, const mpq_class& t) {
-    const rational_point d = minus(q, p);
-    return {p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]};
-}
-
-struct plane {
-    rational_point at, normal;
-    plane(const rational_point& a, const rational_point& b, const rational_point& c)
-        : at(a), normal(cross(minus(b, a), minus(c, a))) {}
-    [[nodiscard]] mpq_class side(const rational_point& p) const {
-        return dot(normal, minus(p, at));
-    }
-};
-
-rational_point meeting(const rational_point& p, const rational_point& q, const plane& of) {
-    const mpq_class from = of.side(p), to = of.side(q);
-    return along(p, q, from / (from - to));
-}
-
-rational_point rational(const tf::constructed_point& p) {
-    using origin = tf::constructed_point::origin;
-    const auto at = [&](std::size_t i) { return rational(p.definition()[i]); };
-    const auto plane_at = [&](std::size_t i) { return plane(at(i), at(i + 1), at(i + 2)); };
-    switch (p.kind()) {
-        case origin::given:
-            return rational(p.centre());
-        case origin::line_plane:
-            return meeting(at(0), at(1), plane_at(2));
-        case origin::lines: {
-            // The second line in a plane across both: through its ends along their normal.
-            const rational_point n = cross(minus(at(1), at(0)), minus(at(3), at(2)));
-            const rational_point third{at(2)[0] + n[0], at(2)[1] + n[1], at(2)[2] + n[2]};
-            return meeting(at(0), at(1), plane(at(2), at(3), third));
-        }
-        case origin::planes:
-            break;
-    }
-    const plane a = plane_at(0), b = plane_at(3), c = plane_at(6);
-    const rational_point bc = cross(b.normal, c.normal), ca = cross(c.normal, a.normal),
-                         ab = cross(a.normal, b.normal);
-    const mpq_class det = dot(a.normal, bc), da = dot(a.normal, a.at), db = dot(b.normal, b.at),
-                    dc = dot(c.normal, c.at);
-    rational_point result;
-    for (std::size_t k = 0; k < 3; ++k) result[k] = (da * bc[k] + db * ca[k] + dc * ab[k]) / det;
-    return result;
-}
-
-/// Six times the signed volume under a triangle.
-mpq_class under(const rational_point& a, const rational_point& b, const rational_point& c) {
-    return dot(a, cross(b, c));
-}
-
-mpq_class volume_of(const tf::mesh& mesh) {
-    mpq_class sum = 0;
-    for (const tf::face& f : mesh.faces)
-        sum += under(rational(mesh.points[f[0]]), rational(mesh.points[f[1]]),
-                     rational(mesh.points[f[2]]));
-    return sum / 6;
-}
 
 /// Exact volumes of the union and the intersection of two operands.
 struct two_volumes {

@@ -1,0 +1,126 @@
+/// \file
+/// Whether what is made of real files can be certified: repair of each in three ways, and four
+/// set operations on each pair, in doubles and in floats; every result looked at again from
+/// outside. Without TREEFORM_MODELS_DIR nothing is checked.
+///
+/// TREEFORM_STRESS_ONLY names a file or pair to look at alone.
+
+#include <libmesh/boolean/boolean.hpp>
+#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/read.hpp>
+#include <libmesh/repair/repair.hpp>
+#include <libmesh/validate.hpp>
+#include <libmesh/weld/equal_points.hpp>
+#include <libtree/transform.hpp>
+
+#include <doctest/doctest.h>
+#include <support/certified.hpp>
+#include <support/truth.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+bool is_asked(const std::string& name) {
+    const char* only = std::getenv("TREEFORM_STRESS_ONLY");
+    return only == nullptr || name.find(only) != std::string::npos;
+}
+
+/// Equal corners joined; empty where no reader should take the file, or its numbers are none.
+tf::mesh read(const std::filesystem::path& path, const tf::transform<3>& by = {}) {
+    tf::mesh mesh;
+    try {
+        mesh = tf::join_equal_points(tf::read_mesh(path).mesh);
+    } catch (const tf::io_error&) {
+        return {};
+    }
+    const tf::mesh_defects defects = tf::find_defects(mesh);
+    if (!defects.nonfinite_points.empty() || !defects.out_of_range_faces.empty()) return {};
+    for (tf::point3& p : mesh.points) p = by(p);
+    return mesh;
+}
+
+/// A result that is said to be good is; one that is not says where, and is right about it.
+template <class Result>
+void look_at(const Result& result, bool is_solid, bool to_float) {
+    if (result.certified) {
+        CHECK(result.meeting_count == 0);
+        CHECK(test::is_clean_complex(result.surface));
+        CHECK((!is_solid || test::is_clean_solid(result.surface)));
+        CHECK((!to_float || test::is_in_floats(result.surface)));
+    } else {
+        CHECK(result.meeting_count <= test::count_meeting(result.surface));
+    }
+}
+
+void repair_in_all_ways(const tf::mesh& mesh, const std::string& file,
+                        test::certified_tally& tally) {
+    constexpr std::array<std::pair<tf::repair_mode, const char*>, 3> modes{
+        {{tf::repair_mode::split, " split"},
+         {tf::repair_mode::outer, " outer"},
+         {tf::repair_mode::remove, " remove"}}};
+    for (const auto& [mode, name] : modes)
+        for (const bool to_float : {false, true}) {
+            const std::string what = file + name + (to_float ? " in floats" : " in doubles");
+            CAPTURE(what);
+            const auto result = tf::repair(mesh, {.mode = mode, .to_float = to_float});
+            if (result.open_count > 0) continue;  // bounds nothing, and is told so
+            look_at(result, mode == tf::repair_mode::outer, to_float);
+            tally.count(result.certified, what + ", " + std::to_string(result.meeting_count));
+        }
+}
+
+}  // namespace
+
+TEST_CASE("models: repaired in three ways, nearly all can be written") {
+    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
+    if (folder.empty()) {
+        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
+        return;
+    }
+    std::set<std::string> files;
+    for (const test::truth_row& row : test::read_truth(folder / "TRUTH.csv"))
+        if (is_asked(row.text("file"))) files.insert(row.text("file"));
+    test::certified_tally tally("models");
+    for (const std::string& file : files) {
+        const tf::mesh mesh = read(folder / file);
+        if (!mesh.faces.empty()) repair_in_all_ways(mesh, file, tally);
+    }
+    MESSAGE(tally.summary());
+    CHECK(tally.enough());
+}
+
+TEST_CASE("models: set operations on pairs, nearly all can be written") {
+    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
+    if (folder.empty()) {
+        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
+        return;
+    }
+    test::certified_tally tally("pairs");
+    for (const test::truth_row& row : test::read_truth(folder / "TRUTH_PAIRS.csv")) {
+        if (row.text("transform") == "exact" || !is_asked(row.text("pair"))) continue;
+        const std::vector<tf::mesh> operands{
+            read(folder / row.text("file_a"), row.map("matrix_a")),
+            read(folder / row.text("file_b"), row.map("matrix_b"))};
+        const std::vector<tf::mesh_view> views(operands.begin(), operands.end());
+        for (const char* formula : {"a+b", "a*b", "a-b", "a^b"})
+            for (const bool to_float : {false, true}) {
+                const std::string what =
+                    row.text("pair") + " " + formula + (to_float ? " in floats" : " in doubles");
+                CAPTURE(what);
+                const auto result = tf::boolean(views, {formula, 2}, {.to_float = to_float});
+                if (result.open_count > 0) break;  // bounds nothing, and is told so
+                look_at(result, true, to_float);
+                tally.count(result.certified, what + ", " + std::to_string(result.meeting_count));
+            }
+    }
+    MESSAGE(tally.summary());
+    CHECK(tally.enough());
+}
