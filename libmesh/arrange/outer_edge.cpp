@@ -21,6 +21,7 @@ constexpr auto no_point = std::numeric_limits<std::uint32_t>::max();
 /// Raises `top` to `p` if that is greater.
 void raise(const mesh_arrangement& cut, std::uint32_t& top, std::uint32_t p) {
     if (p == top || p == no_point) return;
+    if (top != no_point && cut.given_points[p].x < cut.given_points[top].x) return;  // nearly all
     if (top == no_point || lexicographically_less(cut.given_points[top], cut.given_points[p]))
         top = p;
 }

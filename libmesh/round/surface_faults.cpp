@@ -1,5 +1,6 @@
 #include <libmesh/face_tree.hpp>
 #include <libmesh/intersect/point_location.hpp>
+#include <libmesh/round/detail/coarse_grid.hpp>
 #include <libmesh/round/detail/surface_faults.hpp>
 #include <libmesh/validate.hpp>
 #include <libtree/aabb.hpp>
@@ -56,16 +57,23 @@ ids with_neighbours(mesh_view surface, const ids& doubted, std::span<const std::
     const tree<3> tree = face_tree({surface.points, asked});
     aabb<double, 3> reach;
     for (const face& f : asked) reach.include(box_of(surface.points, f));
+    coarse_grid grid(reach);  // tells of nearly all faces
+    std::vector<coarse_grid::cell> cell(surface.points.size());
+    for_chunks(cell.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t p = begin; p < end; ++p) cell[p] = grid.cell_of(surface.points[p]);
+    });
+    for (const auto& [a, b, c] : asked) grid.add(cell[a], cell[b], cell[c]);
+    const auto is_near = [&](std::size_t f) {
+        const auto& [a, b, c] = surface.faces[f];
+        if (sound[f] == 0) return true;
+        if (!grid.may_meet(cell[a], cell[b], cell[c])) return false;
+        const auto box = box_of(surface.points, surface.faces[f]);
+        return overlaps(box, reach) && search_any(tree, box, [](std::uint32_t) { return true; });
+    };
     std::vector<ids> found(chunk_count(surface.faces.size(), grain));
     for_chunks(surface.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t f = begin; f < end; ++f) {
-            if (sound[f] != 0) {
-                const auto box = box_of(surface.points, surface.faces[f]);
-                if (!overlaps(box, reach)) continue;
-                if (!search_any(tree, box, [](std::uint32_t) { return true; })) continue;
-            }
-            found[c].push_back(static_cast<std::uint32_t>(f));
-        }
+        for (std::size_t f = begin; f < end; ++f)
+            if (is_near(f)) found[c].push_back(static_cast<std::uint32_t>(f));
     });
     ids all;
     for (const ids& part : found) all.insert(all.end(), part.begin(), part.end());

@@ -8,6 +8,7 @@
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -66,6 +67,26 @@ TEST_CASE("faults: what is sound is not looked at, and all else is found against
     }
     CHECK(doubted > 100);
     CHECK(met > 1000);
+}
+
+TEST_CASE("faults: are found in soups of any size and place, flat ones, and among large faces") {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        tf::mesh mesh = test::random_soup(source, 400, seed % 2 == 0 ? 0.02 : 0.05);
+        if (seed % 4 == 3)  // large ones
+            for (tf::face& f : mesh.faces)
+                if (source.below(20) == 0) f[2] = mesh.faces[source.below(400)][2];
+        const std::array<double, 5> scales{1.0, 0x1p-600, 0x1p190, 0x1p600, 0x1p-1040};
+        const double scale = scales[seed % 5];
+        for (tf::point3& p : mesh.points) {
+            if (seed % 3 == 1) p.z = 0.0;
+            p = {(p.x + static_cast<double>(seed % 7)) * scale, p.y * scale, p.z * scale};
+        }
+        const auto pairs = tf::self_intersections(mesh).pairs;
+        const bytes sound = soundness(mesh, pairs);
+        CHECK(tf::detail::find_faults(mesh, {.sound = sound, .closed = false}).pairs == pairs);
+    }
 }
 
 TEST_CASE("faults: edges of faces that are not sound are looked at, and no others") {
