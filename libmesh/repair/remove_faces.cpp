@@ -58,7 +58,8 @@ class remover {
         return std::binary_search(was_open_.begin(), was_open_.end(), std::array{from, to});
     }
 
-    /// Marks the faces that meet others or are degenerate; whether there are any.
+    /// Marks the faces that meet others, are degenerate, or end at a hole that could not be closed;
+    /// whether there are any.
     bool look() {
         result_.meeting.clear();
         result_.meeting_count = 0;
@@ -68,7 +69,21 @@ class remover {
         if (found.cancelled) return false;
         for (const std::uint32_t f : find_defects(now_).degenerate_faces) complain(f, f);
         for (const face_pair& pair : found.pairs) complain(pair.a, pair.b);
-        return result_.meeting_count > 0;
+        const bool holes = mark_new_holes();
+        return result_.meeting_count > 0 || holes;
+    }
+    /// Marks the faces at open edges that were not open at the beginning.
+    bool mark_new_holes() {
+        const directed_edges edges(now_.faces);
+        has_new_hole_ = false;
+        for (std::size_t f = 0; f < now_.faces.size(); ++f)
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::uint32_t from = now_.faces[f][(i + 1) % 3], to = now_.faces[f][i];
+                if (edges.has(from, to) || was_open(from, to)) continue;
+                marked_[f] = 1;
+                has_new_hole_ = true;
+            }
+        return has_new_hole_;
     }
     void complain(std::uint32_t f, std::uint32_t g) {
         marked_[f] = marked_[g] = 1;
@@ -115,19 +130,10 @@ class remover {
         }
     }
 
-    [[nodiscard]] bool has_new_open_edge() const {
-        const directed_edges edges(now_.faces);
-        for (const face& f : now_.faces)
-            for (std::size_t i = 0; i < 3; ++i)
-                if (!edges.has(f[(i + 1) % 3], f[i]) && !was_open(f[(i + 1) % 3], f[i]))
-                    return true;
-        return false;
-    }
-
     /// Without the points that no face uses.
     repaired_mesh finished() {
         result_.certified = std::isfinite(result_.max_move) && !result_.cancelled &&
-                            result_.meeting_count == 0 && !has_new_open_edge();
+                            result_.meeting_count == 0 && !has_new_hole_;
         std::vector<std::uint32_t> number(now_.points.size(), repaired_mesh::none);
         for (const face& f : now_.faces)
             for (const std::uint32_t c : f) number[c] = 0;
@@ -147,6 +153,7 @@ class remover {
     mesh now_;
     std::vector<std::array<std::uint32_t, 2>> was_open_;  ///< as a hole runs along them
     std::vector<char> marked_;                            ///< by face: to be deleted
+    bool has_new_hole_ = false;
     repaired_mesh result_{};
 };
 
