@@ -275,15 +275,16 @@ std::optional<solid_result> boolean_of_sound_pair(std::span<const mesh_view, 2> 
         result.cancelled = options.progress && !options.progress(done);
         return !result.cancelled;
     };
-    const auto near = find_near_faces(operands);
+    auto near = find_near_faces(operands);
     if (!near) return std::nullopt;
     if (!goes_on(0.2)) return result;
     const auto pairs = meeting_pairs(*near);
     if (!goes_on(0.4)) return result;
     arrange_faces_result arranged = arrange_pairs(near->local, pairs, {}, {});
     mesh_arrangement& cut = arranged.cut;
-    const auto inside = find_insides(operands, *near, cut);
+    auto inside = find_insides(operands, *near, cut);
     if (!inside) return std::nullopt;
+    near->local = {};  // as large as the operands, perhaps
     if (!goes_on(0.6)) return result;
 
     const choice choice(expression);
@@ -294,6 +295,12 @@ std::optional<solid_result> boolean_of_sound_pair(std::span<const mesh_view, 2> 
     for_chunks(exact.sound.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) exact.sound[f] = cut.whole[chosen.face_of[f]];
     });
+    for_chunks(chosen.face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f)  // faces of operands from here on
+            chosen.face_of[f] = near->face_of[cut.covers_of(chosen.face_of[f]).front().face];
+    });
+    cut = {};
+    inside.reset();
     // What was left out meets no box of what was cut, and so no piece of it either, rounded or not:
     // rounding to nearest takes no coordinate out of a box of doubles.
     rounded_surface rounded = round_surface(std::move(exact), {.steps = 0});
@@ -301,10 +308,7 @@ std::optional<solid_result> boolean_of_sound_pair(std::span<const mesh_view, 2> 
     if (!goes_on(0.8)) return result;
     ids source(rounded.face_of.size());
     for_chunks(source.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t f = chosen.face_of[rounded.face_of[i]];
-            source[i] = near->face_of[cut.covers_of(f).front().face];
-        }
+        for (std::size_t i = begin; i < end; ++i) source[i] = chosen.face_of[rounded.face_of[i]];
     });
     assembly(operands, *near, choice).write(rounded, source, result);
     result.max_move = rounded.max_move;
