@@ -68,8 +68,10 @@ totals totals_of(std::span<const outcome> outcomes, const std::string& name,
     for (const outcome& outcome : outcomes) {
         const measured* const row = row_of(outcome, name);
         if (!row) continue;
-        all.log_time += std::log(time_of(outcome, *row));
-        ++all.contests;
+        if (!figure_of(*row, not_run)) {
+            all.log_time += std::log(time_of(outcome, *row));
+            ++all.contests;
+        }
         if (const auto e = error(outcome, *row)) {
             all.sum += *e;
             all.largest = std::max(all.largest, *e);

@@ -15,6 +15,9 @@
 
 namespace tf::bench {
 
+/// A figure of what failed and was not run: it counts, its time does not.
+inline constexpr std::string_view not_run = "not run";
+
 /// An error of a contestant in a contest; none where it has none to speak of.
 using error_of = std::function<std::optional<double>(const outcome&, const measured&)>;
 

@@ -234,8 +234,8 @@ std::string kinds_sentence(const std::vector<outcome>& outcomes) {
     return fmt::format(
         "Which kind the intersection is (none, point, segment, area), {:.0f} pairs were asked "
         "about: treeform named {:.0f} wrongly, the intersection that CGAL constructs with EPICK "
-        "was of another kind {:.0f} times, and {:.0f} times it crashed: its points are rounded, "
-        "and predicates on rounded points contradict each other. Its verdicts are exact.",
+        "was of another kind {:.0f} times, and {:.0f} times it crashed or threw: its points are "
+        "rounded, and predicates on rounded points contradict each other. Its verdicts are exact.",
         judged, own, peer, lost);
 }
 

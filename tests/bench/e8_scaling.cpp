@@ -147,15 +147,16 @@ std::vector<operation> operations(const setting& setting) {
             10 * million)};
 }
 
-/// The slope of the best line through the logarithms of points from 10^4 on.
-double exponent_of(const std::vector<std::array<double, 2>>& points) {
+/// The slope of the best line through the logarithms of the points from a size on.
+std::string exponent_of(const std::vector<std::array<double, 2>>& points, double from) {
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (const auto& [x, y] : points) {
-        if (x < 9'000 || !(y > 0)) continue;
+        if (x < from || !(y > 0)) continue;
         const double lx = std::log(x), ly = std::log(y);
         n += 1, sx += lx, sy += ly, sxx += lx * lx, sxy += lx * ly;
     }
-    return n < 2 ? 0.0 : (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    if (n < 2) return "-";
+    return fmt::format("{:.2f}", (n * sxy - sx * sy) / (n * sxx - sx * sx));
 }
 
 std::vector<curve> curves_of(const std::vector<outcome>& outcomes,
@@ -201,9 +202,8 @@ section draw_scaling(const std::vector<outcome>& outcomes, const std::string& ma
     std::vector<std::vector<std::string>> table{{"", "time ~ n^", "memory ~ n^"}};
     for (const outcome& outcome : outcomes) table[0].push_back("ms, " + outcome.name);
     for (std::size_t i = 0; i < times.size(); ++i) {
-        std::vector<std::string> cells{times[i].name,
-                                       fmt::format("{:.2f}", exponent_of(times[i].points)),
-                                       fmt::format("{:.2f}", exponent_of(peaks[i].points))};
+        std::vector<std::string> cells{times[i].name, exponent_of(times[i].points, 1e4),
+                                       exponent_of(peaks[i].points, 1e5)};
         for (const outcome& outcome : outcomes) {
             const auto ms = outcome.value(times[i].name);
             cells.push_back(ms ? fmt::format("{:.3g}", *ms) : "-");
@@ -224,10 +224,12 @@ section draw_scaling(const std::vector<outcome>& outcomes, const std::string& ma
         .pictures = {{"e8_time.svg", chart("Time by size, one thread", "time, ms", times)},
                      {"e8_memory.svg", chart("Peak memory by size, input included", "MB", peaks)}},
         .table = std::move(table),
-        .remarks = {"The exponents are slopes of the best line through the logarithms, from "
-                    "10^4 triangles on: 1 is time in proportion to the size, and 1.05 to 1.1 "
-                    "what n log n looks like over these sizes. Below 10^4, what a process takes "
-                    "anyway outweighs the rest, of memory above all."}};
+        .remarks = {
+            "The exponents are slopes of the best line through the logarithms, of time from "
+            "10^4 triangles on, of memory from 10^5: below that, what a process takes anyway "
+            "outweighs the rest. 1 is in proportion to the size; n log n looks like 1.05 to 1.1 "
+            "over these sizes, and what no longer fits into the caches, from some 10^5 "
+            "triangles on, adds about as much once."}};
 }
 
 }  // namespace tf::bench
