@@ -230,7 +230,7 @@ contest scene_of_parts(const setting& setting) {
                                                *scene, search_all(scene->over_boxes, bounds));
                                        });
                                    }});
-    contest.contestants.push_back({"treeform, all parts looked at", 1, [=] {
+    contest.contestants.push_back({"treeform all parts looked at", 1, [=] {
                                        return make_job([scene = prepare()] {
                                            std::vector<std::uint32_t> all(scene->parts.size());
                                            std::iota(all.begin(), all.end(), 0U);

@@ -2,8 +2,9 @@
 # run.sh [--quick] [--out DIR] [ID ...]: measures treeform beside its peers.
 #
 # Sets itself up on a bare Debian 12 (as root or with sudo), builds Release with default flags in
-# build/bench, runs the workloads named by id (all when none is), prints a table, and writes
-# DIR/bench.csv, DIR/machine.txt and, with pictures, DIR/index.html (default: build/bench/results).
+# build/bench, runs the workloads named by id, or by its letter (all when none is), prints a table,
+# and writes DIR/bench.csv, DIR/machine.txt and, with pictures, DIR/index.html (default:
+# build/bench/results).
 # --quick ends within a few minutes, once built. Close other programs first.
 #
 # run.sh --write DIR [--size N] [FAMILY ...]: writes the families of meshes that are hard to decide

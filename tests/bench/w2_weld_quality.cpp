@@ -14,7 +14,7 @@
 namespace tf::bench {
 namespace {
 
-constexpr const char* chain_name = "treeform, rule chain";
+constexpr const char* chain_name = "treeform rule chain";
 
 contest contest_of(std::size_t points, double tolerance) {
     const auto given = [=] { return cloud_with_copies(points, 30); };
