@@ -74,9 +74,11 @@ class rounding {
     rounded_surface run() {
         while (settle()) {
             result_.certified = check();
-            if (result_.certified || result_.cancelled || result_.steps >= options_.steps) break;
+            if (result_.certified || result_.cancelled) break;
+            if (result_.steps >= options_.steps && !gets_better()) break;
             if (gets_worse()) break;
             ++result_.steps;
+            last_meeting_count_ = result_.meeting_count;
             if (!cut_again()) break;
         }
         point_of_.resize(result_.surface.points.size());  // a step may have ended half way
@@ -85,6 +87,12 @@ class rounding {
     }
 
   private:
+    /// Where nothing is joined, rounding what was cut ends as a rule, if slowly.
+    [[nodiscard]] bool gets_better() const {
+        constexpr int most_steps = 12;
+        return only_cut_ && options_.steps > 0 && result_.steps < most_steps &&
+               result_.meeting_count < last_meeting_count_;
+    }
     [[nodiscard]] bool gets_worse() {
         if (result_.steps == 0) first_meeting_count_ = result_.meeting_count;
         return result_.surface.faces.size() > most_faces_ ||
@@ -229,10 +237,8 @@ class rounding {
     /// The rounded surface, with what is next to each other joined, and cut along itself, becomes
     /// the exact one; false when that fails.
     bool cut_again() {
-        std::size_t pairs = 0;
-        const detail::joined_near near = join_what_is_near(pairs);
+        const detail::joined_near near = join_what_is_near();
         const mesh& now = near.surface;
-        if (pairs > 8 * result_.meeting_count + 2000) return false;  // that would take forever
         arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
         result_.cancelled = arranged.cancelled;
         if (arranged.cancelled) return false;
@@ -267,8 +273,8 @@ class rounding {
     }
 
     /// Faces that meet once others are joined are next to something, too.
-    /// `pairs` becomes the number of those left.
-    detail::joined_near join_what_is_near(std::size_t& pairs) {
+    /// Where that only spreads, nothing is joined.
+    detail::joined_near join_what_is_near() {
         const mesh& now = result_.surface;
         const detail::joint how{
             .reach =
@@ -277,17 +283,25 @@ class rounding {
             .solid = options_.solid};
         constexpr int most_rounds = 8;
         detail::joined_near near;
-        for (int round = 0; round < most_rounds; ++round) {
+        for (int round = 0; round < most_rounds && !only_cut_; ++round) {
             near = detail::join_near(now, offending_, how);
             bool more = false;
             const std::vector<face_pair> meeting = self_intersections(near.surface).pairs;
-            pairs = meeting.size();
+            if (meeting.size() > 8 * result_.meeting_count + 2000) {
+                only_cut_ = true;
+                break;
+            }
             for (const face_pair& pair : meeting)
                 for (const std::uint32_t f : {near.face_of[pair.a], near.face_of[pair.b]}) {
                     more = more || offending_[f] == 0;
                     offending_[f] = 1;
                 }
             if (!more) break;
+        }
+        if (only_cut_) {
+            near = {.surface = now, .face_of = {}};
+            near.face_of.resize(now.faces.size());
+            std::iota(near.face_of.begin(), near.face_of.end(), 0U);
         }
         result_.max_move += near.moved;
         point_of_.resize(near.surface.points.size(), rounded_surface::none);
@@ -300,7 +314,8 @@ class rounding {
     std::vector<std::uint8_t> sound_;      ///< by face, or empty
     std::vector<std::uint8_t> offending_;  ///< by face
     std::size_t most_faces_;
-    std::uint64_t first_meeting_count_ = 0;
+    std::uint64_t first_meeting_count_ = 0, last_meeting_count_ = 0;
+    bool only_cut_ = false;  ///< joining what is near has been seen to spread
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between
 };
