@@ -183,7 +183,7 @@ std::vector<outcome> ending_with(const std::vector<outcome>& outcomes, const cha
 }  // namespace
 
 void distances(const setting& setting, const contest_visitor& visit) {
-    const std::size_t count = setting.effort == effort::full    ? 5'000
+    const std::size_t count = setting.effort == effort::full    ? 2'000
                               : setting.effort == effort::quick ? 1'000
                                                                 : 30;
     for (const auto question :

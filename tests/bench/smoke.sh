@@ -19,7 +19,7 @@ awk -F, '
     $6 !~ /^[0-9.]+(e[-+]?[0-9]+)?$/ { bad("value is not a number") }
     $2 == "" || $5 == "" || $7 == "" { bad("empty field") }
     $8 !~ /^([0-9.]+)?$/ { bad("peak_mb is not a number") }
-    $5 == "treeform" && $9 != "" && $9 != 0 { bad("treeform is wrong") }
+    $5 ~ /^treeform( integers only)?$/ && $9 != "" && $9 != 0 { bad("treeform is wrong") }
     { ids[$1] = 1 }
     END {
         split("B1 B2 B3 B4 B5 B8 B9 E1 E2 E3 E4 E5 E6 E7 E8 E9 F2 F5 F6 F7 F8 T1 W1 W2", wanted, " ")
