@@ -88,9 +88,12 @@ struct solid_result {
     std::vector<operand_element> face_of_cut_point{};
     double max_move = 0.0;  ///< bound of how far rounding moved a point, in each coordinate
     /// Checked on the coordinates above: two faces have a common corner, a common edge or nothing
-    /// in common, no face is degenerate, every edge runs as often one way as the other.
+    /// in common, no face is degenerate, every edge runs as often one way as the other, and the
+    /// inside is behind every face: around it the surface winds once, and not at all around what
+    /// is in front.
     bool certified = false;
-    /// Where it is not: pairs of faces, at most 100; twice the same face where it is degenerate.
+    /// Where it is not: pairs of faces, at most 100; twice the same face where it is degenerate or
+    /// its outside is behind it.
     std::vector<std::array<std::uint32_t, 2>> meeting_faces{};
     std::uint64_t meeting_count = 0;  ///< of all such pairs
     int rounding_steps = 0;           ///< of mending that were taken

@@ -40,7 +40,8 @@ struct repaired_mesh {
     double max_move = 0.0;  ///< bound of how far points were moved, in each coordinate
     /// Checked on the coordinates above: no face is degenerate, and two faces have a common corner,
     /// a common edge or nothing in common. Of `outer`, also that every edge runs as often one way
-    /// as the other, and of `remove` that no edge is open that was not.
+    /// as the other and the inside is behind every face, and of `remove` that no edge is open that
+    /// was not.
     bool certified = false;
     /// Pairs of faces that still meet, at most 100; twice the same face where it is degenerate.
     std::vector<std::array<std::uint32_t, 2>> meeting{};

@@ -120,14 +120,16 @@ class rounding {
         const std::vector<std::uint32_t> points =
             detail::used_points(exact_.given.size() + exact_.constructed.size(), exact_.faces);
         std::vector<point3> at(points.size());
-        std::vector<double> moves(chunk_count(points.size(), grain), 0.0);
+        std::vector<double> moves(chunk_count(points.size(), grain) + 1, 0.0);
         for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
             for (std::size_t i = begin; i < end; ++i) {
                 at[i] = rounded_point(points[i]);
                 moves[c] = std::max(moves[c], move_of(points[i], at[i]));
             }
         });
-        if (!moves.empty()) result_.max_move += *std::max_element(moves.begin(), moves.end());
+        const double move = *std::max_element(moves.begin(), moves.end());
+        result_.max_move += move;
+        moved_ = move > 0.0;
         const bool finite = std::all_of(at.begin(), at.end(), is_finite);
         join_equal(points, std::move(at));
         return finite;
@@ -215,11 +217,13 @@ class rounding {
         result_.meeting_count = 0;
         offending_.assign(now.faces.size(), 0);
         const detail::surface_faults faults = detail::find_faults(
-            now, {.sound = sound_, .closed = options_.solid, .progress = next_phase()});
+            now,
+            {.sound = sound_, .solid = options_.solid, .moved = moved_, .progress = next_phase()});
         result_.cancelled = faults.cancelled;
         if (faults.cancelled) return false;
         for (const std::uint32_t f : faults.degenerate) complain(f, f);
         for (const face_pair& pair : faults.pairs) complain(pair.a, pair.b);
+        for (const std::uint32_t f : faults.turned) complain(f, f);
         for (std::size_t f = 0; f < now.faces.size(); ++f) {
             if (offending_[f] == 0) continue;
             aabb<double, 3>& box = result_.broken.emplace_back();
@@ -315,6 +319,7 @@ class rounding {
     std::vector<std::uint8_t> offending_;  ///< by face
     std::size_t most_faces_;
     std::uint64_t first_meeting_count_ = 0, last_meeting_count_ = 0;
+    bool moved_ = false;     ///< in the last rounding, a point has
     bool only_cut_ = false;  ///< joining what is near has been seen to spread
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between

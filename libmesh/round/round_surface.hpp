@@ -51,10 +51,11 @@ struct rounded_surface {
     double max_move = 0.0;
     /// Checked on the coordinates above: two faces have a common corner, a common edge or nothing
     /// in common, none is degenerate, and, of a solid, they run along every edge as often one way
-    /// as the other.
+    /// as the other and have its inside behind them.
     bool certified = false;
     std::vector<std::array<std::uint32_t, 2>> meeting{};  ///< pairs of faces that break it, at
-                                                          ///< most 100; twice the same: degenerate
+                                                          ///< most 100; twice the same: it is
+                                                          ///< degenerate, or turned inside out
     std::uint64_t meeting_count = 0;                      ///< of all such pairs
     int steps = 0;                                        ///< of mending that were taken
     std::vector<aabb<double, 3>> broken{};  ///< boxes of all faces that met in any step
@@ -76,8 +77,12 @@ struct rounded_surface {
 /// No number of steps is sure to suffice: `certified` tells. Mending also ends when the surface
 /// only grows by it. With nothing in `meeting`, a coordinate was too large to be rounded.
 ///
+/// Where a part of a solid is thinner than rounding moves its points, it may be turned inside out
+/// and meet nothing: then the cells of the whole surface are found, and what is turned is mended.
+///
 /// \pre    faces have three different corners and, as exact ones, meet in common corners and edges
-///         only; of a solid, they run along every edge as often one way as the other
+///         only; of a solid, they run along every edge as often one way as the other and have the
+///         inside behind them
 /// \cost   as `self_intersections` of the faces to be checked and those near them; as
 /// `arrange_faces` and `find_cells` for each
 ///         step, if any

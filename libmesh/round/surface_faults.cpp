@@ -2,6 +2,7 @@
 #include <libmesh/intersect/point_location.hpp>
 #include <libmesh/round/detail/coarse_grid.hpp>
 #include <libmesh/round/detail/surface_faults.hpp>
+#include <libmesh/round/detail/turned_faces.hpp>
 #include <libmesh/validate.hpp>
 #include <libtree/aabb.hpp>
 #include <libtree/parallel.hpp>
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace tf::detail {
 namespace {
@@ -20,6 +22,13 @@ constexpr std::size_t grain = std::size_t{1} << 13;
 
 using ids = std::vector<std::uint32_t>;
 
+void find_turned(mesh_view surface, surface_faults& result) {
+    if (!result.pairs.empty() || !result.degenerate.empty() || result.open) return;
+    turned_faces turned = find_turned_faces(surface);
+    result.turned = std::move(turned.faces);
+    result.open = turned.open;
+}
+
 surface_faults all_faults(mesh_view surface, const surface_check& check) {
     surface_faults result;
     self_intersection_result found = self_intersections(surface, {.progress = check.progress});
@@ -27,7 +36,8 @@ surface_faults all_faults(mesh_view surface, const surface_check& check) {
     if (result.cancelled) return result;
     result.pairs = std::move(found.pairs);
     result.degenerate = find_defects(surface).degenerate_faces;
-    result.open = check.closed && find_open_edge(surface).has_value();
+    result.open = check.solid && find_open_edge(surface).has_value();
+    if (check.solid && check.moved) find_turned(surface, result);
     return result;
 }
 
@@ -150,7 +160,9 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
         result.pairs.push_back({near[pair.a], near[pair.b], pair.kind});
     for (const std::uint32_t f : find_defects(part).degenerate_faces)
         result.degenerate.push_back(near[f]);
-    result.open = check.closed && is_open(surface, near, check.sound);
+    result.open = check.solid && is_open(surface, near, check.sound);
+    if (check.solid && check.moved && may_be_turned(surface, check.sound, near))
+        find_turned(surface, result);
     return result;
 }
 

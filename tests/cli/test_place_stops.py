@@ -28,8 +28,8 @@ class Stops(PlaceTest):
                                   for x, y, z in points], faces))
         yield ["fit", "turned.obj", "--fixed", "fixed.obj"]
         # More parts than the plate holds, so that all orders are tried.
-        parts = [self.mesh(f"part{i}.obj", hills(20 + i % 7, 0.0, i)) for i in range(40)]
-        yield ["arrange", *parts, "--size", "110,110", "--rotate", "any"]
+        parts = [self.mesh(f"part{i}.obj", hills(20 + i % 7, 0.0, i)) for i in range(300)]
+        yield ["arrange", *parts, "--size", "230,230", "--rotate", "any"]
 
     def test_a_time_limit_stops_inside_of_an_operation(self):
         for arguments in self.operations():

@@ -11,36 +11,13 @@
 #include <support/solid_checks.hpp>
 #include <support/truth.hpp>
 
-#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace {
-
-double number(const std::string& text) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    REQUIRE(error == std::errc());
-    REQUIRE(end == text.data() + text.size());
-    return value;
-}
-
-/// Sixteen numbers, or "identity".
-tf::transform<3> matrix(std::string text) {
-    tf::transform<3> map;
-    if (text == "identity") return map;
-    for (std::size_t i = 0; i < 12; ++i) {
-        const std::size_t end = text.find(' ');
-        map.rows[i / 4][i % 4] = number(text.substr(0, end));
-        text.erase(0, end + 1);
-    }
-    return map;
-}
 
 tf::mesh read(const std::filesystem::path& path, const tf::transform<3>& by) {
     tf::mesh mesh = tf::read_mesh(path).mesh;
@@ -89,8 +66,8 @@ TEST_CASE("truth: every boolean of every pair of files has the volume of the exa
         if (row.text("transform") == "exact") continue;  // of points that are no doubles
         if (row.text("volume_intersection").empty()) continue;
         CAPTURE(row.text("pair"));
-        const tf::mesh a = read(folder / row.text("file_a"), matrix(row.text("matrix_a")));
-        const tf::mesh b = read(folder / row.text("file_b"), matrix(row.text("matrix_b")));
+        const tf::mesh a = read(folder / row.text("file_a"), row.map("matrix_a"));
+        const tf::mesh b = read(folder / row.text("file_b"), row.map("matrix_b"));
         const std::vector<tf::mesh_view> operands{a, b};
         const bool are_sound = is_sound(a) && is_sound(b);
         for (const question& q : questions) {
@@ -113,7 +90,7 @@ TEST_CASE("truth: every boolean of every pair of files has the volume of the exa
             if (truth.empty() || truth == "nonmanifold") continue;
             // Moving the surface by m in each coordinate changes the volume by its area times
             // sqrt(3) m at most, but for terms of m^2; the truth itself is cut to double.
-            const double volume = number(truth);
+            const double volume = row.real(q.column);
             const double most =
                 2.0 * result.max_move * area(result.surface) + 0x1p-50 * std::abs(volume);
             CHECK(std::abs(tf::signed_volume(result.surface) - volume) <= most);

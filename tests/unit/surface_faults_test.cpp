@@ -35,7 +35,7 @@ TEST_CASE("faults: of a surface of which nothing is known, all are found") {
     CHECK_FALSE(tf::detail::find_faults(two, {}).open);
     two.faces.pop_back();
     CHECK(tf::detail::find_faults(two, {}).open);
-    CHECK_FALSE(tf::detail::find_faults(two, {.closed = false}).open);
+    CHECK_FALSE(tf::detail::find_faults(two, {.solid = false}).open);
     CHECK(tf::detail::find_faults({}, {}).pairs.empty());
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("faults: what is sound is not looked at, and all else is found against
         for (const std::uint8_t s : sound) doubted += s == 0 ? 1 : 0;
         for (const unsigned threads : {1U, 2U, 8U}) {
             const tf::thread_scope scope(threads);
-            const auto found = tf::detail::find_faults(mesh, {.sound = sound, .closed = false});
+            const auto found = tf::detail::find_faults(mesh, {.sound = sound, .solid = false});
             CHECK(found.pairs == pairs);
             CHECK(found.degenerate == tf::find_defects(mesh).degenerate_faces);
         }
@@ -85,7 +85,7 @@ TEST_CASE("faults: are found in soups of any size and place, flat ones, and amon
         }
         const auto pairs = tf::self_intersections(mesh).pairs;
         const bytes sound = soundness(mesh, pairs);
-        CHECK(tf::detail::find_faults(mesh, {.sound = sound, .closed = false}).pairs == pairs);
+        CHECK(tf::detail::find_faults(mesh, {.sound = sound, .solid = false}).pairs == pairs);
     }
 }
 
@@ -104,10 +104,46 @@ TEST_CASE("faults: edges of faces that are not sound are looked at, and no other
     REQUIRE(shared(0) < 2);
     CHECK_FALSE(tf::detail::find_faults(mesh, {.sound = sound}).open);
     CHECK_FALSE(
-        tf::detail::find_faults(mesh, {.sound = bytes(sound.size(), 0), .closed = false}).open);
+        tf::detail::find_faults(mesh, {.sound = bytes(sound.size(), 0), .solid = false}).open);
     CHECK(tf::detail::find_faults(mesh, {.sound = bytes(sound.size(), 0)}).open);
     std::size_t beside = 0;
     while (shared(beside) != 2) ++beside;
     sound[beside] = 0;
     CHECK(tf::detail::find_faults(mesh, {.sound = sound}).open);
+}
+
+TEST_CASE("faults: parts that are turned inside out, or outside, are found where they have moved") {
+    const tf::mesh ball = test::ball(3, 1.0);
+    const auto turned = [](tf::mesh mesh) {
+        for (tf::face& f : mesh.faces) std::swap(f[1], f[2]);
+        return mesh;
+    };
+    const tf::mesh small = test::moved(test::box(0.1, 0.1, 0.1), {-0.05, -0.05, -0.05});
+    const tf::mesh outside = test::moved(small, {3, 0, 0});
+    struct shells {
+        tf::mesh mesh;        ///< of the ball, then a box
+        bool ball_is_turned;  ///< has the outside behind its faces
+        bool box_is_turned;
+    };
+    const std::vector<shells> all{{test::together(ball, outside), false, false},
+                                  {test::together(ball, turned(outside)), false, true},
+                                  {test::together(ball, turned(small)), false, false},
+                                  {test::together(ball, small), false, true},
+                                  {test::together(turned(ball), outside), true, false}};
+    for (const shells& s : all) {
+        const std::size_t of_ball = ball.faces.size();
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t f = 0; f < s.mesh.faces.size(); ++f)
+            if (f < of_ball ? s.ball_is_turned : s.box_is_turned) expected.push_back(f);
+        CHECK(tf::detail::find_faults(s.mesh, {}).turned == expected);
+        bytes sound(s.mesh.faces.size(), 1);
+        CHECK(tf::detail::find_faults(s.mesh, {.sound = sound}).turned.empty());
+        for (std::size_t f = of_ball; f < sound.size(); ++f) sound[f] = 0;
+        CHECK(tf::detail::find_faults(s.mesh, {.sound = sound}).turned == expected);
+        CHECK(tf::detail::find_faults(s.mesh, {.sound = sound, .solid = false}).turned.empty());
+        // Of the ball some faces have moved: the others say what is inside.
+        sound.assign(sound.size(), 1);
+        sound[0] = sound[7] = 0;
+        CHECK(tf::detail::find_faults(s.mesh, {.sound = sound}).turned.empty());
+    }
 }

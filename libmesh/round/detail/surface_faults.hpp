@@ -15,7 +15,9 @@ namespace tf::detail {
 struct surface_faults {
     std::vector<std::uint32_t> degenerate;  ///< faces, ascending
     std::vector<face_pair> pairs;           ///< that meet beyond common corners and edges
-    bool open = false;                      ///< an edge has faces that do not run both ways alike
+    std::vector<std::uint32_t> turned;  ///< where nothing else is wrong: faces that do not bound
+                                        ///< the solid from outside, ascending
+    bool open = false;                  ///< an edge has faces that do not run both ways alike
     bool cancelled = false;
 };
 
@@ -23,17 +25,22 @@ struct surface_check {
     /// [F], or empty where nothing is known: 1 for faces that have an area and that meet each
     /// other in common corners and edges only, as they are.
     std::span<const std::uint8_t> sound{};
-    /// Whether edges count: then those at which all faces are sound are known to be closed.
-    bool closed = true;
+    /// Whether the surface is to bound a solid: then edges count, those at which all faces are
+    /// sound being known to be closed, and which side is inside.
+    bool solid = true;
+    /// Whether faces that are not sound have been moved, by rounding, from where all faces had the
+    /// inside behind them.
+    bool moved = true;
     progress_callback progress{};
 };
 
 /// Exact. All faces that are not sound are held against all faces, and the edges they are at are
-/// looked at; nothing of what `sound` says is looked at again.
+/// looked at; nothing of what `sound` says is looked at again. Parts that may have been turned are
+/// (`may_be_turned`), with all of the surface.
 ///
 /// \pre  coordinates are finite, corners points
 /// \cost as `self_intersections` of the faces that are not sound and those whose boxes meet
-///       theirs, and a box query for each face
+///       theirs, and a box query for each face; as `find_cells` where a part may be turned
 /// \same on any number of threads
 [[nodiscard]] surface_faults find_faults(mesh_view surface, const surface_check& check);
 
