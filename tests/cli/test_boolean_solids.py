@@ -26,6 +26,22 @@ class Solids(BooleanTest):
         self.assertEqual(volume(*self.solid("out.obj")), 4)
         self.assertEqual(self.made("difference", "a.obj", "a.obj", "c.obj")["output"]["faces"], 0)
 
+    def test_where_nothing_is_left_of_a_union_it_says_so(self):
+        points, faces = cube()
+        self.mesh("none.obj", together((points, faces), (points, [f[::-1] for f in faces])))
+        entry = self.made("union", "none.obj")
+        self.assertEqual(entry["output"]["faces"], 0)
+        self.assertIn("nothing-left", [w["code"] for w in entry["warnings"]])
+
+    def test_what_a_format_is_too_coarse_for_is_an_empty_result(self):
+        self.mesh("tiny.obj", ([tuple(1e-320 * x for x in p) for p in cube()[0]], cube()[1]))
+        self.assertEqual(self.made("union", "tiny.obj", name="out.stl")["output"]["faces"], 0)
+
+    def test_what_is_too_large_to_be_cut_is_bad_input(self):
+        self.mesh("huge.obj", ([tuple(1e302 * x for x in p) for p in cube()[0]], cube()[1]))
+        run = self.run_tool("union", "huge.obj", "-o", "out.obj", status=3)
+        self.assertIn("beyond 2^1000", run.err)
+
     def test_formulas_take_any_number_of_inputs(self):
         entry = self.made("--expr", "(a-b)*c", "a.obj", "b.obj", "c.obj")
         self.assertEqual((entry["operation"], entry["output"]["volume"]), ("(a-b)*c", 4))

@@ -83,6 +83,20 @@ class Repair(ToolTest):
         self.assertEqual(entry["repair"]["max_move"]["largest"], 0)
         self.no_pairs("out.obj")
 
+    def test_what_would_leave_nothing_is_no_repair(self):
+        points, faces = cube()
+        inside_out = [tuple(reversed(f)) for f in faces]
+        part = write(self.path("part.obj"), together((points, faces), (points, inside_out)))
+        run = self.run_tool(part, "--repair", "-o", "out.stl", status=1)
+        self.assertIn("nothing would be left", run.text)
+        self.assertEqual(self.listing(), ["part.obj"])
+
+    def test_what_is_too_large_to_be_cut_is_bad_input(self):
+        points, faces = cube()
+        part = write(self.path("part.obj"), ([tuple(1e302 * x for x in p) for p in points], faces))
+        run = self.run_tool(part, "--repair", "-o", "out.obj", status=3)
+        self.assertIn("beyond 2^1000", run.err)
+
     def test_limits_are_kept(self):
         part = write(self.path("part.obj"), together(cube((0.1, 0.2, 0.3)), cube((0.4, 0.5, 0.7)),
                                                      cube((0.2, 0.3, 0.4), 0.25)))

@@ -128,6 +128,11 @@ tf::solid_result compute(tools::job& work, const boolean_settings& s,
     else
         result = tf::boolean(views, tools::formula_of(s, views.size()), options);
     if (!s.splits() && !sheet && result.certified) tools::separate_parts(work, result);
+    if (result.surface.faces.empty()) {  // what was thinner than its precision leaves points
+        result.surface.points.clear();
+        result.source_point.clear();
+        result.face_of_cut_point.clear();
+    }
     work.out.end_progress();
     work.keeper.check();
     if (result.cancelled) throw tools::failure(tools::stopped, "stopped", work.name + ": stopped");

@@ -1,5 +1,6 @@
 #include "tools/tf-boolean/solids.hpp"
 
+#include "tools/common/arrangeable.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/matrix_file.hpp"
 #include <libmesh/bounding_box.hpp>
@@ -72,6 +73,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     // A mesh of nothing is what a difference may leave; points alone are no mesh.
     if (s.file.mesh.faces.empty() && !s.file.mesh.points.empty())
         throw failure(bad_input, "no-triangles", path + ": no triangle with finite coordinates");
+    check_arrangeable(path, s.file.mesh);
     if (s.file.mesh.faces.empty()) work.warn("empty", path + ": no faces: an empty solid");
     about["faces"] = s.file.stored_faces;
     about["triangles"] = s.triangles;

@@ -3,6 +3,8 @@
 #include "tools/common/carried_properties.hpp"
 #include "tools/common/console.hpp"
 
+#include <algorithm>
+
 namespace tools {
 
 std::string verdict(const job& work, const boolean_settings& settings,
@@ -25,6 +27,12 @@ std::string verdict(const job& work, const boolean_settings& settings,
 
 void warn_of_surprises(job& work, const boolean_settings& settings,
                        const std::vector<solid>& solids, const tf::solid_result& result) {
+    const bool given = std::any_of(solids.begin(), solids.end(),
+                                   [](const solid& s) { return !s.file.mesh.faces.empty(); });
+    if (result.surface.faces.empty() && given && settings.name() == "union")
+        work.warn("nothing-left",
+                  "the inputs bound nothing: their faces cancel each other out, or enclose less "
+                  "than the precision holds");
     if (result.degenerate > 0)
         work.warn("degenerate", counted(result.degenerate, "face", "faces") +
                                     " without an area left out; nothing changes by that");

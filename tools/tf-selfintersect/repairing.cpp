@@ -1,5 +1,6 @@
 #include "tools/tf-selfintersect/repairing.hpp"
 
+#include "tools/common/arrangeable.hpp"
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
 #include <libmesh/attributes.hpp>
@@ -20,6 +21,7 @@ json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
 tf::repaired_mesh compute(job& work, const findings& result, const repair_settings& settings,
                           bool to_single) {
+    check_arrangeable(work.name, result.mesh);
     const auto timing = work.time("repair");
     tf::repair_options options;
     options.mode = settings.mode;
@@ -95,6 +97,10 @@ std::string objection(const findings& result, const repair_settings& settings,
     if (!repaired.certified)
         return settings.mode == tf::repair_mode::remove ? "a hole could not be closed"
                                                         : "coordinates are too large";
+    if (repaired.surface.faces.empty() && !result.mesh.faces.empty())
+        return settings.mode == tf::repair_mode::outer
+                   ? "nothing would be left: the faces cancel each other out and bound nothing"
+                   : "nothing would be left";
     if (repaired.max_move > allowed)
         return "a point would move by " + shortest(repaired.max_move) + ", more than " +
                shortest(allowed) + " (--max-move)";
