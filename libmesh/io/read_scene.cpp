@@ -1,4 +1,5 @@
 #include <libmesh/io/detail/face_sink.hpp>
+#include <libmesh/io/detail/json_depth.hpp>
 #include <libmesh/io/detail/readers.hpp>
 #include <libmesh/io/read.hpp>
 
@@ -10,8 +11,25 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <new>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
+
+namespace Assimp {
+
+/// Stands in for the function of this name in assimp 5.2, whose assertions also judge the input and
+/// end the process when they fail. The importer catches what is thrown here.
+__attribute__((visibility("default"))) void aiAssertViolation(const char* expression,
+                                                              const char* file, int line);
+
+void aiAssertViolation(const char*, const char*, int) {
+    throw std::runtime_error("parts of the file are missing or damaged");
+}
+
+}  // namespace Assimp
 
 namespace tf::detail {
 
@@ -132,6 +150,38 @@ constexpr int unwanted = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGEN
                          aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
                          aiComponent_CAMERAS | aiComponent_MATERIALS;
 
+/// What the importer says, unless that is only that it could not read the file, by whatever name.
+[[nodiscard]] std::string plain_reason(const std::string& said, const source& in,
+                                       const std::string& hint) {
+    constexpr std::string_view name_of_bytes = "$$$___magic___$$$";
+    const bool about_file = said.find(name_of_bytes) != std::string::npos ||
+                            said.find('"' + std::string(in.name()) + '"') != std::string::npos;
+    if (!said.empty() && !about_file) return said;
+    return "cannot be read as '" + hint + "': damaged or cut short";
+}
+
+/// The scene, which belongs to the importer.
+[[nodiscard]] const aiScene& load_scene(Assimp::Importer& importer, const source& in,
+                                        const std::filesystem::path& path,
+                                        const std::string& hint) {
+    constexpr unsigned steps = aiProcess_RemoveComponent;
+    std::string reason;
+    try {
+        // glTF in text keeps its numbers in other files, which only a path can find.
+        const aiScene* const scene =
+            path.empty() || hint != "gltf"
+                ? importer.ReadFileFromMemory(in.begin(), in.size(), steps, hint.c_str())
+                : importer.ReadFile(path.string(), steps);
+        if (scene != nullptr) return *scene;
+        reason = importer.GetErrorString();
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        reason = error.what();
+    }
+    in.fail(plain_reason(reason, in, hint));
+}
+
 }  // namespace
 
 bool scene_format(std::string_view extension) {
@@ -149,14 +199,9 @@ mesh_file read_scene(const source& in, const std::filesystem::path& path,
     Assimp::Importer importer;
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unwanted);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-    constexpr unsigned steps = aiProcess_RemoveComponent;
-    // glTF in text keeps its numbers in other files, which only a path can find.
-    const aiScene* const scene =
-        path.empty() || extension != "gltf"
-            ? importer.ReadFileFromMemory(in.begin(), in.size(), steps, hint.c_str())
-            : importer.ReadFile(path.string(), steps);
-    if (scene == nullptr) in.fail(importer.GetErrorString());
-    mesh_file file = scene_reader(in, *scene, hint == "glb" || hint == "gltf").read();
+    if (hint == "glb" || hint == "gltf" || hint == "vrm") refuse_deep_json(in);
+    const aiScene& scene = load_scene(importer, in, path, hint);
+    mesh_file file = scene_reader(in, scene, hint == "glb" || hint == "gltf").read();
     file.format = hint;
     return file;
 }

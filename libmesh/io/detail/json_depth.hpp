@@ -1,0 +1,15 @@
+#pragma once
+/// \file
+/// A look at JSON before a recursive parser gets it.
+
+#include <libmesh/io/detail/source.hpp>
+
+namespace tf::detail {
+
+/// Refuses glTF, in text or binary, whose JSON nests so deeply that parsing it would exhaust the
+/// stack. JSON that is wrong otherwise is left to the parser.
+///
+/// \throws io_error naming the byte
+void refuse_deep_json(const source& gltf);
+
+}  // namespace tf::detail
