@@ -100,6 +100,16 @@ class Report(ToolTest):
         run = self.run_tool(clean, crossing, status=1)
         self.assertEqual(len(run.text.splitlines()), 2)
 
+    def test_messages_name_the_input_once(self):
+        run = self.run_tool("-", status=3)
+        self.assertEqual(run.err.count("standard input"), 1, msg=run.err)
+        with open(self.path("nan.obj"), "wb") as file:
+            file.write(obj_bytes(CROSSING) + b"v nan 0 0\nf 1 2 -1\n")
+        err = subprocess.run([PLACE, "drop", "nan.obj"], cwd=self.folder, capture_output=True,
+                             timeout=120).stderr.decode()
+        self.assertIn("warning: nan.obj: 1 face with a NaN", err)
+        self.assertEqual([line for line in err.splitlines() if line.count("nan.obj: ") > 1], [])
+
     def test_standard_input_is_read_and_standard_output_carries_only_data(self):
         run = self.run_tool("-", stdin=obj_bytes(CROSSING), status=1)
         self.assertTrue(run.text.startswith("standard input: 1 self-intersecting pair"))

@@ -99,7 +99,7 @@ tf::progress_callback job::progress(std::string_view step) {
 }
 
 void job::warn(const std::string& code, const std::string& text) {
-    out.warning(name + ": " + text);
+    out.warning(text.starts_with(name + ": ") ? text : name + ": " + text);
     entry["warnings"].push_back({{"code", code}, {"text", text}});
 }
 
