@@ -119,7 +119,8 @@ class session {
                               result.text.find("--memory") == std::string::npos;
         const std::string text = by_limit ? "stopped by the memory limit (--memory)" : result.text;
         one.entry["error"] = {{"code", result.code}, {"text", text}};
-        const bool named = text.find(one.path) != std::string::npos;
+        const std::string path = one.path == "-" ? "standard input" : one.path;
+        const bool named = text.find(path) != std::string::npos;
         out_.error(named ? text : one.name + ": " + text);
     }
 
