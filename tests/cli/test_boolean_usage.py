@@ -88,8 +88,20 @@ class Usage(BooleanTest):
         self.assertEqual(self.read_bytes("b.obj"), before)
         with open(self.path("m.txt"), "w") as file:
             file.write("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")
-        self.refused("union", "a.obj", "--matrix", "1:m.txt", "-o", "m.txt", "--output-format",
-                     "obj", "-f")
+        before = self.read_bytes("m.txt")
+        for options in (["-o", "m.txt", "--output-format", "obj"], ["-r", "./m.txt"],
+                        ["--log", "m.txt"]):
+            self.assertIn("is an input",
+                          self.refused("union", "a.obj", "--matrix", "1:m.txt", *options, "-f"))
+        self.assertEqual(self.read_bytes("m.txt"), before)
+        self.assertIn("is an input", self.refused("union", "a.obj", "--log", "./a.obj"))
+
+    def test_no_file_is_written_twice_however_it_is_spelled(self):
+        same = os.path.join("..", os.path.basename(self.folder), "out.obj")
+        for option in ("-r", "--curves", "--log"):
+            self.assertIn("two outputs",
+                          self.refused("union", "a.obj", "-o", "out.obj", option, same, "-f"))
+        self.run_tool("union", "a.obj", "-o", "union", "--output-format", "obj", status=0)
 
     def test_an_output_that_exists_needs_force(self):
         self.mesh("there.obj", cube())

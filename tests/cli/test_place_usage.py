@@ -75,7 +75,20 @@ class Usage(PlaceTest):
         for option in ("-o", "--matrix", "-r"):
             err = self.refused("drop", "a.obj", "--fixed", "floor.obj", option, "floor.obj", "-f")
             self.assertIn("is an input", err)
+        self.assertIn("is an input", self.refused("drop", "a.obj", "--fixed", "floor.obj", "--log",
+                                                  "./floor.obj"))
+        self.assertIn("read for other inputs", self.refused("drop", "a.obj", "floor.obj", "--fixed",
+                                                            "./floor.obj", "--in-place"))
         self.assertEqual(self.read_bytes("floor.obj"), before)
+        with open(self.path("m.txt"), "w") as file:
+            file.write("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")
+        before = self.read_bytes("m.txt")
+        for option in ("--matrix", "-r", "--log"):
+            self.assertIn("is an input", self.refused("drop", "a.obj", "--start", "m.txt", option,
+                                                      "./m.txt", "-f"))
+        self.assertEqual(self.read_bytes("m.txt"), before)
+        self.assertIn("two outputs", self.refused("drop", "a.obj", "-o", "out.obj", "--matrix",
+                                                  "./out.obj"))
 
     def test_bad_files_are_named(self):
         self.assertIn("none.obj", self.run_tool("drop", "a.obj", "--fixed", "none.obj",

@@ -53,7 +53,25 @@ class Usage(ToolTest):
         before = self.read_bytes("part.obj")
         self.assertIn("is an input", self.refused(self.part, "-r", self.part, "-f"))
         self.assertIn("is an input", self.refused("part.obj", "--curves", self.part, "-f"))
+        self.assertIn("is an input", self.refused("part.obj", "--log", "./part.obj"))
+        os.link(self.part, self.path("link.obj"))
+        self.assertIn("is an input", self.refused("part.obj", "--log", "link.obj"))
         self.assertEqual(self.read_bytes("part.obj"), before)
+
+    def test_no_file_is_written_twice_however_it_is_spelled(self):
+        os.mkdir(self.path("sub"))
+        os.symlink("sub", self.path("link"))
+        before = self.listing()
+        for one, other in (("m.ply", "./m.ply"), ("m.ply", self.path("m.ply")),
+                           ("m.ply", "sub/../m.ply"), ("sub/m.ply", "link/m.ply")):
+            for option in ("-r", "--html", "--pairs", "--log"):
+                err = self.refused("part.obj", "-o", one, option, other, "-f")
+                self.assertIn("two outputs", err)
+        self.assertIn("two outputs", self.refused("part.obj", "--output-dir", "sub", "--suffix", "",
+                                                  "-r", "link/part.ply"))
+        self.assertEqual(self.listing(), before)
+        self.assertEqual(os.listdir(self.path("sub")), [])
+        self.run_tool("part.obj", "-o", "m.ply", "-r", "sub/m.ply", "--log", "/dev/null", status=1)
 
     def test_one_output_for_several_inputs_is_refused(self):
         other = write(self.path("other.obj"), CLEAN)
@@ -73,8 +91,13 @@ class Usage(ToolTest):
     def test_a_value_may_follow_an_equals_sign_and_inputs_a_double_dash(self):
         self.run_tool("--limit=3", "--", self.part, status=1)
 
-    def test_an_unknown_format_is_an_input_error(self):
-        self.run_tool(self.part, "--format", "docx", status=3)
+    def test_an_unknown_format_is_refused_and_a_wrong_one_is_an_input_error(self):
+        for extension in ("docx", "xxx"):
+            self.assertIn(f"format '{extension}' is not read",
+                          self.refused(self.part, "--format", extension))
+        self.run_tool(self.part, "--format", "ply", status=3)
+        for extension in ("obj", "OBJ", ".obj"):
+            self.run_tool(self.part, "--format", extension, status=1)
 
 
 if __name__ == "__main__":

@@ -77,7 +77,25 @@ class Usage(WeldTest):
         before = self.read_bytes("in.xyz")
         for option in ("-o", "--map", "--removed", "-r"):
             self.assertIn("is an input", self.refused("in.xyz", option, "in.xyz", "-f"))
+        self.assertIn("is an input",
+                      self.refused("in.xyz", "-o", "out.xyz", "--log", "./in.xyz"))
         self.assertEqual(self.read_bytes("in.xyz"), before)
+
+    def test_no_file_is_written_twice_however_it_is_spelled(self):
+        for option in ("--map", "--removed", "-r", "--log"):
+            self.assertIn("two outputs",
+                          self.refused("in.xyz", "-o", "out.ply", option, "./out.ply", "-f"))
+
+    def test_an_output_that_cannot_be_written_is_named_itself(self):
+        self.write("big.xyz", "1e300 0 0\n")
+        for name in ("out.ply", self.path("out.ply")):
+            err = self.run_tool("big.xyz", "-o", name, "--precision", "float", status=4).err
+            self.assertIn(f"{name}: vertex 0 is beyond", err)
+            self.assertNotIn("unfinished", err)
+        self.write("big.obj", "v 1e300 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n")
+        err = self.run_tool("big.obj", "-o", "out.stl", status=4).err
+        self.assertIn(": out.stl: vertex 0 is beyond", err)
+        self.assertNotIn("unfinished", err)
 
     def test_formats_that_are_not_written_are_refused(self):
         self.refused("in.xyz", "-o", "out.docx")

@@ -87,7 +87,7 @@ tf::write_result write_certified(job& work, tf::mesh_file& file,
                                  {.format = format, .ascii = o.ascii, .precision = file.stored_as});
         look_again(place.writable(), format, file.mesh);
     } catch (const tf::io_error& error) {
-        throw failure(bad_output, "output", error.what());
+        throw failure(bad_output, "output", place.said_of_path(error.what()));
     }
     if (written.largest_move > 0.0)
         throw std::logic_error("coordinates were rounded that had been certified");

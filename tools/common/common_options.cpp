@@ -1,11 +1,15 @@
 #include "tools/common/common_options.hpp"
 
 #include "tools/common/exit_status.hpp"
+#include "tools/common/file_names.hpp"
 #include "tools/common/parse_value.hpp"
+#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/read.hpp>
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <cstddef>
+#include <span>
 
 namespace tools {
 namespace {
@@ -90,28 +94,22 @@ void add_run_options(command_line& line, common_options& o) {
     line.mention({.names = "--version", .text = "version and build"});
 }
 
-/// Whether two paths name one file, as far as can be told before it exists; devices are no files.
-bool same_file(const fs::path& a, const fs::path& b) {
-    std::error_code error;
-    if (fs::exists(a, error) && !fs::is_regular_file(a, error)) return false;
-    if (fs::equivalent(a, b, error)) return true;
-    return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+/// A byte is enough for a reader to say that there is none for the format.
+void check_format(const common_options& o) {
+    if (o.format.empty()) return;
+    constexpr std::byte blank{' '};
+    try {
+        static_cast<void>(tf::read_mesh(std::span(&blank, 1), "--format", o.format));
+    } catch (const tf::io_error& error) {
+        const std::string text = error.what();
+        if (text.ends_with("' is not read")) refuse(text);
+    }
 }
 
 void check_outputs(const command_line& line, const common_options& o) {
     const std::vector<fs::path> outputs = line.outputs();
     if (std::count(outputs.begin(), outputs.end(), "-") > 1)
         refuse("only one output can go to standard output");
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        if (outputs[i] == "-") continue;
-        for (std::size_t j = 0; j < i; ++j)
-            if (outputs[j] != "-" && same_file(outputs[i], outputs[j]))
-                refuse(outputs[i].string() + " is named for two outputs");
-        for (const auto* read : {&o.inputs, &o.also_read})
-            for (const auto& input : *read)
-                if (input != "-" && same_file(outputs[i], input))
-                    refuse(outputs[i].string() + " is an input; no output may replace it");
-    }
     if (o.inputs.size() < 2 || o.joined) return;
     for (const fs::path& path : outputs)
         if (path != o.report)
@@ -125,12 +123,8 @@ void check_in_place(const common_options& o) {
         refuse("--in-place excludes -o and --output-dir");
     if (o.joined) refuse("--in-place: several inputs cannot become one file; use -o");
     if (!o.output_format.empty()) refuse("--in-place keeps the format; --output-format needs -o");
-    for (std::size_t i = 0; i < o.inputs.size(); ++i) {
-        if (o.inputs[i] == "-") refuse("--in-place: standard input cannot be replaced; use -o");
-        for (std::size_t j = 0; j < i; ++j)
-            if (same_file(o.inputs[i], o.inputs[j]))
-                refuse(o.inputs[i] + " is named twice; --in-place replaces a file once");
-    }
+    if (std::count(o.inputs.begin(), o.inputs.end(), "-") > 0)
+        refuse("--in-place: standard input cannot be replaced; use -o");
 }
 
 void check_output_folder(const common_options& o) {
@@ -138,16 +132,16 @@ void check_output_folder(const common_options& o) {
     if (!o.output.empty()) refuse("-o and --output-dir exclude each other");
     if (o.joined) refuse("--output-dir: all inputs together give one result; use -o");
     if (o.suffix.find('/') != std::string::npos) refuse("--suffix: no / allowed");
-    std::set<fs::path> names;
-    for (const auto& input : o.inputs) {
-        const fs::path name = *mesh_output(o, input);
-        if (!names.insert(name).second)
-            refuse("two inputs would both be written to " + name.string());
-        for (const auto* read : {&o.inputs, &o.also_read})
-            for (const auto& other : *read)
-                if (other != "-" && same_file(name, other))
-                    refuse(name.string() + " is an input; no output may replace it");
-    }
+}
+
+/// What is written beside the inputs that --in-place replaces.
+std::vector<fs::path> written_files(const command_line& line, const common_options& o) {
+    std::vector<fs::path> files = line.outputs();
+    std::erase(files, "-");
+    if (!o.log.empty()) files.emplace_back(o.log);
+    if (!o.output_dir.empty())
+        for (const auto& input : o.inputs) files.push_back(*mesh_output(o, input));
+    return files;
 }
 
 }  // namespace
@@ -186,9 +180,27 @@ void check_common_options(const command_line& line, const common_options& option
     if (options.output == "-" && options.output_format.empty())
         refuse("-o - needs --output-format");
     if (!options.output.empty()) static_cast<void>(mesh_format(options, options.output));
+    check_format(options);
     check_outputs(line, options);
     check_output_folder(options);
     check_in_place(options);
+}
+
+void check_files(const command_line& line, const common_options& options) {
+    file_names read;
+    for (const auto& input : options.inputs)
+        if (input != "-" && !read.add(input) && options.in_place)
+            refuse(input + " is named twice; --in-place replaces a file once");
+    for (const auto& other : options.also_read)
+        if (options.in_place && read.holds(other))
+            refuse(other + " is read for other inputs, too; --in-place may not replace it");
+    for (const auto& other : options.also_read)
+        if (other != "-") read.add(other);
+    file_names written;
+    for (const fs::path& path : written_files(line, options)) {
+        if (read.holds(path)) refuse(path.string() + " is an input; no output may replace it");
+        if (!written.add(path)) refuse(path.string() + " is named for two outputs");
+    }
 }
 
 bool wants_mesh(const common_options& options) {

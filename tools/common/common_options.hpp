@@ -14,7 +14,7 @@ namespace tools {
 
 struct common_options {
     std::vector<std::string> inputs;
-    std::vector<std::string> also_read;  ///< files that are read beside the inputs
+    std::vector<std::string> also_read;  ///< files that are read beside the inputs, of any kind
     std::filesystem::path output;
     std::filesystem::path output_dir;
     std::string suffix;     ///< for `output_dir`
@@ -55,9 +55,13 @@ struct common_features {
 void add_common_options(command_line& line, common_options& target,
                         const common_features& features);
 
-/// What only shows when all options are known: outputs that exclude each other or are inputs.
+/// What only shows when all options are known, such as options that exclude each other.
 /// \throws failure (bad_usage)
 void check_common_options(const command_line& line, const common_options& options);
+
+/// That no file is written that is read, or written twice, however it is spelled. All that is read
+/// must be named in `options` by now. \throws failure (bad_usage)
+void check_files(const command_line& line, const common_options& options);
 
 /// Whether some option asks for a mesh.
 [[nodiscard]] bool wants_mesh(const common_options& options);

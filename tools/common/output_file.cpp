@@ -94,6 +94,15 @@ void output_place::commit() {
                           : std::string("cannot be put in place: ") + std::strerror(errno));
 }
 
+std::string output_place::said_of_path(std::string text) const {
+    const std::string& name = writable_.native();
+    const std::string& shown = path_.native();
+    if (name.empty() || name == shown) return text;
+    for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; at += shown.size())
+        text.replace(at, name.size(), shown);
+    return text;
+}
+
 output_file::output_file(const fs::path& path, bool force, guard& keeper)
     : place_(path, force, keeper),
       file_(path == "-" ? stdout : std::fopen(place_.writable().c_str(), "wb")) {

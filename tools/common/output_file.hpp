@@ -34,6 +34,9 @@ class output_place {
     /// \throws failure (bad_output), also when `path` has come into being without `force`
     void commit();
 
+    /// What a writer says of `writable()`, said of `path()`.
+    [[nodiscard]] std::string said_of_path(std::string text) const;
+
   private:
     std::filesystem::path path_;
     std::filesystem::path target_;  ///< `path_` with links followed

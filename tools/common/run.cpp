@@ -164,6 +164,7 @@ int run(command_line& line, common_options& options, const std::vector<std::stri
         if (line.parse(argc, argv) == command_line::outcome::help_shown) return done;
         check_common_options(line, options);
         check_options();
+        check_files(line, options);
         return static_cast<exit_status>(run_parsed(line, options, steps, argc, argv, body, out));
     });
     if (!result.text.empty()) out.error(result.text);

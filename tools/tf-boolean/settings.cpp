@@ -54,9 +54,7 @@ void take_matrices(boolean_settings& s, common_options& o) {
         std::filesystem::path& file = s.matrix_files[number - 1];
         if (!file.empty()) refuse("--matrix: INPUT " + std::to_string(number) + " has two");
         file = text.substr(colon + 1);
-        std::error_code error;
-        if (!o.output.empty() && std::filesystem::equivalent(o.output, file, error))
-            refuse(o.output.string() + " is an input; no output may replace it");
+        o.also_read.push_back(file.string());
     }
 }
 

@@ -201,9 +201,10 @@ void check_arrange_and_fit(const place_settings& s) {
 }
 
 /// Options that would do nothing are refused rather than passed over.
-void check_settings(place_settings& s, const common_options& o) {
+void check_settings(place_settings& s, common_options& o) {
     s.mode = tools::parse_mode(s.mode_text);
     s.fixed = o.also_read;
+    if (!s.start.empty()) o.also_read.push_back(s.start.string());
     const std::string mode = s.mode_text;
     check_lay(s);
     check_arrange_and_fit(s);

@@ -155,7 +155,7 @@ void write_file(job& work, const tf::mesh_file& file, const std::filesystem::pat
     try {
         written = tf::write_mesh(place.writable(), file, options);
     } catch (const tf::io_error& error) {
-        throw failure(bad_output, "output", error.what());
+        throw failure(bad_output, "output", place.said_of_path(error.what()));
     }
     place.commit();
     work.entry["output"] = {

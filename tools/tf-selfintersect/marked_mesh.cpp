@@ -80,7 +80,7 @@ void write_marked(job& work, tf::mesh_file& file, const findings& result,
     try {
         enter_output(work, path, tf::write_mesh(place.writable(), file, options));
     } catch (const tf::io_error& error) {
-        throw failure(bad_output, "output", error.what());
+        throw failure(bad_output, "output", place.said_of_path(error.what()));
     }
     place.commit();
 }

@@ -197,7 +197,7 @@ class giving_back {
           head_(reader_.header()),
           outputs_(work) {
         head_.stored_as = survey.single ? tf::precision::single_ : tf::precision::double_;
-        open_files();
+        naming_outputs([&] { open_files(); });
         std::vector<fs::path> unfinished = outputs_.unfinished();
         if (map_ && !map_->folder().empty()) unfinished.push_back(map_->folder());
         json folders = json::array();
@@ -210,7 +210,20 @@ class giving_back {
     }
 
     void run() {
-        if (!result_ && !removed_ && !map_) return;
+        if (result_ || removed_ || map_) naming_outputs([&] { give_all(); });
+    }
+
+  private:
+    template <class Body>
+    void naming_outputs(Body&& body) {
+        try {
+            body();
+        } catch (const tf::io_error& error) {
+            throw failure(bad_output, "output", outputs_.said_of_paths(error.what()));
+        }
+    }
+
+    void give_all() {
         const auto show = work_.progress("write");
         tf::point_block block;
         while (reader_.read(block, points_a_block)) {
@@ -227,7 +240,6 @@ class giving_back {
         finish();
     }
 
-  private:
     void open_files() {
         const common_options& o = work_.options;
         const std::uint64_t dropped = welded_.kept.dropped();

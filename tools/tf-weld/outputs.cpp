@@ -17,12 +17,13 @@ json path_entry(const std::filesystem::path& path) {
     return path.empty() ? json(nullptr) : json(path.string());
 }
 
-tf::write_result write_file(const std::filesystem::path& path, const tf::mesh_file& file,
-                            const tf::write_options& options) {
+tf::write_result write_file(pending_outputs& outputs, const std::filesystem::path& path, bool force,
+                            const tf::mesh_file& file, const tf::write_options& options) {
+    const std::filesystem::path& writable = outputs.add(path, force);
     try {
-        return tf::write_mesh(path, file, options);
+        return tf::write_mesh(writable, file, options);
     } catch (const tf::io_error& error) {
-        throw failure(bad_output, "output", error.what());
+        throw failure(bad_output, "output", outputs.said_of_paths(error.what()));
     }
 }
 
@@ -114,6 +115,11 @@ std::vector<std::filesystem::path> pending_outputs::unfinished() const {
     for (const auto& place : places_)
         if (!place->folder().empty()) folders.push_back(place->folder());
     return folders;
+}
+
+std::string pending_outputs::said_of_paths(std::string text) const {
+    for (const auto& place : places_) text = place->said_of_path(std::move(text));
+    return text;
 }
 
 void pending_outputs::commit() {
@@ -220,7 +226,7 @@ void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& fil
     if (const tf::element* vertices = tf::find_element(file.attributes, "vertex"))
         gone.attributes.elements.push_back(tf::gather(*vertices, rows));
     const auto written =
-        write_file(outputs.add(path, work.options.force), gone,
+        write_file(outputs, path, work.options.force, gone,
                    write_options_for(work.options, check_points_format(path), work.options.ascii));
     for (const tf::io_warning& warning : written.warnings) work.warn(warning.code, warning.text);
 }
@@ -240,7 +246,7 @@ void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& weld
                   const std::filesystem::path& path) {
     const common_options& o = work.options;
     const auto [format, ascii] = format_of(work, welded, path);
-    const tf::write_result written = write_file(outputs.add(path, o.force || o.in_place), welded,
+    const tf::write_result written = write_file(outputs, path, o.force || o.in_place, welded,
                                                 write_options_for(o, format, ascii));
     std::optional<std::uint64_t> again;
     if (request.outputs.label.empty())

@@ -24,6 +24,8 @@ class pending_outputs {
     const std::filesystem::path& add(const std::filesystem::path& path, bool force);
     /// Folders that stay when the process is killed.
     [[nodiscard]] std::vector<std::filesystem::path> unfinished() const;
+    /// What writers say of these files, said of what they will be.
+    [[nodiscard]] std::string said_of_paths(std::string text) const;
     void commit();
 
   private:
