@@ -265,3 +265,18 @@ TEST_CASE(
     wide += "[]]";
     CHECK(refusal(wide, "a.gltf").find("nested") == std::string::npos);
 }
+
+TEST_CASE("hostile: glTF whose nodes form an endless chain or a ring is refused") {
+    if (!tf::reads_scenes()) return;
+    const auto chain = [](int length, int last) {
+        std::string text =
+            R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)";
+        for (int n = 1; n < length; ++n) text += "{\"children\":[" + std::to_string(n) + "]},";
+        return text + (last < 0 ? "{}" : "{\"children\":[" + std::to_string(last) + "]}") + "]}";
+    };
+    CHECK(refusal(chain(100'000, -1), "a.gltf") ==
+          "a.gltf: node 1000 is more than 1000 levels deep");
+    CHECK(refusal(chain(100'000, 0), "a.gltf") == "a.gltf: a node is its own descendant");
+    CHECK(refusal(chain(900, -1), "a.gltf").find("deep") == std::string::npos);
+    CHECK(refusal(chain(1000, -1), "a.gltf").find("deep") == std::string::npos);
+}

@@ -6,10 +6,10 @@
 
 namespace tf::detail {
 
-/// Refuses glTF, in text or binary, whose JSON nests so deeply that parsing it would exhaust the
-/// stack. JSON that is wrong otherwise is left to the parser.
+/// Refuses glTF, in text or binary, whose JSON, or whose nodes, nest so deeply that loading would
+/// exhaust the stack. JSON that is wrong otherwise is left to the parser.
 ///
-/// \throws io_error naming the byte
+/// \throws io_error naming the byte, or the node
 void refuse_deep_json(const source& gltf);
 
 }  // namespace tf::detail
