@@ -22,8 +22,10 @@ constexpr std::size_t deepest_node = 1000;
     const std::string_view all(in.begin(), in.size());
     constexpr std::size_t head = 20;
     if (!all.starts_with("glTF")) return all;
-    if (all.size() < head) return {};
-    return all.substr(head, load<std::uint32_t, std::endian::little>(in.begin() + 12));
+    if (all.size() < head) in.fail("cut short");
+    const std::size_t size = load<std::uint32_t, std::endian::little>(in.begin() + 12);
+    if (all.size() - head < size) in.fail("cut short");
+    return all.substr(head, size);
 }
 
 /// The quote that ends the string which starts before `at`, or `end`.

@@ -256,6 +256,8 @@ TEST_CASE(
     const std::string glb = "glTF" + little_endian(2, 4) + little_endian(20 + deep.size(), 4) +
                             little_endian(deep.size(), 4) + "JSON" + deep;
     CHECK(refusal(glb, "a.glb").starts_with("a.glb: byte 520: "));
+    CHECK(refusal(glb.substr(0, 300), "a.glb") == "a.glb: cut short");
+    CHECK(refusal(glb.substr(0, 18), "a.glb") == "a.glb: cut short");
     CHECK(refusal("{\"a\\\"\":{},\"b\":" + deep, "a.gltf").starts_with("a.gltf: byte 513: "));
     const std::string named = R"({"asset":{"version":"2.0","generator":"\"[[)" + deep +
                               R"("},"scene":0,"scenes":[{"nodes":[]}],"nodes":[]})";

@@ -7,7 +7,8 @@
 namespace tf::detail {
 
 /// Refuses glTF, in text or binary, whose JSON, or whose nodes, nest so deeply that loading would
-/// exhaust the stack. JSON that is wrong otherwise is left to the parser.
+/// exhaust the stack, or whose binary JSON is cut short. JSON that is wrong otherwise is left to
+/// the parser.
 ///
 /// \throws io_error naming the byte, or the node
 void refuse_deep_json(const source& gltf);
