@@ -129,9 +129,9 @@ class rounding {
         });
         const double move = *std::max_element(moves.begin(), moves.end());
         result_.max_move += move;
-        moved_ = move > 0.0;
         const bool finite = std::all_of(at.begin(), at.end(), is_finite);
-        join_equal(points, std::move(at));
+        const bool joined = join_equal(points, std::move(at));
+        moved_ = joined && move > 0.0 ? std::numeric_limits<double>::infinity() : move;
         return finite;
     }
 
@@ -147,8 +147,8 @@ class rounding {
     }
 
     /// Equal points become one, under the number of the lowest of them; faces that repeat a corner
-    /// then go: what is left of them runs back and forth.
-    void join_equal(const std::vector<std::uint32_t>& points, std::vector<point3> at) {
+    /// then go: what is left of them runs back and forth. Whether there were any.
+    bool join_equal(const std::vector<std::uint32_t>& points, std::vector<point3> at) {
         std::vector<std::uint32_t> new_of_old(point_of_.size(), 0);
         std::vector<std::uint32_t> point_of(points.size());
         {
@@ -164,9 +164,11 @@ class rounding {
             for (std::size_t i = 0; i < points.size(); ++i)
                 new_of_old[points[i]] = equal.new_of_old[i];
         }
+        const bool joined = at.size() < points.size();
         result_.surface.points = std::move(at);
         point_of_ = std::move(point_of);
         take_faces(new_of_old);
+        return joined;
     }
 
     /// The exact faces in new numbers, without those that repeat a corner.
@@ -319,7 +321,7 @@ class rounding {
     std::vector<std::uint8_t> offending_;  ///< by face
     std::size_t most_faces_;
     std::uint64_t first_meeting_count_ = 0, last_meeting_count_ = 0;
-    bool moved_ = false;     ///< in the last rounding, a point has
+    double moved_ = 0.0;     ///< how far, in the last rounding; infinite where points were joined
     bool only_cut_ = false;  ///< joining what is near has been seen to spread
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between

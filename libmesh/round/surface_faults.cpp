@@ -37,7 +37,7 @@ surface_faults all_faults(mesh_view surface, const surface_check& check) {
     result.pairs = std::move(found.pairs);
     result.degenerate = find_defects(surface).degenerate_faces;
     result.open = check.solid && find_open_edge(surface).has_value();
-    if (check.solid && check.moved) find_turned(surface, result);
+    if (check.solid && check.moved > 0.0) find_turned(surface, result);
     return result;
 }
 
@@ -161,7 +161,7 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
     for (const std::uint32_t f : find_defects(part).degenerate_faces)
         result.degenerate.push_back(near[f]);
     result.open = check.solid && is_open(surface, near, check.sound);
-    if (check.solid && check.moved && may_be_turned(surface, check.sound, near))
+    if (check.solid && check.moved > 0.0 && may_be_turned(surface, check.sound, near, check.moved))
         find_turned(surface, result);
     return result;
 }

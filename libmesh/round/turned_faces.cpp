@@ -1,20 +1,31 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/detail/union_find.hpp>
+#include <libmesh/face_tree.hpp>
+#include <libmesh/round/detail/joint_geometry.hpp>
 #include <libmesh/round/detail/turned_faces.hpp>
+#include <libtree/aabb.hpp>
+#include <libtree/search.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
 namespace tf::detail {
 namespace {
 
+using box3 = aabb<double, 3>;
+
 struct edge_use {
     std::uint32_t low, high;
     std::uint32_t face;
+    int way;  ///< 1 when the face runs from the lower end to the higher, else -1
+
+    [[nodiscard]] bool same_edge(const edge_use& e) const { return low == e.low && high == e.high; }
 };
 
 /// The edges with both ends at one of `faces`, of all faces of the surface, sorted.
@@ -27,13 +38,170 @@ std::vector<edge_use> edges_at(mesh_view surface, std::span<const std::uint32_t>
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t a = surface.faces[f][i];
             const std::uint32_t b = surface.faces[f][i == 2 ? 0 : i + 1];
-            if (at[a] != 0 && at[b] != 0) uses.push_back({std::min(a, b), std::max(a, b), f});
+            if (at[a] != 0 && at[b] != 0)
+                uses.push_back({std::min(a, b), std::max(a, b), f, a < b ? 1 : -1});
         }
     std::sort(uses.begin(), uses.end(), [](const edge_use& x, const edge_use& y) {
         return std::tie(x.low, x.high, x.face) < std::tie(y.low, y.high, y.face);
     });
     return uses;
 }
+
+/// Calls `visit(uses)` for each edge.
+template <class Visit>
+void for_edges(std::span<const edge_use> uses, const Visit& visit) {
+    for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+        while (end < uses.size() && uses[end].same_edge(uses[begin])) ++end;
+        visit(uses.subspan(begin, end - begin));
+    }
+}
+
+box3 box_of(mesh_view surface, std::uint32_t f) {
+    box3 box;
+    for (const std::uint32_t corner : surface.faces[f]) box.include(surface.points[corner]);
+    return box;
+}
+
+/// The parts of a surface near faces that have moved.
+class near_parts {
+  public:
+    near_parts(mesh_view surface, std::span<const std::uint8_t> sound,
+               std::span<const std::uint32_t> near)
+        : surface_(surface),
+          sound_(sound),
+          near_(near),
+          parts_(surface.faces.size()),
+          uses_(edges_at(surface, near)) {
+        for_edges(uses_, [&](std::span<const edge_use> at) {
+            if (at.size() == 2) parts_.join(at[0].face, at[1].face);
+        });
+    }
+
+    /// Those without a face that holds them, by their lowest face, ascending.
+    [[nodiscard]] std::vector<std::vector<std::uint32_t>> loose() {
+        std::vector<std::uint8_t> held(surface_.faces.size(), 1);
+        for (const std::uint32_t f : near_) held[f] = 0;
+        for_edges(uses_, [&](std::span<const edge_use> at) {
+            if (at.size() == 1) held[at[0].face] = 1;  // beside a face that was left out
+        });
+        for (std::uint32_t f = 0; f < held.size(); ++f)
+            if (held[f] != 0) held[parts_.root(f)] = 1;  // which is no higher
+        std::vector<std::array<std::uint32_t, 2>> left;
+        for (const std::uint32_t f : near_)
+            if (held[parts_.root(f)] == 0) left.push_back({parts_.root(f), f});
+        std::sort(left.begin(), left.end());
+        std::vector<std::vector<std::uint32_t>> result;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            if (i == 0 || left[i][0] != left[i - 1][0]) result.emplace_back();
+            result.back().push_back(left[i][1]);
+        }
+        return result;
+    }
+
+    /// Whether loose parts are as they were, for all that `moved` tells.
+    ///
+    /// The winding number of the surface next to a corner of a part is that of the part there and
+    /// that of the rest. The latter is as it was if the corner has met nothing of the rest on its
+    /// way: if it is in no box of the rest's faces (see above; faces far from all that has moved
+    /// have not moved, nor do they hold a corner that has). The former is one number w on all of
+    /// the part's front and w + 1 behind it, as neither changes along the part. If the part is
+    /// closed, all of space has one of these numbers, and 0 far away: w is 0 or -1, as the part's
+    /// volume is positive or negative. So it is as it was if the volume has the sign it had.
+    [[nodiscard]] bool are_as_before(std::span<const std::vector<std::uint32_t>> loose,
+                                     double moved) {
+        const std::vector<std::uint8_t> open = open_parts();
+        std::vector<face> faces;
+        for (const std::uint32_t f : near_) faces.push_back(surface_.faces[f]);
+        const tree<3> tree = face_tree({surface_.points, faces});
+        return std::all_of(loose.begin(), loose.end(), [&](const auto& part) {
+            const bool still = std::all_of(part.begin(), part.end(),
+                                           [&](std::uint32_t f) { return sound_[f] != 0; });
+            return (still || (open[parts_.root(part[0])] == 0 && keeps_sign(part, moved))) &&
+                   is_apart_somewhere(part, tree);
+        });
+    }
+
+  private:
+    /// By the lowest face: 1 for parts that run along some edge more often one way.
+    [[nodiscard]] std::vector<std::uint8_t> open_parts() {
+        std::vector<std::uint8_t> open(surface_.faces.size(), 0);
+        std::vector<std::array<std::int64_t, 2>> ways;  // part, way
+        for_edges(uses_, [&](std::span<const edge_use> at) {
+            ways.clear();
+            for (const edge_use& use : at) ways.push_back({parts_.root(use.face), use.way});
+            std::sort(ways.begin(), ways.end());
+            for (std::size_t begin = 0, end = 0; begin < ways.size(); begin = end) {
+                std::int64_t sum = 0;
+                for (; end < ways.size() && ways[end][0] == ways[begin][0]; ++end)
+                    sum += ways[end][1];
+                if (sum != 0) open[static_cast<std::size_t>(ways[begin][0])] = 1;
+            }
+        });
+        return open;
+    }
+
+    /// Whether a closed part's volume V has the sign that it had when its points were up to `moved`
+    /// away, in each coordinate.
+    ///
+    /// 6 V is the sum over the faces of (a - o) . n, n = (b - a) x (c - a), for any o. A face with
+    /// a box of extents x, y, z has |n.x| <= y z, as that is twice an area within a rectangle, and
+    /// so on: |n.x| + |n.y| + |n.z| <= P = x y + y z + z x.
+    /// (1) When one point moves by d, 6 V changes by the sum of d . n over the faces at it: what n
+    /// lacks of a x b + b x c + c x a there adds up to nothing, as the part is closed. One
+    /// point after the other, by at most m in each coordinate, is 3 m times the sum of all P, of
+    /// boxes that are m larger each way, as some of their corners may have moved.
+    /// (2) With o a corner, |a - o| <= D in each coordinate, D the part's largest extent. To
+    /// compute n takes 4 roundings and (a - o) . n another 4, of terms no larger than 2 D P
+    /// together: the error is below 18 e D P, e = 2^-53; to add up F of them, below (F + 1) e D
+    /// times the sum of all P. The bound is doubled, for its own roundings. What underflows is
+    /// below 2^-1022 each time, and multiplied by no more than 2^301 then.
+    [[nodiscard]] bool keeps_sign(const std::vector<std::uint32_t>& part, double moved) const {
+        const auto count = static_cast<double>(part.size());
+        box3 all;
+        for (const std::uint32_t f : part) all.include(box_of(surface_, f));
+        double extent = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, all.max[k] - all.min[k]);
+        if (!(extent < 0x1p150) || !(moved < 0x1p150)) return false;
+        const point3 origin = surface_.points[surface_.faces[part[0]][0]];
+        double volume = 0.0, areas = 0.0;
+        for (const std::uint32_t f : part) {
+            const auto& [a, b, c] = surface_.faces[f];
+            const auto& points = surface_.points;
+            volume += dot_product(
+                difference(points[a], origin),
+                cross_product(difference(points[b], points[a]), difference(points[c], points[a])));
+            const box3 box = box_of(surface_, f);
+            const double x = box.max[0] - box.min[0] + 2.0 * moved;
+            const double y = box.max[1] - box.min[1] + 2.0 * moved;
+            const double z = box.max[2] - box.min[2] + 2.0 * moved;
+            areas += x * y + y * z + z * x;
+        }
+        const double bound = (3.0 * moved + (count + 32.0) * 0x1p-53 * extent) * areas;
+        return std::abs(volume) > 2.0 * bound + count * 0x1p-700;
+    }
+
+    /// Whether a corner of the part is in no box of a face of another part.
+    [[nodiscard]] bool is_apart_somewhere(const std::vector<std::uint32_t>& part,
+                                          const tree<3>& tree) {
+        const std::uint32_t own = parts_.root(part[0]);
+        return std::any_of(part.begin(), part.end(), [&](std::uint32_t f) {
+            const face& corners = surface_.faces[f];
+            return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t p) {
+                box3 at;
+                at.include(surface_.points[p]);
+                return !search_any(tree, at, [&](std::uint32_t i) {
+                    return parts_.root(near_[i]) != own && overlaps(at, box_of(surface_, near_[i]));
+                });
+            });
+        });
+    }
+
+    mesh_view surface_;
+    std::span<const std::uint8_t> sound_;
+    std::span<const std::uint32_t> near_;
+    union_find parts_;
+    std::vector<edge_use> uses_;
+};
 
 /// The surface as the arrangement that it is.
 mesh_arrangement as_arrangement(mesh_view surface) {
@@ -50,27 +218,13 @@ mesh_arrangement as_arrangement(mesh_view surface) {
 }  // namespace
 
 bool may_be_turned(mesh_view surface, std::span<const std::uint8_t> sound,
-                   std::span<const std::uint32_t> near) {
-    const std::size_t count = surface.faces.size();
+                   std::span<const std::uint32_t> near, double moved) {
     if (std::none_of(sound.begin(), sound.end(), [](std::uint8_t s) { return s != 0; }))
         return true;
-    std::vector<std::uint8_t> held(count, 1);  // by faces that are as they were
-    for (const std::uint32_t f : near) held[f] = 0;
-    const std::vector<edge_use> uses = edges_at(surface, near);
-    union_find parts(count);
-    for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-        while (end < uses.size() && uses[end].low == uses[begin].low &&
-               uses[end].high == uses[begin].high)
-            ++end;
-        if (end - begin == 1) held[uses[begin].face] = 1;
-        if (end - begin == 2) parts.join(uses[begin].face, uses[begin + 1].face);
-    }
-    std::vector<std::uint8_t> part_held(count, 0);
-    for (std::uint32_t f = 0; f < count; ++f)
-        if (held[f] != 0) part_held[parts.root(f)] = 1;
-    return std::any_of(near.begin(), near.end(), [&](std::uint32_t f) {
-        return sound[f] == 0 && part_held[parts.root(f)] == 0;
-    });
+    near_parts parts(surface, sound, near);
+    const auto loose = parts.loose();
+    return !loose.empty() &&
+           !(moved < std::numeric_limits<double>::infinity() && parts.are_as_before(loose, moved));
 }
 
 turned_faces find_turned_faces(mesh_view surface) {

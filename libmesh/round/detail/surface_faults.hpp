@@ -7,6 +7,7 @@
 #include <libtree/progress.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,9 +29,9 @@ struct surface_check {
     /// Whether the surface is to bound a solid: then edges count, those at which all faces are
     /// sound being known to be closed, and which side is inside.
     bool solid = true;
-    /// Whether faces that are not sound have been moved, by rounding, from where all faces had the
-    /// inside behind them.
-    bool moved = true;
+    /// How far, at most, rounding has moved points of faces that are not sound, in each coordinate,
+    /// from where all faces had the inside behind them; infinite where points have become one.
+    double moved = std::numeric_limits<double>::infinity();
     progress_callback progress{};
 };
 
