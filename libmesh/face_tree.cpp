@@ -7,7 +7,7 @@
 namespace tf {
 
 tree<3> face_tree(mesh_view mesh) {
-    detail::check_faces("tf::face_tree", mesh.points.size(), mesh.faces);
+    detail::check_faces("face_tree", mesh.points.size(), mesh.faces);
     return build(mesh.faces, [points = mesh.points](const face& f) {
         aabb<double, 3> box;
         double sum = 0.0;  // of zeros; NaN where a coordinate is NaN or infinite

@@ -4,6 +4,7 @@
 #include <libmesh/arrange/detail/patches.hpp>
 #include <libmesh/arrange/detail/radial_order.hpp>
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/first_bad.hpp>
 #include <libmesh/detail/union_find.hpp>
 #include <libtree/parallel.hpp>
 
@@ -18,6 +19,7 @@ namespace tf {
 namespace {
 
 using detail::face_side;
+using detail::first_bad;
 using detail::numbered_sets;
 using detail::surface_patches;
 
@@ -25,17 +27,6 @@ constexpr std::size_t grain = std::size_t{1} << 16;
 
 [[noreturn]] void refuse(const std::string& why) {
     throw std::invalid_argument("tf::find_cells: " + why);
-}
-
-/// Lowest i in [0, count) that `bad` holds for, or `count`.
-template <class Bad>
-std::size_t first_bad(std::size_t count, const Bad& bad) {
-    std::vector<std::size_t> first(chunk_count(count, grain), count);
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        for (std::size_t i = begin; i < end && first[chunk] == count; ++i)
-            if (bad(i)) first[chunk] = i;
-    });
-    return first.empty() ? count : *std::min_element(first.begin(), first.end());
 }
 
 void check(mesh_view mesh, const mesh_arrangement& cut,

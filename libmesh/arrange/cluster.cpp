@@ -1,4 +1,5 @@
 #include <libmesh/arrange/detail/cluster.hpp>
+#include <libmesh/arrange/detail/planar_box.hpp>
 #include <libmesh/arrange/detail/planar_triangulation.hpp>
 #include <libmesh/exact/predicates.hpp>
 #include <libmesh/geometry/detail/features.hpp>
@@ -194,33 +195,12 @@ class cutter {
                 [this](std::uint32_t line, std::uint32_t other) { return cross(line, other); }};
     }
 
-    /// A triangle that strictly holds all members in projection. With extents w and h of the box
-    /// and d = w + h, its legs are 6 d and the box needs 3 d; rounding moves a corner by no more
-    /// than an ulp of a coordinate, and d is at least one, as w and h are differences of doubles.
+    /// A triangle that strictly holds all members in projection.
     [[nodiscard]] std::array<point3, 3> frame() const {
-        const auto x = static_cast<std::size_t>((axis_ + 1) % 3);
-        const auto y = static_cast<std::size_t>((axis_ + 2) % 3);
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        std::array<double, 2> low = {infinity, infinity};
-        std::array<double, 2> high = {-infinity, -infinity};
+        planar_box box(axis_);
         for (const std::uint32_t f : in_.members)
-            for (const std::uint32_t c : corners(f)) {
-                const point3& p = in_.mesh.points[c];
-                low = {std::min(low[0], p[x]), std::min(low[1], p[y])};
-                high = {std::max(high[0], p[x]), std::max(high[1], p[y])};
-            }
-        const double d = (high[0] - low[0]) + (high[1] - low[1]);
-        const double left = std::nextafter(low[0] - d, -infinity);
-        const double bottom = std::nextafter(low[1] - d, -infinity);
-        std::array<point3, 3> result{};
-        for (point3& p : result) {
-            p[x] = left;
-            p[y] = bottom;
-        }
-        result[1][x] = left + 6.0 * d;
-        result[2][y] = bottom + 6.0 * d;
-        if (orientation_ < 0) std::swap(result[1], result[2]);
-        return result;
+            for (const std::uint32_t c : corners(f)) box.include(in_.mesh.points[c]);
+        return box.triangle_around(orientation_);
     }
 
     [[nodiscard]] constructed_point cross(std::uint32_t i, std::uint32_t j) const {

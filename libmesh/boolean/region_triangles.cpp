@@ -1,3 +1,4 @@
+#include <libmesh/arrange/detail/planar_box.hpp>
 #include <libmesh/arrange/detail/planar_triangulation.hpp>
 #include <libmesh/boolean/detail/region_triangles.hpp>
 #include <libmesh/exact/constructed_point.hpp>
@@ -105,31 +106,12 @@ class triangulator {
                           std::lower_bound(names.begin(), names.end(), side.line) - names.begin()));
     }
 
-    /// A triangle that strictly holds all points in projection. Its legs are 6 d for the sum d of
-    /// the extents of the box of the points' balls, which lies d away from its right angle.
+    /// A triangle that strictly holds all points in projection, wherever in their balls they are.
     [[nodiscard]] std::array<point3, 3> frame(const std::vector<constructed_point>& points) const {
-        const auto x = static_cast<std::size_t>((axis_ + 1) % 3);
-        const auto y = static_cast<std::size_t>((axis_ + 2) % 3);
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        std::array<double, 2> low{infinity, infinity}, high{-infinity, -infinity};
-        for (std::size_t i = frame_size; i < points.size(); ++i) {
-            const point3& p = points[i].centre();
-            const double r = 2 * points[i].radius();
-            low = {std::min(low[0], p[x] - r), std::min(low[1], p[y] - r)};
-            high = {std::max(high[0], p[x] + r), std::max(high[1], p[y] + r)};
-        }
-        const double d = (high[0] - low[0]) + (high[1] - low[1]);
-        const double left = std::nextafter(low[0] - d, -infinity);
-        const double bottom = std::nextafter(low[1] - d, -infinity);
-        std::array<point3, 3> result{};
-        for (point3& p : result) {
-            p[x] = left;
-            p[y] = bottom;
-        }
-        result[1][x] = left + 6.0 * d;
-        result[2][y] = bottom + 6.0 * d;
-        if (orientation_ < 0) std::swap(result[1], result[2]);
-        return result;
+        planar_box box(axis_);
+        for (std::size_t i = frame_size; i < points.size(); ++i)
+            box.include(points[i].centre(), 2 * points[i].radius());
+        return box.triangle_around(orientation_);
     }
 
     void force_rim(planar_triangulation& plane) {

@@ -1,3 +1,5 @@
+#include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/first_bad.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/intersect/detail/join_outputs.hpp>
 #include <libmesh/intersect/detail/pair_sieve.hpp>
@@ -21,32 +23,15 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Lowest i in [0, count) that `bad` holds for, or `count`.
-template <class Bad>
-std::size_t first_bad(std::size_t count, const Bad& bad) {
-    std::vector<std::size_t> first(chunk_count(count, grain), count);
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        for (std::size_t i = begin; i < end && first[chunk] == count; ++i)
-            if (bad(i)) first[chunk] = i;
-    });
-    return first.empty() ? count : *std::min_element(first.begin(), first.end());
-}
-
 void check(mesh_view mesh, const self_intersection_options& options) {
-    const auto refuse = [](const char* what, std::size_t i, const char* why) {
-        throw std::invalid_argument(std::string("tf::self_intersections: ") + what + " " +
-                                    std::to_string(i) + " " + why);
-    };
-    const std::size_t bad_face = first_bad(mesh.faces.size(), [&](std::size_t i) {
-        const face& f = mesh.faces[i];
-        return std::max({f[0], f[1], f[2]}) >= mesh.points.size();
-    });
-    if (bad_face != mesh.faces.size()) refuse("face", bad_face, "has a corner that is no point");
-    const std::size_t bad_point = first_bad(mesh.points.size(), [&](std::size_t i) {
+    detail::check_faces("self_intersections", mesh.points.size(), mesh.faces);
+    const std::size_t bad_point = detail::first_bad(mesh.points.size(), [&](std::size_t i) {
         const point3& p = mesh.points[i];
         return !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
     });
-    if (bad_point != mesh.points.size()) refuse("point", bad_point, "is not finite");
+    if (bad_point != mesh.points.size())
+        throw std::invalid_argument("tf::self_intersections: point " + std::to_string(bad_point) +
+                                    " is not finite");
     const std::size_t labels = options.component_of_face.size();
     if (labels != mesh.faces.size() && (labels != 0 || options.between || options.within))
         throw std::invalid_argument("tf::self_intersections: " + std::to_string(labels) +
@@ -55,7 +40,7 @@ void check(mesh_view mesh, const self_intersection_options& options) {
 }
 
 bool fits_filter(points_view points) {
-    return first_bad(points.size(), [&](std::size_t i) {
+    return detail::first_bad(points.size(), [&](std::size_t i) {
                const point3& p = points[i];
                return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <=
                         detail::largest_filtered_coordinate);
