@@ -8,6 +8,8 @@
 #include <libtree/transform.hpp>
 
 #include <doctest/doctest.h>
+#include <support/certified.hpp>
+#include <support/models.hpp>
 #include <support/solid_checks.hpp>
 #include <support/truth.hpp>
 
@@ -25,17 +27,6 @@ tf::mesh read(const std::filesystem::path& path, const tf::transform<3>& by) {
     return mesh;
 }
 
-double area(const tf::mesh& mesh) {
-    double sum = 0.0;
-    for (const auto& [a, b, c] : mesh.faces) {
-        const auto& p = mesh.points;
-        const tf::point3 u{p[b].x - p[a].x, p[b].y - p[a].y, p[b].z - p[a].z};
-        const tf::point3 v{p[c].x - p[a].x, p[c].y - p[a].y, p[c].z - p[a].z};
-        sum += std::hypot(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x) / 2;
-    }
-    return sum;
-}
-
 /// As `boolean_options::sound_operands` wants it; of a mesh whose volume is positive, part by part.
 bool is_sound(const tf::mesh& mesh) {
     if (!test::is_clean_solid(mesh)) return false;
@@ -48,11 +39,8 @@ bool is_sound(const tf::mesh& mesh) {
 }  // namespace
 
 TEST_CASE("truth: every boolean of every pair of files has the volume of the exact kernel") {
-    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
-    if (folder.empty()) {
-        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
-        return;
-    }
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
     struct question {
         const char* column;
         const char* formula;
@@ -92,7 +80,7 @@ TEST_CASE("truth: every boolean of every pair of files has the volume of the exa
             // sqrt(3) m at most, but for terms of m^2; the truth itself is cut to double.
             const double volume = row.real(q.column);
             const double most =
-                2.0 * result.max_move * area(result.surface) + 0x1p-50 * std::abs(volume);
+                2.0 * result.max_move * test::area(result.surface) + 0x1p-50 * std::abs(volume);
             CHECK(std::abs(tf::signed_volume(result.surface) - volume) <= most);
         }
     }

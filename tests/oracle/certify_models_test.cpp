@@ -16,6 +16,7 @@
 
 #include <doctest/doctest.h>
 #include <support/certified.hpp>
+#include <support/models.hpp>
 #include <support/truth.hpp>
 
 #include <array>
@@ -23,7 +24,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -88,16 +88,11 @@ void repair_in_all_ways(const tf::mesh& mesh, const std::string& file,
 }  // namespace
 
 TEST_CASE("models: repaired in three ways, nearly all can be written") {
-    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
-    if (folder.empty()) {
-        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
-        return;
-    }
-    std::set<std::string> files;
-    for (const test::truth_row& row : test::read_truth(folder / "TRUTH.csv"))
-        if (is_asked(row.text("file"))) files.insert(row.text("file"));
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
     test::certified_tally tally("models");
-    for (const std::string& file : files) {
+    for (const std::string& file : test::files_with_truth(folder)) {
+        if (!is_asked(file)) continue;
         const tf::mesh mesh = read(folder / file);
         if (!mesh.faces.empty() && mesh.faces.size() <= most_faces())
             repair_in_all_ways(mesh, file, tally);
@@ -107,11 +102,8 @@ TEST_CASE("models: repaired in three ways, nearly all can be written") {
 }
 
 TEST_CASE("models: set operations on pairs, nearly all can be written") {
-    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
-    if (folder.empty()) {
-        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
-        return;
-    }
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
     test::certified_tally tally("pairs");
     for (const test::truth_row& row : test::read_truth(folder / "TRUTH_PAIRS.csv")) {
         if (row.text("transform") == "exact" || !is_asked(row.text("pair"))) continue;

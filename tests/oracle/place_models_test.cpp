@@ -14,6 +14,7 @@
 #include <libmesh/weld/equal_points.hpp>
 
 #include <doctest/doctest.h>
+#include <support/models.hpp>
 #include <support/truth.hpp>
 
 #include <algorithm>
@@ -66,11 +67,8 @@ tf::mesh dropped(tf::mesh a, double way, bool to_single) {
 }  // namespace
 
 TEST_CASE("models: what is dropped on another stops outside of it, and not an ulp before") {
-    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
-    if (folder.empty()) {
-        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
-        return;
-    }
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
     std::set<std::array<std::string, 2>> seen;
     int placed = 0, touching = 0;
     for (const test::truth_row& row : test::read_truth(folder / "TRUTH_PAIRS.csv")) {
@@ -113,11 +111,8 @@ TEST_CASE("models: what is dropped on another stops outside of it, and not an ul
 }
 
 TEST_CASE("models: fifty parts on a plate keep their distance, and those left out are named") {
-    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
-    if (folder.empty()) {
-        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
-        return;
-    }
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
     // Fifty parts of moderate size, some of them twice, at sizes from 32 to 64.
     std::set<std::string> files;
     for (const test::truth_row& row : test::read_truth(folder / "TRUTH_PAIRS.csv"))

@@ -12,6 +12,7 @@
 #include <libtree/transform.hpp>
 
 #include <doctest/doctest.h>
+#include <support/models.hpp>
 #include <support/truth.hpp>
 
 #include <algorithm>
@@ -48,11 +49,8 @@ double between(const tf::point3& p, const tf::point3& q) {
 }  // namespace
 
 TEST_CASE("truth: every distance of every pair of files is that of the exact kernel") {
-    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
-    if (folder.empty()) {
-        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
-        return;
-    }
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
     int rows = 0, apart = 0, exactly = 0;
     for (const test::truth_row& row : test::read_truth(folder / "TRUTH_PAIRS.csv")) {
         if (row.text("transform") == "exact") continue;  // of points that are no doubles

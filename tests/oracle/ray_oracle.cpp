@@ -15,6 +15,7 @@
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <doctest/doctest.h>
+#include <support/models.hpp>
 #include <support/random.hpp>
 #include <support/soups.hpp>
 #include <support/stress_families.hpp>
@@ -133,15 +134,12 @@ void check_points(const tf::mesh& mesh, std::uint64_t seed) {
 }
 
 TEST_CASE("points lie on the side of a closed model on which CGAL's exact kernel sees them") {
-    if (std::string(TREEFORM_MODELS_DIR).empty()) {
-        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
-        return;
-    }
+    const std::filesystem::path all_models = test::models_folder();
+    if (all_models.empty()) return;
     int models = 0;
     std::vector<std::filesystem::path> files;
     for (const char* folder : {"clean", "cad"})  // closed ones that do not meet themselves
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(
-                 std::filesystem::path(TREEFORM_MODELS_DIR) / folder))
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(all_models / folder))
             if (entry.is_regular_file()) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const auto& path : files) {

@@ -15,15 +15,14 @@
 #include <libmesh/weld/equal_points.hpp>
 
 #include <doctest/doctest.h>
+#include <support/models.hpp>
 #include <support/random.hpp>
 #include <support/solid_checks.hpp>
-#include <support/truth.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -61,16 +60,10 @@ std::size_t wrong_points(const tf::mesh& mesh, const tf::mesh& repaired) {
 }  // namespace
 
 TEST_CASE("models: the outer surface of whatever passes through itself") {
-    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
-    if (folder.empty()) {
-        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
-        return;
-    }
-    std::set<std::string> files;
-    for (const test::truth_row& row : test::read_truth(folder / "TRUTH.csv"))
-        files.insert(row.text("file"));
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
     std::size_t asked = 0, certified = 0;
-    for (const std::string& file : files) {
+    for (const std::string& file : test::files_with_truth(folder)) {
         CAPTURE(file);
         tf::mesh mesh;
         try {

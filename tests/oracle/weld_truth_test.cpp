@@ -7,6 +7,7 @@
 #include <libmesh/weld/weld_points.hpp>
 
 #include <doctest/doctest.h>
+#include <support/models.hpp>
 #include <support/truth.hpp>
 
 #include <algorithm>
@@ -48,11 +49,8 @@ std::int64_t largest_group(const std::vector<tf::point3>& points, const tf::poin
 }  // namespace
 
 TEST_CASE("truth: chains are as many as an exact kernel found, by every search") {
-    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
-    if (folder.empty()) {
-        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
-        return;
-    }
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
     int figures = 0;
     for (const test::truth_row& row : test::read_truth(folder / "TRUTH.csv")) {
         if (row.text("status") != "ok") continue;

@@ -46,12 +46,6 @@ tf::mesh shaken(tf::mesh mesh, random& source, double by) {
     return mesh;
 }
 
-tf::mesh lattice_box(random& source) {
-    const tf::mesh at_origin =
-        box(1 + whole(source, 3), 1 + whole(source, 3), 1 + whole(source, 3));
-    return moved(at_origin, {whole(source, 4), whole(source, 4), whole(source, 4)});
-}
-
 solid_case turned_alike(solid_case made, random& source) {
     const tf::point3 axis = random_axis(source);
     const double angle = source.in(0, 3);
@@ -105,9 +99,9 @@ solid_case tetrahedra(std::size_t number, random& source) {
 template <class Height>
 tf::mesh landscape(std::uint32_t side, const Height& height) {
     const tf::mesh sheet = grid(side);
-    tf::mesh top = sheet, bottom = moved(sheet, {0, 0, -1});
+    tf::mesh top = sheet;
+    const tf::mesh bottom = inside_out(moved(sheet, {0, 0, -1}));
     for (tf::point3& p : top.points) p.z = height(p.x, p.y);
-    for (tf::face& f : bottom.faces) std::swap(f[1], f[2]);
     const auto under = static_cast<std::uint32_t>(sheet.points.size());
     tf::mesh solid = together(std::move(top), bottom);
     const auto wall = [&](std::uint32_t a, std::uint32_t b) {
@@ -248,19 +242,6 @@ solid_case heaps(std::size_t number, random& source) {
 }
 
 }  // namespace
-
-tf::mesh turned(tf::mesh mesh, const tf::point3& axis, double angle) {
-    const double length = std::hypot(axis.x, axis.y, axis.z);
-    const tf::point3 u{axis.x / length, axis.y / length, axis.z / length};
-    const double c = std::cos(angle), s = std::sin(angle);
-    for (tf::point3& p : mesh.points) {
-        const double along = (u.x * p.x + u.y * p.y + u.z * p.z) * (1 - c);
-        p = {p.x * c + (u.y * p.z - u.z * p.y) * s + u.x * along,
-             p.y * c + (u.z * p.x - u.x * p.z) * s + u.y * along,
-             p.z * c + (u.x * p.y - u.y * p.x) * s + u.z * along};
-    }
-    return mesh;
-}
 
 tf::point3 random_axis(random& source) {
     for (;;) {

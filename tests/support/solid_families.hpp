@@ -43,8 +43,6 @@ struct solid_family {
 /// heaps         operands that overlap themselves, corners off by an ulp
 [[nodiscard]] std::span<const solid_family> solid_families();
 
-/// Turned about an axis through the origin, in doubles.
-[[nodiscard]] tf::mesh turned(tf::mesh mesh, const tf::point3& axis, double angle);
 /// An axis of any direction.
 [[nodiscard]] tf::point3 random_axis(random& source);
 

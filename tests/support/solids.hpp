@@ -4,6 +4,8 @@
 
 #include <libmesh/mesh.hpp>
 
+#include <support/random.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -22,6 +24,15 @@ inline tf::mesh box(double x, double y, double z) {
             {(i & 1) != 0 ? x : 0.0, (i & 2) != 0 ? y : 0.0, (i & 4) != 0 ? z : 0.0});
     mesh.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    return mesh;
+}
+
+/// A box with corners on a small lattice: of several, all sorts of contact.
+inline tf::mesh lattice_box(random& source) {
+    const auto whole = [&](std::size_t n) { return static_cast<double>(source.below(n)); };
+    tf::mesh mesh = box(1 + whole(3), 1 + whole(3), 1 + whole(3));
+    const tf::point3 by{whole(4), whole(4), whole(4)};
+    for (tf::point3& p : mesh.points) p = {p.x + by.x, p.y + by.y, p.z + by.z};
     return mesh;
 }
 

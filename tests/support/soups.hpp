@@ -6,8 +6,10 @@
 
 #include <support/random.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace test {
@@ -81,6 +83,26 @@ inline tf::mesh moved(tf::mesh mesh, const tf::point3& by) {
 
 inline tf::mesh scaled(tf::mesh mesh, double by) {
     for (tf::point3& p : mesh.points) p = {p.x * by, p.y * by, p.z * by};
+    return mesh;
+}
+
+/// Turned about an axis through the origin, in doubles.
+inline tf::mesh turned(tf::mesh mesh, const tf::point3& axis, double angle) {
+    const double length = std::hypot(axis.x, axis.y, axis.z);
+    const tf::point3 u{axis.x / length, axis.y / length, axis.z / length};
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (tf::point3& p : mesh.points) {
+        const double along = (u.x * p.x + u.y * p.y + u.z * p.z) * (1 - c);
+        p = {p.x * c + (u.y * p.z - u.z * p.y) * s + u.x * along,
+             p.y * c + (u.z * p.x - u.x * p.z) * s + u.y * along,
+             p.z * c + (u.x * p.y - u.y * p.x) * s + u.z * along};
+    }
+    return mesh;
+}
+
+/// With what was inside outside: each face the other way round.
+inline tf::mesh inside_out(tf::mesh mesh) {
+    for (tf::face& f : mesh.faces) std::swap(f[1], f[2]);
     return mesh;
 }
 

@@ -26,8 +26,11 @@
 namespace {
 
 using test::box;
+using test::inside_out;
+using test::lattice_box;
 using test::moved;
 using test::together;
+using test::turned;
 using tf::boolean_expression;
 
 std::vector<tf::mesh_view> views_of(const std::vector<tf::mesh>& meshes) {
@@ -69,36 +72,11 @@ std::array<double, 5> volumes(const tf::mesh& a, const tf::mesh& b) {
 
 using five = std::array<double, 5>;
 
-tf::mesh turned(tf::mesh mesh) {
-    for (tf::face& f : mesh.faces) std::swap(f[1], f[2]);
-    return mesh;
-}
-
-/// Turned about an axis through the origin by an angle that no double holds.
-tf::mesh rotated(tf::mesh mesh, const tf::point3& axis, double angle) {
-    const double length = std::hypot(axis.x, axis.y, axis.z);
-    const tf::point3 u{axis.x / length, axis.y / length, axis.z / length};
-    const double c = std::cos(angle), s = std::sin(angle);
-    for (tf::point3& p : mesh.points) {
-        const double along = (u.x * p.x + u.y * p.y + u.z * p.z) * (1 - c);
-        p = {p.x * c + (u.y * p.z - u.z * p.y) * s + u.x * along,
-             p.y * c + (u.z * p.x - u.x * p.z) * s + u.y * along,
-             p.z * c + (u.x * p.y - u.y * p.x) * s + u.z * along};
-    }
-    return mesh;
-}
-
 tf::mesh random_box(test::random& source) {
     const tf::mesh b = box(source.in(0.5, 1.5), source.in(0.5, 1.5), source.in(0.5, 1.5));
     const tf::point3 axis{source.in(-1, 1), source.in(-1, 1), source.in(0.1, 1)};
-    return moved(rotated(b, axis, source.in(0, 3)),
+    return moved(turned(b, axis, source.in(0, 3)),
                  {source.in(-0.7, 0.7), source.in(-0.7, 0.7), source.in(-0.7, 0.7)});
-}
-
-/// A box with corners on a small lattice: all sorts of contact.
-tf::mesh lattice_box(test::random& source) {
-    const auto whole = [&](std::size_t n) { return static_cast<double>(source.below(n)); };
-    return moved(box(1 + whole(3), 1 + whole(3), 1 + whole(3)), {whole(4), whole(4), whole(4)});
 }
 
 /// Volume by counting unit cells.
@@ -220,7 +198,7 @@ TEST_CASE("boolean: many turned boxes at once give what one after the other give
 
 TEST_CASE("boolean: a result is an operand again, many times over") {
     tf::mesh row = box(1, 1, 1);
-    const tf::mesh tile = rotated(box(1.1, 1, 1), {1, 0, 0}, 0.01);
+    const tf::mesh tile = turned(box(1.1, 1, 1), {1, 0, 0}, 0.01);
     for (int k = 1; k < 12; ++k) row = solid_of({row, moved(tile, {k * 1.0, 0, 0})}, "a+b");
     CHECK(tf::count_topology(row.points.size(), row.faces).components_by_point == 1);
 }
@@ -234,11 +212,12 @@ TEST_CASE("boolean: what is inside follows the rule") {
     CHECK(volume(twice, tf::inside_rule::nonzero) == 12.0);
     CHECK(volume(twice, tf::inside_rule::positive) == 12.0);
     CHECK(volume(twice, tf::inside_rule::odd) == 8.0);
-    const std::vector<tf::mesh> inside_out{turned(b)};
-    CHECK(volume(inside_out, tf::inside_rule::nonzero) == 8.0);
-    CHECK(volume(inside_out, tf::inside_rule::positive) == 0.0);
-    CHECK(volume(inside_out, tf::inside_rule::odd) == 8.0);
-    const std::vector<tf::mesh> cavity{together(b, moved(turned(box(1, 1, 1)), {0.5, 0.5, 0.5}))};
+    const std::vector<tf::mesh> turned_out{inside_out(b)};
+    CHECK(volume(turned_out, tf::inside_rule::nonzero) == 8.0);
+    CHECK(volume(turned_out, tf::inside_rule::positive) == 0.0);
+    CHECK(volume(turned_out, tf::inside_rule::odd) == 8.0);
+    const std::vector<tf::mesh> cavity{
+        together(b, moved(inside_out(box(1, 1, 1)), {0.5, 0.5, 0.5}))};
     CHECK(volume(cavity, tf::inside_rule::nonzero) == 7.0);
     const std::vector<tf::mesh> both_outward{together(b, moved(box(1, 1, 1), {0.5, 0.5, 0.5}))};
     CHECK(volume(both_outward, tf::inside_rule::nonzero) == 8.0);
@@ -296,7 +275,7 @@ TEST_CASE("boolean: surfaces that nearly coincide are mended until they are cert
     const tf::mesh ball = test::ball(3, 1.0);
     for (const double angle : {1e-3, 1e-9, 1e-14, 3e-16}) {
         CAPTURE(angle);
-        const tf::mesh other = rotated(ball, {1, 2, 3}, angle);
+        const tf::mesh other = turned(ball, {1, 2, 3}, angle);
         const double v = tf::signed_volume(ball);
         CHECK(volume_of({ball, other}, "a+b") >= v * (1 - 1e-12));
         CHECK(volume_of({ball, other}, "a*b") <= v * (1 + 1e-12));
@@ -313,7 +292,7 @@ TEST_CASE("boolean: turned boxes whose faces lie in each other's planes are mend
         const double angle = source.in(0, 3);
         for (int k = 0; k < 4; ++k) {
             boxes.push_back(lattice_box(source));
-            turned_boxes.push_back(rotated(boxes.back(), axis, angle));
+            turned_boxes.push_back(turned(boxes.back(), axis, angle));
         }
         const double volume =
             lattice_volume(boxes, [](const auto& in) { return in[0] || in[1] || in[2] || in[3]; });
@@ -334,7 +313,7 @@ TEST_CASE("boolean: a wall of turned bricks grows brick by brick") {
         CAPTURE(k);
         const auto whole = [&](std::size_t n) { return static_cast<double>(source.below(n)); };
         const tf::mesh brick =
-            rotated(moved(box(1 + whole(2), 1, 1), {whole(6) / 2, whole(4), whole(5)}), axis, 0.7);
+            turned(moved(box(1 + whole(2), 1, 1), {whole(6) / 2, whole(4), whole(5)}), axis, 0.7);
         const double common = volume_of({wall, brick}, "a*b");
         const double sum = tf::signed_volume(wall) + tf::signed_volume(brick);
         wall = solid_of({wall, brick}, "a+b");
@@ -437,15 +416,15 @@ TEST_CASE("boolean: progress never goes back") {
         return true;
     };
     const tf::mesh ball = test::ball(4, 1.0);
-    static_cast<void>(evaluate({ball, rotated(ball, {1, 2, 3}, 3e-16)}, "a+b", {.progress = told}));
+    static_cast<void>(evaluate({ball, turned(ball, {1, 2, 3}, 3e-16)}, "a+b", {.progress = told}));
     CHECK(rising);
 }
 
 TEST_CASE("boolean: the same bytes on any number of threads") {
     const tf::mesh ball = test::ball(4, 1.0);
-    const std::vector<tf::mesh> meshes{ball, rotated(moved(ball, {0.5, 0, 0}), {1, 2, 3}, 0.7),
+    const std::vector<tf::mesh> meshes{ball, turned(moved(ball, {0.5, 0, 0}), {1, 2, 3}, 0.7),
                                        moved(box(1, 1, 1), {-0.5, -0.5, -0.5})};
-    const std::vector<tf::mesh> nearly{ball, rotated(ball, {1, 2, 3}, 3e-16)};
+    const std::vector<tf::mesh> nearly{ball, turned(ball, {1, 2, 3}, 3e-16)};
     const tf::solid_result expected = evaluate(meshes, "a+b-c");
     const tf::solid_result mended = evaluate(nearly, "a+b");
     CHECK(mended.rounding_steps > 0);

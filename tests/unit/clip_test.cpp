@@ -181,8 +181,7 @@ TEST_CASE("boolean: the volumes of two operands and of what they make") {
     const tf::mesh twice = together(b, moved(b, {1, 0, 0}));
     CHECK(volumes(twice, b).first == 12.0);
     CHECK(volumes(twice, b, tf::inside_rule::odd).first == 8.0);
-    tf::mesh turned = b;
-    for (tf::face& f : turned.faces) std::swap(f[1], f[2]);
+    const tf::mesh turned = test::inside_out(b);
     CHECK(volumes(b, turned).second == 8.0);
     CHECK(volumes(b, turned, tf::inside_rule::positive).second == 0.0);
     const std::vector<tf::mesh_view> three{b, b, b};

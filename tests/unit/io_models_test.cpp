@@ -4,50 +4,24 @@
 #include <libmesh/io/write.hpp>
 
 #include <doctest/doctest.h>
+#include <support/models.hpp>
+#include <support/truth.hpp>
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
 namespace {
 
-using row = std::map<std::string, std::string>;
-
-std::vector<std::string> split_csv(const std::string& line) {
-    std::vector<std::string> cells(1);
-    bool quoted = false;
-    for (const char c : line) {
-        if (c == '"')
-            quoted = !quoted;
-        else if (c == ',' && !quoted)
-            cells.emplace_back();
-        else if (c != '\r')
-            cells.back() += c;
-    }
-    return cells;
-}
-
-/// One row a file: what a reader of doubles sees.
-std::vector<row> truth() {
-    std::ifstream in(std::filesystem::path(TREEFORM_MODELS_DIR) / "TRUTH.csv");
-    std::vector<row> rows;
-    std::vector<std::string> names;
-    for (std::string line; std::getline(in, line);) {
-        if (line.empty() || line[0] == '#') continue;
-        const auto cells = split_csv(line);
-        if (names.empty()) {
-            names = cells;
-            continue;
-        }
-        row r;
-        for (std::size_t i = 0; i < names.size() && i < cells.size(); ++i) r[names[i]] = cells[i];
-        if (r["precision"] != "f32") rows.push_back(std::move(r));
-    }
+/// One row a file: what a reader of doubles sees. None without models.
+std::vector<test::truth_row> truth(const std::filesystem::path& folder) {
+    if (folder.empty()) return {};
+    std::vector<test::truth_row> rows = test::read_truth(folder / "TRUTH.csv");
+    std::erase_if(rows, [](const auto& row) { return row.text("precision") == "f32"; });
     return rows;
 }
 
@@ -69,18 +43,14 @@ tf::mesh_file reread(const std::string& bytes, const char* name) {
 }  // namespace
 
 TEST_CASE("models: counts are those of the truth, and malformed files are refused with a reason") {
-    const auto rows = std::string(TREEFORM_MODELS_DIR).empty() ? std::vector<row>() : truth();
-    if (rows.empty()) {
-        MESSAGE("no TREEFORM_MODELS_DIR: skipped");
-        return;
-    }
-    for (row r : rows) {
-        const auto path = std::filesystem::path(TREEFORM_MODELS_DIR) / r["file"];
+    const std::filesystem::path folder = test::models_folder();
+    for (const test::truth_row& r : truth(folder)) {
+        const auto path = folder / r.text("file");
         CAPTURE(path.string());
-        if (r["status"] == "malformed") {
+        if (r.text("status") == "malformed") {
             try {
                 (void)tf::read_mesh(path);
-                FAIL("read without complaint; wrong is: " << r["note"]);
+                FAIL("read without complaint; wrong is: " << r.text("note"));
             } catch (const tf::io_error& e) {
                 const std::string what = e.what();
                 CHECK(what.starts_with(path.string() + ":"));
@@ -89,28 +59,24 @@ TEST_CASE("models: counts are those of the truth, and malformed files are refuse
             continue;
         }
         const tf::mesh_file file = tf::read_mesh(path);
-        CHECK(file.format == r["format"]);
-        CHECK(file.mesh.points.size() == std::stoull(r["vertices_stored"]));
-        CHECK(file.stored_faces == std::stoull(r["faces_stored"]));
-        CHECK(file.mesh.faces.size() == std::stoull(r["triangles"]));
-        CHECK((file.stored_as == tf::precision::single_) == (r["precision"] == "exact"));
+        CHECK(file.format == r.text("format"));
+        CHECK(file.mesh.points.size() == static_cast<std::size_t>(r.number("vertices_stored")));
+        CHECK(file.stored_faces == static_cast<std::size_t>(r.number("faces_stored")));
+        CHECK(file.mesh.faces.size() == static_cast<std::size_t>(r.number("triangles")));
+        CHECK((file.stored_as == tf::precision::single_) == (r.text("precision") == "exact"));
         CHECK(file.indexed == !file.format.starts_with("stl"));
         std::size_t nonfinite = 0;
         for (const auto& p : file.mesh.points)
             nonfinite += std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) ? 0U : 1U;
-        CHECK(nonfinite == std::stoull(r["nonfinite_vertices"]));
+        CHECK(nonfinite == static_cast<std::size_t>(r.number("nonfinite_vertices")));
     }
 }
 
 TEST_CASE("models: what was read comes back bit for bit from every format that can hold it") {
-    const auto rows = std::string(TREEFORM_MODELS_DIR).empty() ? std::vector<row>() : truth();
-    if (rows.empty()) {
-        MESSAGE("no TREEFORM_MODELS_DIR: skipped");
-        return;
-    }
-    for (row r : rows) {
-        if (r["status"] == "malformed") continue;
-        const auto path = std::filesystem::path(TREEFORM_MODELS_DIR) / r["file"];
+    const std::filesystem::path folder = test::models_folder();
+    for (const test::truth_row& r : truth(folder)) {
+        if (r.text("status") == "malformed") continue;
+        const auto path = folder / r.text("file");
         const tf::mesh_file file = tf::read_mesh(path);
         for (const char* const format : {"ply", "off", "obj"}) {
             for (const bool ascii : {false, true}) {
@@ -139,9 +105,10 @@ TEST_CASE("models: what was read comes back bit for bit from every format that c
 }
 
 TEST_CASE("models: scenes come with a part for each node that shows triangles") {
-    const auto folder = std::filesystem::path(TREEFORM_MODELS_DIR) / "scene";
-    if (std::string(TREEFORM_MODELS_DIR).empty() ||
-        !std::filesystem::exists(folder / "nested.glb")) {
+    const std::filesystem::path models = test::models_folder();
+    const auto folder = models / "scene";
+    if (models.empty()) return;
+    if (!std::filesystem::exists(folder / "nested.glb")) {
         MESSAGE("no scenes: skipped");
         return;
     }

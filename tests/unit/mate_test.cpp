@@ -8,11 +8,11 @@
 #include <support/random.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
+#include <support/still_parts.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <deque>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -21,25 +21,13 @@ namespace {
 
 using test::box;
 using test::moved;
+using test::still_parts;
 using tf::mesh_relation;
-
-/// Parts and their trees, kept together.
-struct surroundings {
-    std::deque<tf::mesh> meshes;
-    std::deque<tf::tree<3>> trees;
-    std::vector<tf::still_part> parts;
-
-    void add(const tf::mesh& mesh) {
-        meshes.push_back(mesh);
-        trees.push_back(tf::face_tree(meshes.back()));
-        parts.push_back({meshes.back(), &trees.back()});
-    }
-};
 
 }  // namespace
 
 TEST_CASE("mate: a corner comes to a corner, or to the clearance from it") {
-    surroundings among;
+    still_parts among;
     among.add(moved(box(1, 1, 1), {90, 0, 0}));
     among.add(box(4, 4, 1));
     const tf::mesh a = moved(box(1, 1, 1), {7, 8, 1});
@@ -58,7 +46,7 @@ TEST_CASE("mate: a corner comes to a corner, or to the clearance from it") {
 }
 
 TEST_CASE("mate: of nothing there is no way, and what meets stays") {
-    surroundings among;
+    still_parts among;
     const tf::mesh a = box(1, 1, 1);
     const tf::tree<3> tree = tf::face_tree(a);
     CHECK_FALSE(tf::mate(a, tree, among.parts).has_value());
@@ -85,7 +73,7 @@ TEST_CASE("mate: of nothing there is no way, and what meets stays") {
 TEST_CASE("mate: the place settles at the part that is nearest of all, and penetrates none") {
     test::random source(3);
     for (int round = 0; round < 20; ++round) {
-        surroundings among;
+        still_parts among;
         for (int i = 0; i < 5; ++i)
             among.add(moved(test::ball(1, 0.3 + 0.3 * source.unit()),
                             {source.in(-4, 4), source.in(-4, 4), source.in(-4, 4)}));
@@ -104,7 +92,7 @@ TEST_CASE("mate: the place settles at the part that is nearest of all, and penet
 }
 
 TEST_CASE("mate: progress goes from 0 to 1, a stop is heard, threads change nothing") {
-    surroundings among;
+    still_parts among;
     among.add(test::ball(3, 1.0));
     among.add(moved(test::ball(3, 1.0), {5, 0, 0}));
     const tf::mesh a = moved(test::ball(3, 0.5), {2.25, 0.25, 3.0});

@@ -18,6 +18,7 @@
 namespace {
 
 using test::box;
+using test::inside_out;
 using test::moved;
 using test::together;
 using tf::mesh_relation;
@@ -31,11 +32,6 @@ mesh_relation between(const tf::mesh& a, const tf::mesh& b) {
 }
 
 /// Inside out.
-tf::mesh turned(tf::mesh mesh) {
-    for (tf::face& f : mesh.faces) std::swap(f[1], f[2]);
-    return mesh;
-}
-
 }  // namespace
 
 TEST_CASE("relation: boxes that are apart, touch in every way, or penetrate by an ulp") {
@@ -60,7 +56,7 @@ TEST_CASE("relation: a body in a solid is inside it, in a cavity it is not") {
     CHECK(inside.relation == mesh_relation::penetrating);
     CHECK(inside.a_inside_b);
     CHECK_FALSE(inside.b_inside_a);
-    const tf::mesh hollow = together(big, turned(moved(box(4, 4, 4), {4, 4, 4})));
+    const tf::mesh hollow = together(big, inside_out(moved(box(4, 4, 4), {4, 4, 4})));
     CHECK(between(small, hollow) == mesh_relation::separate);
     CHECK(between(moved(box(1, 1, 1), {4, 5, 5}), hollow) == mesh_relation::touching);
     CHECK(between(moved(box(1, 1, 1), {3.5, 5, 5}), hollow) == mesh_relation::penetrating);

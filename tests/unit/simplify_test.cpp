@@ -85,19 +85,12 @@ std::size_t spare_points(const tf::mesh& mesh) {
 }
 
 /// A box with corners on a small lattice: all sorts of contact.
-tf::mesh lattice_box(test::random& source) {
-    const auto whole = [&](std::size_t n) { return static_cast<double>(source.below(n)); };
-    return moved(box(1 + whole(3), 1 + whole(3), 1 + whole(3)), {whole(4), whole(4), whole(4)});
-}
-
 tf::mesh random_tetrahedron(test::random& source) {
     tf::mesh mesh;
     for (int i = 0; i < 4; ++i)
         mesh.points.push_back({source.in(-1, 1), source.in(-1, 1), source.in(-1, 1)});
     mesh.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-    if (tf::signed_volume(mesh) < 0)
-        for (tf::face& f : mesh.faces) std::swap(f[1], f[2]);
-    return mesh;
+    return tf::signed_volume(mesh) < 0 ? test::inside_out(mesh) : mesh;
 }
 
 /// With each face cut in four `levels` times, where halves are exact.
@@ -169,7 +162,7 @@ TEST_CASE("simplify: of lattice boxes by any formula, the same volume and nothin
     for (int round = 0; round < 25; ++round) {
         CAPTURE(round);
         std::vector<tf::mesh> boxes;
-        for (int k = 0; k < 4; ++k) boxes.push_back(lattice_box(source));
+        for (int k = 0; k < 4; ++k) boxes.push_back(test::lattice_box(source));
         for (const char* text : {"a+b+c+d", "(a-b)*(c+d)", "a^b^c^d"}) {
             CAPTURE(text);
             const tf::mesh solid = simplified(boxes, text);
@@ -244,7 +237,7 @@ TEST_CASE("simplify: nothing, and one thread or many") {
     CHECK(evaluate({box(1, 1, 1), box(1, 1, 1)}, "a-b", {.simplify = true}).surface == tf::mesh{});
     test::random source(33);
     std::vector<tf::mesh> boxes;
-    for (int k = 0; k < 12; ++k) boxes.push_back(refined(lattice_box(source), 3));
+    for (int k = 0; k < 12; ++k) boxes.push_back(refined(test::lattice_box(source), 3));
     const std::string text = "a+b+c+d-e-f-g+h+i-j+k-l";
     const tf::solid_result expected = evaluate(boxes, text, {.simplify = true});
     CHECK(expected.certified);

@@ -8,10 +8,10 @@
 #include <support/random.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
+#include <support/still_parts.hpp>
 
 #include <cmath>
 #include <cstddef>
-#include <deque>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -20,21 +20,9 @@ namespace {
 
 using test::box;
 using test::moved;
+using test::still_parts;
 using tf::mesh_relation;
 using tf::motion_end;
-
-/// Parts and their trees, kept together.
-struct surroundings {
-    std::deque<tf::mesh> meshes;
-    std::deque<tf::tree<3>> trees;
-    std::vector<tf::still_part> parts;
-
-    void add(const tf::mesh& mesh) {
-        meshes.push_back(mesh);
-        trees.push_back(tf::face_tree(meshes.back()));
-        parts.push_back({meshes.back(), &trees.back()});
-    }
-};
 
 tf::mesh_approach approach(const tf::mesh& a, const tf::mesh& b, const tf::point3& motion,
                            double distance, const tf::first_approach_options& options = {}) {
@@ -97,7 +85,7 @@ TEST_CASE("first approach: before the time the meshes are apart by the distance,
 
 TEST_CASE("slide: the first of several parts ends it, all that are met at once are named") {
     const tf::mesh a = moved(box(6, 1, 1), {0, 0, 9});
-    surroundings among;
+    still_parts among;
     among.add(box(1, 1, 2));
     among.add(moved(box(1, 1, 3), {2, 0, 0}));
     among.add(moved(box(1, 1, 3), {4, 0, 0}));
@@ -129,7 +117,7 @@ TEST_CASE("settle among: what is written neither penetrates nor is nearer than t
     std::size_t stepped_back = 0;
     for (int round = 0; round < 40; ++round) {
         const double far = round % 2 == 0 ? 0.0 : 1e3;
-        surroundings among;
+        still_parts among;
         for (int i = 0; i < 3; ++i)
             among.add(moved(test::ball(2, 0.3 + source.unit()),
                             {source.in(-1, 1) + far, source.in(-1, 1), source.in(-0.5, 0.5)}));
@@ -174,7 +162,7 @@ TEST_CASE("settle among: the lowest points come to lie on the floor exactly") {
 }
 
 TEST_CASE("settle among: forward it backs off to later times") {
-    surroundings among;
+    still_parts among;
     among.add(box(1, 1, 1));
     const tf::mesh a = moved(box(1, 1, 1), {0.25, 0.25, 0.25});
     const auto out = tf::settle_among(a, among.parts, {0, 0, 1}, 0.75 - 0x1p-52, {.forward = true});

@@ -64,11 +64,6 @@ tf::mesh rotated(tf::mesh mesh, double angle) {
     return mesh;
 }
 
-tf::mesh lattice_box(test::random& source) {
-    const auto whole = [&](std::size_t n) { return static_cast<double>(source.below(n)); };
-    return moved(box(1 + whole(3), 1 + whole(3), 1 + whole(3)), {whole(4), whole(4), whole(4)});
-}
-
 }  // namespace
 
 TEST_CASE("sound operands: apart, nested, equal or empty, the result is that of the general way") {
@@ -102,7 +97,7 @@ TEST_CASE("sound operands: boxes on a lattice, that touch in every way, give tha
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         CAPTURE(seed);
         test::random source(seed);
-        check_both_ways({lattice_box(source), lattice_box(source)});
+        check_both_ways({test::lattice_box(source), test::lattice_box(source)});
     }
 }
 
@@ -113,13 +108,15 @@ TEST_CASE("sound operands: results are sound, with cavities and edges of four fa
         // Whether a part within the region looked at is turned inside out may not be told there.
         const auto check = [](const operands& pair) { check_both_ways(pair, quick::perhaps); };
         const auto make = [&](const std::string& text) {
-            return evaluate({lattice_box(source), lattice_box(source)}, text, {}).surface;
+            return evaluate({test::lattice_box(source), test::lattice_box(source)}, text, {})
+                .surface;
         };
         const tf::mesh a = make("a^b"), b = make(seed % 2 == 0 ? "a-b" : "a+b");
         check({a, b});
         check({b, a});
         const tf::mesh shell =
-            evaluate({moved(box(6, 6, 6), {-0.5, -0.5, -0.5}), lattice_box(source)}, "a-b", {})
+            evaluate({moved(box(6, 6, 6), {-0.5, -0.5, -0.5}), test::lattice_box(source)}, "a-b",
+                     {})
                 .surface;
         check({shell, b});
         check({a, shell});

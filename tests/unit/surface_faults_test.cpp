@@ -115,10 +115,6 @@ TEST_CASE("faults: edges of faces that are not sound are looked at, and no other
 
 TEST_CASE("faults: parts that are turned inside out, or outside, are found where they have moved") {
     const tf::mesh ball = test::ball(3, 1.0);
-    const auto turned = [](tf::mesh mesh) {
-        for (tf::face& f : mesh.faces) std::swap(f[1], f[2]);
-        return mesh;
-    };
     const tf::mesh small = test::moved(test::box(0.1, 0.1, 0.1), {-0.05, -0.05, -0.05});
     const tf::mesh outside = test::moved(small, {3, 0, 0});
     struct shells {
@@ -127,10 +123,10 @@ TEST_CASE("faults: parts that are turned inside out, or outside, are found where
         bool box_is_turned;
     };
     const std::vector<shells> all{{test::together(ball, outside), false, false},
-                                  {test::together(ball, turned(outside)), false, true},
-                                  {test::together(ball, turned(small)), false, false},
+                                  {test::together(ball, test::inside_out(outside)), false, true},
+                                  {test::together(ball, test::inside_out(small)), false, false},
                                   {test::together(ball, small), false, true},
-                                  {test::together(turned(ball), outside), true, false}};
+                                  {test::together(test::inside_out(ball), outside), true, false}};
     for (const shells& s : all) {
         const std::size_t of_ball = ball.faces.size();
         std::vector<std::uint32_t> expected;
