@@ -7,7 +7,7 @@
 namespace tf::detail {
 
 std::vector<std::uint32_t> used_points(std::size_t point_count, std::span<const face> faces) {
-    constexpr std::size_t grain = std::size_t{1} << 15;
+    constexpr std::size_t grain = std::size_t{1} << 14;
     std::vector<std::uint8_t> used(point_count, 0);
     for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)

@@ -68,26 +68,6 @@ void check_points(mesh_view mesh) {
                                         " is not finite or beyond 2^1000");
 }
 
-/// The meetings of each face.
-struct meetings_by_face {
-    std::vector<std::size_t> begin;    ///< [F + 1]
-    std::vector<std::uint32_t> which;  ///< face by face, ascending
-
-    meetings_by_face(std::size_t face_count, const std::vector<meeting>& meetings)
-        : begin(face_count + 1, 0), which(2 * meetings.size()) {
-        for (const meeting& m : meetings) {
-            ++begin[m.a + 1];
-            ++begin[m.b + 1];
-        }
-        for (std::size_t f = 0; f < face_count; ++f) begin[f + 1] += begin[f];
-        std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
-        for (std::uint32_t i = 0; i < meetings.size(); ++i) {
-            which[end[meetings[i].a]++] = i;
-            which[end[meetings[i].b]++] = i;
-        }
-    }
-};
-
 /// Faces to be cut, those that overlap in one plane together.
 struct clusters {
     std::vector<std::uint32_t> members;  ///< cluster by cluster, ascending within
@@ -322,17 +302,17 @@ arrange_faces_result detail::arrange_pairs(mesh_view mesh, std::span<const face_
     const std::size_t count = mesh.faces.size();
     result.pairs = pairs.size();
     const mesh_meetings met = detail::meetings_of(mesh, pairs);
-    const meetings_by_face by_face(count, met.meetings);
+    const detail::meetings_by_face by_face(met.meetings);
     const clusters groups = gather(count, met);
     result.cut_faces = groups.members.size();
 
     constexpr std::size_t clusters_a_chunk = 16;
     std::vector<cut_cluster> cuts(groups.size());
-    for_chunks(
-        groups.size(), clusters_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t i = begin; i < end; ++i)
-                cuts[i] = detail::cut({mesh, &met, groups[i], &by_face.begin, &by_face.which});
-        });
+    for_chunks(groups.size(), clusters_a_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i)
+                       cuts[i] = detail::cut({mesh, &met, groups[i], &by_face});
+               });
     if (progress && !progress(0.8)) {
         result.cancelled = true;
         return result;

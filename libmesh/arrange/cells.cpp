@@ -23,7 +23,7 @@ using detail::first_bad;
 using detail::numbered_sets;
 using detail::surface_patches;
 
-constexpr std::size_t grain = std::size_t{1} << 16;
+constexpr std::size_t grain = std::size_t{1} << 14;
 
 [[noreturn]] void refuse(const std::string& why) {
     throw std::invalid_argument("tf::find_cells: " + why);

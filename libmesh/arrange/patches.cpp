@@ -12,8 +12,8 @@
 namespace tf::detail {
 namespace {
 
-constexpr std::size_t star_grain = std::size_t{1} << 12;  // points a chunk
-constexpr std::size_t face_grain = std::size_t{1} << 16;
+constexpr std::size_t star_grain = std::size_t{1} << 9;  // points a chunk
+constexpr std::size_t face_grain = std::size_t{1} << 14;
 constexpr std::size_t ahead = 4;          // stars whose memory is under way
 constexpr std::size_t most_listed = 100;  // open edges
 

@@ -24,7 +24,7 @@ namespace {
 
 using detail::joined_operands;
 
-constexpr std::size_t grain = std::size_t{1} << 15;
+constexpr std::size_t grain = std::size_t{1} << 14;
 
 /// `callback` as it is told of a step that does the share from `begin` to `end` of the work.
 progress_callback part_of(const progress_callback& callback, double begin, double end) {

@@ -26,7 +26,7 @@ void require_nameable(const char* function, std::size_t count, const char* what)
                                     " or more");
 }
 
-constexpr std::size_t grain = std::size_t{1} << 15;
+constexpr std::size_t grain = std::size_t{1} << 14;
 
 void renumber(std::vector<face>& faces, const std::vector<std::uint32_t>& new_of_old) {
     for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {

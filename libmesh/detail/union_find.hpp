@@ -65,7 +65,7 @@ class union_find {
     [[nodiscard]] std::size_t size() const { return parent_.size(); }
 
   private:
-    static constexpr std::size_t grain = std::size_t{1} << 16;
+    static constexpr std::size_t grain = std::size_t{1} << 14;
 
     /// Relaxed: a parent is a number, and publishes nothing else.
     [[nodiscard]] std::atomic_ref<std::uint32_t> at(std::uint32_t i) {

@@ -9,7 +9,7 @@
 namespace tf::detail {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 10;
+constexpr std::size_t grain = std::size_t{1} << 7;
 
 triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
     const face& c = mesh.faces[f];

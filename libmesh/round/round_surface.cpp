@@ -13,6 +13,7 @@
 #include <libtree/parallel.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -23,6 +24,7 @@ namespace tf {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 12;
+constexpr std::size_t point_grain = std::size_t{1} << 7;  // the constructed ones are the last
 constexpr std::size_t listed_pairs = 100;
 
 bool is_finite(const point3& p) {
@@ -120,30 +122,33 @@ class rounding {
         const std::vector<std::uint32_t> points =
             detail::used_points(exact_.given.size() + exact_.constructed.size(), exact_.faces);
         std::vector<point3> at(points.size());
-        std::vector<double> moves(chunk_count(points.size(), grain) + 1, 0.0);
-        for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-            for (std::size_t i = begin; i < end; ++i) {
-                at[i] = rounded_point(points[i]);
-                moves[c] = std::max(moves[c], move_of(points[i], at[i]));
-            }
-        });
+        std::vector<double> moves(chunk_count(points.size(), point_grain) + 1, 0.0);
+        std::atomic<bool> finite{true};
+        for_chunks(points.size(), point_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t c) {
+                       for (std::size_t i = begin; i < end; ++i) {
+                           at[i] = rounded_point(points[i]);
+                           moves[c] = std::max(moves[c], move_of(points[i], at[i], moves[c]));
+                           if (!is_finite(at[i])) finite = false;
+                       }
+                   });
         const double move = *std::max_element(moves.begin(), moves.end());
         result_.max_move += move;
-        const bool finite = std::all_of(at.begin(), at.end(), is_finite);
         const bool joined = join_equal(points, std::move(at));
         moved_ = joined && move > 0.0 ? std::numeric_limits<double>::infinity() : move;
         return finite;
     }
 
-    /// Bound of how far rounding has moved a point, in each coordinate.
-    [[nodiscard]] double move_of(std::uint32_t p, const point3& to) const {
+    /// Bound of how far rounding has moved a point, in each coordinate; where that is no more than
+    /// `known`, perhaps not the least: to see that a point has not moved takes exact arithmetic.
+    [[nodiscard]] double move_of(std::uint32_t p, const point3& to, double known) const {
         const std::size_t given = exact_.given.size();
         if (p < given) return largest_difference(exact_.given[p], to);
         const constructed_point& made = exact_.constructed[p - given];
         const double most = largest_difference(made.centre(), to) + made.radius();
-        if (!(most < std::numeric_limits<double>::infinity()) || equal(made, to))
-            return most < std::numeric_limits<double>::infinity() ? 0.0 : most;
-        return options_.to_float ? most : std::min(most, half_unit(to));
+        if (!(most < std::numeric_limits<double>::infinity())) return most;
+        const double bound = options_.to_float ? most : std::min(most, half_unit(to));
+        return bound <= known || !equal(made, to) ? bound : 0.0;
     }
 
     /// Equal points become one, under the number of the lowest of them; faces that repeat a corner
@@ -154,15 +159,17 @@ class rounding {
         {
             const equal_points equal = find_equal_points(at);
             const std::size_t count = equal.first_of_new.size();
-            for (std::size_t p = 0; p < count; ++p) {  // in place: a first point is no earlier
-                const std::uint32_t first = equal.first_of_new[p];
-                at[p] = at[first];
-                point_of[p] = point_of_[points[first]];
-            }
+            for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+                for (std::size_t i = begin; i < end; ++i)
+                    new_of_old[points[i]] = equal.new_of_old[i];
+                for (std::size_t p = begin; p < std::min(end, count); ++p)
+                    point_of[p] = point_of_[points[equal.first_of_new[p]]];
+            });
+            if (count < at.size())
+                for (std::size_t p = 0; p < count; ++p)  // in place: a first point is no earlier
+                    at[p] = at[equal.first_of_new[p]];
             at.resize(count);
             point_of.resize(count);
-            for (std::size_t i = 0; i < points.size(); ++i)
-                new_of_old[points[i]] = equal.new_of_old[i];
         }
         const bool joined = at.size() < points.size();
         result_.surface.points = std::move(at);

@@ -1,6 +1,8 @@
+#include <libmesh/detail/compact.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/intersect/point_location.hpp>
 #include <libmesh/round/detail/coarse_grid.hpp>
+#include <libmesh/round/detail/near_edges.hpp>
 #include <libmesh/round/detail/surface_faults.hpp>
 #include <libmesh/round/detail/turned_faces.hpp>
 #include <libmesh/validate.hpp>
@@ -12,7 +14,6 @@
 #include <atomic>
 #include <cstddef>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace tf::detail {
@@ -90,51 +91,18 @@ ids with_neighbours(mesh_view surface, const ids& doubted, std::span<const std::
     return all;
 }
 
-/// A face's edge, the lower end first.
-struct edge_use {
-    std::uint32_t low, high;
-    int way;       ///< 1 when the face runs from the lower end to the higher, else -1
-    bool doubted;  ///< the face is not sound
-};
-
-bool is_open(std::vector<edge_use>& uses) {
-    std::sort(uses.begin(), uses.end(), [](const edge_use& x, const edge_use& y) {
-        return std::tie(x.low, x.high) < std::tie(y.low, y.high);
-    });
-    for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-        std::int64_t sum = 0;
-        bool doubted = false;
-        for (; end < uses.size() && uses[end].low == uses[begin].low &&
-               uses[end].high == uses[begin].high;
-             ++end) {
-            sum += uses[end].way;
-            doubted = doubted || uses[end].doubted;
-        }
-        if (doubted && sum != 0) return true;
-    }
-    return false;
-}
-
 /// Whether an edge of a face that is not sound is open. At edges of sound faces alone nothing has
 /// changed.
-bool is_open(mesh_view surface, const ids& faces, std::span<const std::uint8_t> sound) {
-    std::vector<std::uint8_t> at_doubted(surface.points.size(), 0);
-    for (const std::uint32_t f : faces)
-        if (sound[f] == 0)
-            for (const std::uint32_t corner : surface.faces[f]) at_doubted[corner] = 1;
-    std::vector<std::vector<edge_use>> parts(64);  // all uses of an edge in one
-    for (const std::uint32_t f : faces)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = surface.faces[f][i];
-            const std::uint32_t b = surface.faces[f][i == 2 ? 0 : i + 1];
-            if (at_doubted[a] == 0 || at_doubted[b] == 0) continue;
-            const std::uint32_t low = std::min(a, b);
-            parts[low % parts.size()].push_back(
-                {low, std::max(a, b), a < b ? 1 : -1, sound[f] == 0});
-        }
+bool is_open(const near_edges& edges, std::span<const std::uint8_t> sound) {
     std::atomic<bool> open{false};
-    for_chunks(parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-        if (is_open(parts[i])) open = true;
+    edges.for_each([&](std::span<const near_edges::use> uses) {
+        std::int64_t sum = 0;
+        bool doubted = false;
+        for (const near_edges::use& use : uses) {
+            sum += use.way;
+            doubted = doubted || sound[edges.faces()[use.place]] == 0;
+        }
+        if (doubted && sum != 0) open = true;
     });
     return open;
 }
@@ -145,8 +113,10 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
     if (check.sound.empty()) return all_faults(surface, check);
     const std::size_t count = surface.faces.size();
     ids doubted;
-    for (std::uint32_t f = 0; f < count; ++f)
-        if (check.sound[f] == 0) doubted.push_back(f);
+    compact(
+        count, [&](std::size_t f) { return check.sound[f] == 0; },
+        [&](std::size_t found) { doubted.resize(found); },
+        [&](std::size_t f, std::size_t place) { doubted[place] = static_cast<std::uint32_t>(f); });
     surface_faults result;
     if (doubted.empty()) return result;
     const ids near =
@@ -160,8 +130,10 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
         result.pairs.push_back({near[pair.a], near[pair.b], pair.kind});
     for (const std::uint32_t f : find_defects(part).degenerate_faces)
         result.degenerate.push_back(near[f]);
-    result.open = check.solid && is_open(surface, near, check.sound);
-    if (check.solid && check.moved > 0.0 && may_be_turned(surface, check.sound, near, check.moved))
+    if (!check.solid) return result;
+    const near_edges edges(surface, near);
+    result.open = is_open(edges, check.sound);
+    if (check.moved > 0.0 && may_be_turned(surface, check.sound, edges, check.moved))
         find_turned(surface, result);
     return result;
 }

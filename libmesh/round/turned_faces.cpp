@@ -9,52 +9,17 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
 namespace tf::detail {
 namespace {
 
 using box3 = aabb<double, 3>;
-
-struct edge_use {
-    std::uint32_t low, high;
-    std::uint32_t face;
-    int way;  ///< 1 when the face runs from the lower end to the higher, else -1
-
-    [[nodiscard]] bool same_edge(const edge_use& e) const { return low == e.low && high == e.high; }
-};
-
-/// The edges with both ends at one of `faces`, of all faces of the surface, sorted.
-std::vector<edge_use> edges_at(mesh_view surface, std::span<const std::uint32_t> faces) {
-    std::vector<std::uint8_t> at(surface.points.size(), 0);
-    for (const std::uint32_t f : faces)
-        for (const std::uint32_t corner : surface.faces[f]) at[corner] = 1;
-    std::vector<edge_use> uses;
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = surface.faces[f][i];
-            const std::uint32_t b = surface.faces[f][i == 2 ? 0 : i + 1];
-            if (at[a] != 0 && at[b] != 0)
-                uses.push_back({std::min(a, b), std::max(a, b), f, a < b ? 1 : -1});
-        }
-    std::sort(uses.begin(), uses.end(), [](const edge_use& x, const edge_use& y) {
-        return std::tie(x.low, x.high, x.face) < std::tie(y.low, y.high, y.face);
-    });
-    return uses;
-}
-
-/// Calls `visit(uses)` for each edge.
-template <class Visit>
-void for_edges(std::span<const edge_use> uses, const Visit& visit) {
-    for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-        while (end < uses.size() && uses[end].same_edge(uses[begin])) ++end;
-        visit(uses.subspan(begin, end - begin));
-    }
-}
+using uses = std::span<const near_edges::use>;
 
 box3 box_of(mesh_view surface, std::uint32_t f) {
     box3 box;
@@ -62,33 +27,32 @@ box3 box_of(mesh_view surface, std::uint32_t f) {
     return box;
 }
 
-/// The parts of a surface near faces that have moved.
+/// The parts of a surface near faces that have moved, as far as they are near; faces by their
+/// places among those near.
 class near_parts {
   public:
-    near_parts(mesh_view surface, std::span<const std::uint8_t> sound,
-               std::span<const std::uint32_t> near)
-        : surface_(surface),
-          sound_(sound),
-          near_(near),
-          parts_(surface.faces.size()),
-          uses_(edges_at(surface, near)) {
-        for_edges(uses_, [&](std::span<const edge_use> at) {
-            if (at.size() == 2) parts_.join(at[0].face, at[1].face);
+    near_parts(mesh_view surface, std::span<const std::uint8_t> sound, const near_edges& near)
+        : surface_(surface), sound_(sound), edges_(near), near_(near.faces()), sets_(near_.size()) {
+        edges_.for_each([&](uses at) {
+            if (at.size() == 2) sets_.join(at[0].place, at[1].place);
         });
     }
 
-    /// Those without a face that holds them, by their lowest face, ascending.
+    /// Those without a face that holds them, in the order of their lowest faces.
+    ///
+    /// All that are not near hold. Where an edge is one of theirs, no box of a face that has moved
+    /// meets it, and what is near and has the edge is held there, too: so are both faces at an edge
+    /// of which others have been left out.
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> loose() {
-        std::vector<std::uint8_t> held(surface_.faces.size(), 1);
-        for (const std::uint32_t f : near_) held[f] = 0;
-        for_edges(uses_, [&](std::span<const edge_use> at) {
-            if (at.size() == 1) held[at[0].face] = 1;  // beside a face that was left out
+        std::vector<std::uint8_t> held(near_.size(), 0);
+        edges_.for_each([&](uses at) {
+            if (at.size() == 1)
+                std::atomic_ref(held[sets_.root(at[0].place)]).store(1, std::memory_order_relaxed);
         });
-        for (std::uint32_t f = 0; f < held.size(); ++f)
-            if (held[f] != 0) held[parts_.root(f)] = 1;  // which is no higher
         std::vector<std::array<std::uint32_t, 2>> left;
-        for (const std::uint32_t f : near_)
-            if (held[parts_.root(f)] == 0) left.push_back({parts_.root(f), f});
+        for (std::uint32_t i = 0; i < near_.size(); ++i)
+            if (const std::uint32_t part = sets_.root(i); held[part] == 0)
+                left.push_back({part, i});
         std::sort(left.begin(), left.end());
         std::vector<std::vector<std::uint32_t>> result;
         for (std::size_t i = 0; i < left.size(); ++i) {
@@ -115,8 +79,8 @@ class near_parts {
         const tree<3> tree = face_tree({surface_.points, faces});
         return std::all_of(loose.begin(), loose.end(), [&](const auto& part) {
             const bool still = std::all_of(part.begin(), part.end(),
-                                           [&](std::uint32_t f) { return sound_[f] != 0; });
-            return (still || (open[parts_.root(part[0])] == 0 && keeps_sign(part, moved))) &&
+                                           [&](std::uint32_t i) { return sound_[near_[i]] != 0; });
+            return (still || (open[part[0]] == 0 && keeps_sign(part, moved))) &&
                    is_apart_somewhere(part, tree);
         });
     }
@@ -124,17 +88,14 @@ class near_parts {
   private:
     /// By the lowest face: 1 for parts that run along some edge more often one way.
     [[nodiscard]] std::vector<std::uint8_t> open_parts() {
-        std::vector<std::uint8_t> open(surface_.faces.size(), 0);
-        std::vector<std::array<std::int64_t, 2>> ways;  // part, way
-        for_edges(uses_, [&](std::span<const edge_use> at) {
-            ways.clear();
-            for (const edge_use& use : at) ways.push_back({parts_.root(use.face), use.way});
-            std::sort(ways.begin(), ways.end());
-            for (std::size_t begin = 0, end = 0; begin < ways.size(); begin = end) {
-                std::int64_t sum = 0;
-                for (; end < ways.size() && ways[end][0] == ways[begin][0]; ++end)
-                    sum += ways[end][1];
-                if (sum != 0) open[static_cast<std::size_t>(ways[begin][0])] = 1;
+        std::vector<std::uint8_t> open(near_.size(), 0);
+        edges_.for_each([&](uses at) {
+            for (const near_edges::use& use : at) {
+                const std::uint32_t part = sets_.root(use.place);
+                int sum = 0;
+                for (const near_edges::use& other : at)
+                    if (sets_.root(other.place) == part) sum += other.way;
+                if (sum != 0) std::atomic_ref(open[part]).store(1, std::memory_order_relaxed);
             }
         });
         return open;
@@ -158,19 +119,19 @@ class near_parts {
     [[nodiscard]] bool keeps_sign(const std::vector<std::uint32_t>& part, double moved) const {
         const auto count = static_cast<double>(part.size());
         box3 all;
-        for (const std::uint32_t f : part) all.include(box_of(surface_, f));
+        for (const std::uint32_t i : part) all.include(box_of(surface_, near_[i]));
         double extent = 0.0;
         for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, all.max[k] - all.min[k]);
         if (!(extent < 0x1p150) || !(moved < 0x1p150)) return false;
-        const point3 origin = surface_.points[surface_.faces[part[0]][0]];
+        const point3 origin = surface_.points[surface_.faces[near_[part[0]]][0]];
         double volume = 0.0, areas = 0.0;
-        for (const std::uint32_t f : part) {
-            const auto& [a, b, c] = surface_.faces[f];
+        for (const std::uint32_t i : part) {
+            const auto& [a, b, c] = surface_.faces[near_[i]];
             const auto& points = surface_.points;
             volume += dot_product(
                 difference(points[a], origin),
                 cross_product(difference(points[b], points[a]), difference(points[c], points[a])));
-            const box3 box = box_of(surface_, f);
+            const box3 box = box_of(surface_, near_[i]);
             const double x = box.max[0] - box.min[0] + 2.0 * moved;
             const double y = box.max[1] - box.min[1] + 2.0 * moved;
             const double z = box.max[2] - box.min[2] + 2.0 * moved;
@@ -183,14 +144,14 @@ class near_parts {
     /// Whether a corner of the part is in no box of a face of another part.
     [[nodiscard]] bool is_apart_somewhere(const std::vector<std::uint32_t>& part,
                                           const tree<3>& tree) {
-        const std::uint32_t own = parts_.root(part[0]);
-        return std::any_of(part.begin(), part.end(), [&](std::uint32_t f) {
-            const face& corners = surface_.faces[f];
+        return std::any_of(part.begin(), part.end(), [&](std::uint32_t i) {
+            const face& corners = surface_.faces[near_[i]];
             return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t p) {
                 box3 at;
                 at.include(surface_.points[p]);
-                return !search_any(tree, at, [&](std::uint32_t i) {
-                    return parts_.root(near_[i]) != own && overlaps(at, box_of(surface_, near_[i]));
+                return !search_any(tree, at, [&](std::uint32_t other) {
+                    return sets_.root(other) != part[0] &&
+                           overlaps(at, box_of(surface_, near_[other]));
                 });
             });
         });
@@ -198,9 +159,9 @@ class near_parts {
 
     mesh_view surface_;
     std::span<const std::uint8_t> sound_;
+    const near_edges& edges_;
     std::span<const std::uint32_t> near_;
-    union_find parts_;
-    std::vector<edge_use> uses_;
+    union_find sets_;
 };
 
 /// The surface as the arrangement that it is.
@@ -217,8 +178,8 @@ mesh_arrangement as_arrangement(mesh_view surface) {
 
 }  // namespace
 
-bool may_be_turned(mesh_view surface, std::span<const std::uint8_t> sound,
-                   std::span<const std::uint32_t> near, double moved) {
+bool may_be_turned(mesh_view surface, std::span<const std::uint8_t> sound, const near_edges& near,
+                   double moved) {
     if (std::none_of(sound.begin(), sound.end(), [](std::uint8_t s) { return s != 0; }))
         return true;
     near_parts parts(surface, sound, near);

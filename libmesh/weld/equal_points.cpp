@@ -15,7 +15,7 @@ namespace tf {
 namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t grain = std::size_t{1} << 17;
+constexpr std::size_t grain = std::size_t{1} << 14;
 
 /// Equal coordinates have equal bits once -0 is made +0, on which no processor mode has a say: one
 /// that flushes denormals would take distinct ones for equal.
@@ -155,7 +155,7 @@ class distinct_points {
 void find_firsts(points_view points, std::span<const std::uint32_t> kind,
                  std::vector<std::uint32_t>& hash_then_first) {
     constexpr std::size_t ahead = 16;      // entries whose memory is under way
-    constexpr std::size_t per_chunk = 16;  // buckets that share a table
+    constexpr std::size_t per_chunk = 4;   // buckets that share a table
     const buckets parts(hash_then_first);
     for_chunks(parts.count(), per_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         distinct_points distinct(points, kind);

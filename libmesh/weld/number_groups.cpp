@@ -7,7 +7,7 @@
 namespace tf::detail {
 
 std::vector<std::uint32_t> number_groups(std::vector<std::uint32_t>& group_of_point) {
-    constexpr std::size_t grain = std::size_t{1} << 17;
+    constexpr std::size_t grain = std::size_t{1} << 15;
     std::vector<std::uint32_t>& first = group_of_point;
     std::vector<std::uint32_t> next(chunk_count(first.size(), grain), 0);
     for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {

@@ -93,6 +93,28 @@ TEST_CASE(
     }
 }
 
+TEST_CASE(
+    "sound operands: loose pieces that are cut off, or out of the middle, need no other way") {
+    // All faces of the piece are cut, or next to such; the large ball is far from it.
+    const auto check = [](const operands& pair) {
+        check_both_ways(pair, quick::perhaps);  // of a^b, pieces have edges of four faces
+        for (const std::string text : {"a+b", "a*b", "a-b", "b-a"})
+            CHECK(evaluate(pair, text, {.sound_operands = true}).cells == 0);
+    };
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        const double angle = source.in(0, 3);
+        const tf::mesh large = rotated(ball(3, 1.0), angle);
+        const tf::mesh small = rotated(ball(1, 0.1), angle + 1.0);
+        const auto aside = [&](double by) {
+            return moved(large, {by, source.in(-0.1, 0.1), source.in(-0.1, 0.1)});
+        };
+        check({together(large, moved(small, {1.95, 0.1, 0.1})), aside(2.95)});
+        check({together(large, test::inside_out(moved(small, {0.5, 0.1, 0.1}))), aside(1.5)});
+    }
+}
+
 TEST_CASE("sound operands: boxes on a lattice, that touch in every way, give that of the general") {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         CAPTURE(seed);

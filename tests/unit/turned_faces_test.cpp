@@ -34,7 +34,8 @@ std::vector<std::uint32_t> all_faces(const tf::mesh& mesh) {
 bool may_be_turned(const tf::mesh& mesh, std::size_t first_moved, double by) {
     std::vector<std::uint8_t> sound(mesh.faces.size(), 0);
     std::fill_n(sound.begin(), first_moved, std::uint8_t{1});
-    return tf::detail::may_be_turned(mesh, sound, all_faces(mesh), by);
+    const std::vector<std::uint32_t> near = all_faces(mesh);
+    return tf::detail::may_be_turned(mesh, sound, {mesh, near}, by);
 }
 
 double to_float(double x) {

@@ -31,14 +31,26 @@ struct cut_cluster {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> same;
 };
 
+/// The meetings of each face that has any.
+class meetings_by_face {
+  public:
+    explicit meetings_by_face(const std::vector<meeting>& meetings);
+
+    /// Their numbers, ascending.
+    [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t face) const;
+
+  private:
+    std::vector<std::uint32_t> faces_;  ///< ascending
+    std::vector<std::size_t> begin_;    ///< [faces_ + 1]
+    std::vector<std::uint32_t> which_;  ///< face by face
+};
+
 /// What a cluster needs to know of the mesh.
 struct cluster_input {
     mesh_view mesh;
     const mesh_meetings* met;
     std::span<const std::uint32_t> members;  ///< faces that overlap in one plane, ascending
-    /// The meetings of a member, as numbers.
-    const std::vector<std::size_t>* meetings_begin;
-    const std::vector<std::uint32_t>* meetings_of_face;
+    const meetings_by_face* by_face;
 };
 
 [[nodiscard]] cut_cluster cut(const cluster_input& input);

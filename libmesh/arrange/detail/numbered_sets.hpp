@@ -23,7 +23,7 @@ struct numbered_sets {
 /// The sets, numbered in the order of their lowest elements.
 /// \same on any number of threads
 [[nodiscard]] inline numbered_sets number_sets(union_find& sets) {
-    constexpr std::size_t grain = std::size_t{1} << 16;
+    constexpr std::size_t grain = std::size_t{1} << 14;
     numbered_sets result{buffer<std::uint32_t>(sets.size()), {}};
     buffer<std::uint32_t>& set_of = result.set_of;
     for_chunks(sets.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {

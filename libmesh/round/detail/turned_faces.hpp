@@ -3,6 +3,7 @@
 /// Faces of a closed surface that have their outside behind them.
 
 #include <libmesh/mesh.hpp>
+#include <libmesh/round/detail/near_edges.hpp>
 
 #include <cstdint>
 #include <span>
@@ -22,15 +23,16 @@ namespace tf::detail {
 /// moves cannot turn to its opposite, and a corner that is in no box of another part.
 ///
 /// \param  sound  [F] 1 for faces that have not moved
-/// \param  near   the other faces and all whose boxes meet one of theirs. Where only a region of
+/// \param  near   of the other faces and all whose boxes meet one of theirs. Where only a region of
 ///                a surface is given, the faces left out meet no box of a face that has moved
 /// \param  moved  how far points have moved at most, in each coordinate; infinite where points
 ///                have become one, or faces have vanished
 /// \pre    the surface is closed, and its faces meet in common corners and edges only, where they
 ///         were and where they are; before, all had the outside in front and the inside behind
-/// \cost   O(V + F + N log N) for N faces near
+/// \cost   O(N log N) for N faces near
+/// \same   on any number of threads
 [[nodiscard]] bool may_be_turned(mesh_view surface, std::span<const std::uint8_t> sound,
-                                 std::span<const std::uint32_t> near, double moved);
+                                 const near_edges& near, double moved);
 
 struct turned_faces {
     std::vector<std::uint32_t> faces;  ///< ascending

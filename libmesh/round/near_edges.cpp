@@ -1,0 +1,26 @@
+#include <libmesh/round/detail/near_edges.hpp>
+
+#include <algorithm>
+#include <tuple>
+
+namespace tf::detail {
+
+near_edges::near_edges(mesh_view surface, std::span<const std::uint32_t> faces)
+    : faces_(faces), parts_(64) {
+    for (auto& part : parts_) part.reserve(4 * faces.size() / parts_.size());
+    for (std::uint32_t place = 0; place < faces.size(); ++place) {
+        const face& f = surface.faces[faces[place]];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = f[i], b = f[i == 2 ? 0 : i + 1];
+            const std::uint32_t low = std::min(a, b);
+            parts_[low % parts_.size()].push_back({low, std::max(a, b), place, a < b ? 1 : -1});
+        }
+    }
+    for_chunks(parts_.size(), 1, [&](std::size_t part, std::size_t, std::size_t) {
+        std::sort(parts_[part].begin(), parts_[part].end(), [](const use& x, const use& y) {
+            return std::tie(x.low, x.high, x.place) < std::tie(y.low, y.high, y.place);
+        });
+    });
+}
+
+}  // namespace tf::detail
