@@ -2,8 +2,6 @@
 
 from place_support import *
 
-BOOLEAN = os.environ.get("TF_BOOLEAN", "tf-boolean")
-
 
 def volume(points, faces):
     """Six times the signed volume, over 6."""

@@ -1,5 +1,7 @@
 """What the tests of tf-place share."""
 
+import math
+
 from support import *
 
 
@@ -7,6 +9,14 @@ def box(low, high):
     """The box between two corners, outward."""
     points, faces = cube()
     return [tuple(h if t else l for t, l, h in zip(p, low, high)) for p in points], faces
+
+
+def ball_of_lines():
+    """A double cone around z, of many thin faces."""
+    rim = [(math.cos(a), math.sin(a), 0.0) for a in (2 * math.pi * i / 90 for i in range(90))]
+    points = rim + [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)]
+    faces = [(i, (i + 1) % 90, 90) for i in range(90)] + [((i + 1) % 90, i, 91) for i in range(90)]
+    return points, faces
 
 
 def read_stl(data):

@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 TOOL = os.environ.get("TF_SELFINTERSECT", "tf-selfintersect")
+BOOLEAN = os.environ.get("TF_BOOLEAN", "tf-boolean")
 PLACE = os.environ.get("TF_PLACE", "tf-place")
 WELD = os.environ.get("TF_WELD", "tf-weld")
 MODELS = os.environ.get("TREEFORM_MODELS_DIR", "")

@@ -123,7 +123,7 @@ class Solids(BooleanTest):
         self.assertIn("ends at 3 edges", entry["inputs"][1]["reason"])
         self.assertIsNone(entry["output"])
         self.assertNotIn("out.obj", self.listing())
-        self.run_tool("union", "open.obj", "--exit-zero", status=0)
+        self.run_tool("union", "open.obj", "--exit-zero", "-n", status=0)
 
     def test_check_only_looks(self):
         points, faces = box((0, 0, 0), (2, 2, 2))
@@ -240,7 +240,7 @@ class Solids(BooleanTest):
 
     def test_an_open_surface_is_cut_where_that_is_accepted(self):
         self.sheet("sheet.obj", 1)
-        self.run_tool("difference", "sheet.obj", "a.obj", status=1)
+        self.run_tool("difference", "sheet.obj", "a.obj", "-n", status=1)
         for words, area in ((["difference"], 12), (["intersection"], 4), (["--expr", "a-b"], 12)):
             entry = self.made(*words, "sheet.obj", "a.obj", "--accept-open")
             points, faces = self.solid("out.obj")
@@ -262,7 +262,7 @@ class Solids(BooleanTest):
         self.run_tool("difference", "a.obj", "sheet.obj", "--accept-open", "-o", "no.obj",
                       status=1)
         self.sheet("other.obj", 0.5)
-        run = self.run_tool("intersection", "sheet.obj", "other.obj", "--accept-open", status=1)
+        run = self.run_tool("intersection", "sheet.obj", "other.obj", "--accept-open", "-n", status=1)
         self.assertIn("one may", run.text)
         self.assertNotIn("no.obj", self.listing())
 
@@ -285,10 +285,10 @@ class Solids(BooleanTest):
             self.assertEqual(run.returncode, 3)
             self.assertIn(b"no triangle", run.stderr)
         self.made("difference", "c.obj", "a.obj", "--ascii", name="out.stl")
-        self.run_tool("union", "a.obj", "out.stl", status=0)
-        self.run_tool("intersection", "out.stl", "out.ply", status=0)
+        self.run_tool("union", "a.obj", "out.stl", "-n", status=0)
+        self.run_tool("intersection", "out.stl", "out.ply", "-n", status=0)
         self.mesh("points.obj", ([(0, 0, 0)], []))
-        self.run_tool("union", "a.obj", "points.obj", status=3)  # that is no mesh
+        self.run_tool("union", "a.obj", "points.obj", "-n", status=3)  # that is no mesh
 
     def test_a_glb_holds_sources_and_is_read_again(self):
         self.made("union", "a.obj", "b.obj", "--source", "from", name="out.glb")

@@ -16,7 +16,7 @@ OUTPUT = {"file": (str, NULL), "format": (str, NULL), "precision_out": str, "ver
           "cut_vertices": int, "faces": int, "components": int, "nonmanifold_edges": int,
           "volume": (*NUMBER, NULL), "closed": bool, "oriented": (bool, NULL),
           "self_intersections": int, "meeting": list, "certified": bool, "max_move": NUMBER,
-          "rounding_steps": int}
+          "step": NUMBER, "rounding_steps": int}
 
 
 class Usage(BooleanTest):
@@ -82,6 +82,17 @@ class Usage(BooleanTest):
         self.refused("union", "a.obj", "--in-place")
         self.refused("union", "a.obj", "b.obj", "--output-dir", "out")
 
+    def test_a_run_that_gives_nothing_back_is_refused(self):
+        self.assertIn("-o FILE", self.refused("union", "a.obj", "b.obj"))
+        self.assertIn("faces", self.run_tool("union", "a.obj", "b.obj", "-n", status=0).text)
+        self.run_tool("union", "a.obj", "b.obj", "--curves", "where.obj", status=0)
+
+    def test_a_formula_and_an_operation_exclude_each_other(self):
+        self.assertIn("union", self.refused("--expr", "a-b", "union", "a.obj", "b.obj", "-n"))
+        os.rename(self.path("b.obj"), self.path("union"))
+        self.run_tool("--expr", "a-b", "a.obj", "union", "-n", status=0)
+        self.run_tool("--expr", "a-b", "union", "a.obj", "-n", status=0)
+
     def test_no_output_replaces_a_file_that_is_read(self):
         before = self.read_bytes("b.obj")
         self.assertIn("is an input", self.refused("union", "a.obj", "b.obj", "-o", "b.obj", "-f"))
@@ -90,11 +101,11 @@ class Usage(BooleanTest):
             file.write("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")
         before = self.read_bytes("m.txt")
         for options in (["-o", "m.txt", "--output-format", "obj"], ["-r", "./m.txt"],
-                        ["--log", "m.txt"]):
+                        ["--log", "m.txt", "-n"]):
             self.assertIn("is an input",
                           self.refused("union", "a.obj", "--matrix", "1:m.txt", *options, "-f"))
         self.assertEqual(self.read_bytes("m.txt"), before)
-        self.assertIn("is an input", self.refused("union", "a.obj", "--log", "./a.obj"))
+        self.assertIn("is an input", self.refused("union", "a.obj", "--log", "./a.obj", "-n"))
 
     def test_no_file_is_written_twice_however_it_is_spelled(self):
         same = os.path.join("..", os.path.basename(self.folder), "out.obj")
@@ -112,12 +123,12 @@ class Usage(BooleanTest):
         self.assertNotEqual(self.read_bytes("there.obj"), before)
 
     def test_bad_files_are_named(self):
-        self.assertIn("none.obj", self.run_tool("union", "a.obj", "none.obj", status=3).err)
+        self.assertIn("none.obj", self.run_tool("union", "a.obj", "none.obj", "-n", status=3).err)
         self.mesh("empty.obj", ([(0, 0, 0)], []))
-        self.assertIn("empty.obj", self.run_tool("union", "a.obj", "empty.obj", status=3).err)
+        self.assertIn("empty.obj", self.run_tool("union", "a.obj", "empty.obj", "-n", status=3).err)
         with open(self.path("m.txt"), "w") as file:
             file.write("1 0 0")
-        self.assertIn("m.txt", self.run_tool("union", "a.obj", "--matrix", "1:m.txt",
+        self.assertIn("m.txt", self.run_tool("union", "a.obj", "--matrix", "1:m.txt", "-n",
                                              status=3).err)
 
     def check_types(self, entry, types):

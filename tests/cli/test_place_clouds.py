@@ -50,7 +50,7 @@ class Clouds(PlaceTest):
             self.assertEqual((contact["point"], contact["normal"]), ([2, 3, 1], [0, 0, 1]))
         self.assertEqual(self.rows("out.xyz"), [(1, 1, 1.75), (9, 9, -1.25), (2, 3, 1)])
         self.assertIn("a point and a face", self.run_tool("drop", "cloud.xyz", "--fixed",
-                                                          "floor.obj").text)
+                                                          "floor.obj", "-n").text)
         self.cloud("beside.xyz", (9, 2, 0.5), (7, 2, 3))
         entry = self.entry("slide", "beside.xyz", "--fixed", "floor.obj", "-d", "-1,0,0", status=0)
         self.assertEqual((entry["travel"], entry["contacts"][0]["moving"]), (5, 0))
@@ -93,7 +93,7 @@ class Clouds(PlaceTest):
         self.assertEqual(rows[1][3:6], ["236", "208", "0"])
 
     def test_arrange_refuses_clouds_and_says_so(self):
-        run = self.run_tool("arrange", "cloud.xyz", "--size", "9,9", status=2)
+        run = self.run_tool("arrange", "cloud.xyz", "--size", "9,9", "-n", status=2)
         self.assertIn("cloud.xyz: is a cloud of points", run.err)
 
     def test_any_number_of_threads_gives_the_same_report(self):

@@ -62,10 +62,56 @@ class Moves(PlaceTest):
         self.assertIn("nothing is in the way",
                       self.refused("drop", "a.obj", "--fixed", "beside.obj")["reason"])
 
-    def test_what_is_below_the_bed_is_not_lifted(self):
-        entry = self.refused("drop", "a.obj", "--bed", "6")
+    def test_what_is_below_the_bed_is_lifted_onto_it_but_not_among_others(self):
+        entry = self.placed("drop", "a.obj", "--bed", "6", "-o", "out.obj")
+        self.assertEqual((entry["status_at_start"], entry["status"]), ("penetrating", "touching"))
+        self.assertEqual((entry["travel"], entry["direction"]), (0.5, [0, 0, 1]))
+        self.assertEqual((self.lowest("out.obj"), entry["bed"]["reached"]), (6, True))
+        entry = self.placed("drop", "a.obj", "--bed", "5.25", "--clearance", "0.5", "-d", "1,0,-1",
+                            "-o", "out.obj", "-f")
+        self.assertEqual(self.points("out.obj")[0], (0.75, 1, 5.75))
+        self.assertEqual(entry["status_at_start"], "closer-than-clearance")
+        self.mesh("odd.stl", box((0.1, 0.1, -0.7), (0.7, 0.7, 0.9)))
+        self.placed("drop", "odd.stl", "-o", "out.stl")
+        self.assertEqual(self.lowest("out.stl"), 0)
+        self.assertIn("lifted by 0.5", self.run_tool("drop", "a.obj", "--bed", "6", "-n").text)
+        entry = self.refused("drop", "a.obj", "--bed", "6", "--fixed", "floor.obj")
         self.assertEqual(entry["status"], "penetrating")
         self.assertIn("0.5 below the bed", entry["reason"])
+        self.assertIn("without --fixed", entry["reason"])
+        entry = self.refused("drop", "a.obj", "--bed", "6", "--max-travel", "0.25")
+        self.assertIn("0.25", entry["reason"])
+
+    def test_a_place_that_the_numbers_do_not_reach_is_refused(self):
+        for arguments in (["drop", "a.obj"], ["lay", "a.obj"],
+                          ["arrange", "a.obj", "--size", "9,9"]):
+            run = self.run_tool(*arguments, "--bed", "-1e300", "-o", "out.stl", status=2)
+            self.assertIn("range of float32", run.err)
+        self.mesh("far.obj", box((0, 0, 1e300), (1e300, 1e300, 2e300)))
+        self.assertIn("beyond the range", self.refused("drop", "far.obj", "--output-format", "stl")
+                      ["reason"])
+        self.assertEqual(self.listing(), ["a.obj", "far.obj", "floor.obj", "in.obj"])
+
+    def test_what_rounding_takes_is_said(self):
+        self.mesh("third.obj", box((1 / 3, 1 / 3, 1 / 3), (2 / 3, 2 / 3, 2 / 3)))
+        entry = self.placed("drop", "third.obj", "-o", "out.stl")
+        self.assertEqual([w["code"] for w in entry["warnings"]], ["rounded"])
+        self.assertLess(0, entry["rounding"]["max_move"])
+        self.assertLess(entry["rounding"]["max_move"], 2 ** -25)
+        self.assertEqual(entry["rounding"]["step"], 2 ** -24)
+        self.assertEqual(entry["rounding"]["collapsed_faces"], 0)
+        self.assertEqual(self.placed("drop", "third.obj", "-o", "out.obj")["warnings"], [])
+        # Floats that stay as fine as they were are nothing to speak of.
+        self.assertEqual(self.placed("drop", "out.stl", "--bed", "0.1", "-o", "on.stl")["warnings"],
+                         [])
+        self.mesh("post.obj", box((3e8, 3e8, 0), (3e8 + 1000, 3e8 + 1000, 1)))
+        self.mesh("fine.stl", ball_of_lines())
+        entry = self.placed("mate", "fine.stl", "--fixed", "post.obj", "-o", "far.stl")
+        self.assertEqual([w["code"] for w in entry["warnings"]], ["rounded", "folded"])
+        self.assertGreater(entry["rounding"]["collapsed_faces"], 0)
+        self.assertIn("no area any more", entry["warnings"][1]["text"])
+        self.assertEqual(self.placed("mate", "fine.stl", "--fixed", "post.obj", "-o", "far.obj",
+                                     "--precision", "double")["warnings"], [])
 
     def test_the_lowest_point_written_is_the_bed_exactly(self):
         self.mesh("odd.stl", box((0.1, 0.1, 0.3), (0.7, 0.7, 0.9)))

@@ -109,7 +109,8 @@ class Scenes(PlaceTest):
         entry = self.entry("drop", "a.obj", "--fixed", "scene.obj", status=0)
         self.assertEqual(self.parts_of(entry), {"table/top": True, "table/leg": False})
         self.assertIn("scene.obj: table/top",
-                      self.run_tool("drop", "a.obj", "--fixed", "scene.obj", status=0).text)
+                      self.run_tool("drop", "a.obj", "--fixed", "scene.obj", "-n",
+                                    status=0).text)
 
     def test_nodes_of_a_glb_are_parts_where_their_transforms_put_them(self):
         points, faces = box((0, 0, 0), (1, 1, 1))

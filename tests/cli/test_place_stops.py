@@ -57,10 +57,10 @@ class Stops(PlaceTest):
     def test_progress_is_shown_when_asked_for(self):
         self.mesh("low.obj", hills(30, 0.0, 0.0))
         self.mesh("high.obj", hills(20, 9.0, 2.0))
-        run = self.run_tool("drop", "high.obj", "--fixed", "low.obj", "--progress", status=0)
+        run = self.run_tool("drop", "high.obj", "--fixed", "low.obj", "--progress", "-n", status=0)
         self.assertIn("high.obj: search", run.err)
         self.assertIn(" %", run.err)
-        run = self.run_tool("drop", "high.obj", "--fixed", "low.obj", status=0)
+        run = self.run_tool("drop", "high.obj", "--fixed", "low.obj", "-n", status=0)
         self.assertNotIn(" %", run.err)
 
 

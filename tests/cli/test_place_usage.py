@@ -12,7 +12,7 @@ FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in
         "direction": (list, NULL), "travel": (*NUMBER, NULL), "backed_off": (int, NULL),
         "matrix": (list, NULL), "contacts": list, "contact_count": int, "sides": list,
         "chosen": (int, NULL), "corrected": (*NUMBER, NULL), "tolerance": dict, "fit": (dict, NULL),
-        "fits": (bool, NULL), "parts": list, "not_placed": list, "matrix_file": (str, NULL),
+        "fits": (bool, NULL), "parts": list, "not_placed": list, "rounding": (dict, NULL), "matrix_file": (str, NULL),
         "output": (dict, NULL), "warnings": list, "exit": int}
 
 
@@ -70,13 +70,19 @@ class Usage(PlaceTest):
         self.refused("fit", "a.obj", *fixed, *fixed)
         self.refused("drop", "a.obj", "--html", "out.html")
 
+    def test_a_run_that_gives_nothing_back_is_refused(self):
+        self.assertIn("-o FILE", self.refused("drop", "a.obj"))
+        self.assertIn("dropped by 5.5", self.run_tool("drop", "a.obj", "-n", status=0).text)
+        self.run_tool("drop", "a.obj", "--matrix", "m.txt", status=0)
+        self.run_tool("measure", "a.obj", "--fixed", "floor.obj", status=0)
+
     def test_no_output_replaces_a_file_that_is_read(self):
         before = self.read_bytes("floor.obj")
         for option in ("-o", "--matrix", "-r"):
             err = self.refused("drop", "a.obj", "--fixed", "floor.obj", option, "floor.obj", "-f")
             self.assertIn("is an input", err)
-        self.assertIn("is an input", self.refused("drop", "a.obj", "--fixed", "floor.obj", "--log",
-                                                  "./floor.obj"))
+        self.assertIn("is an input", self.refused("drop", "a.obj", "--fixed", "floor.obj", "-n",
+                                                  "--log", "./floor.obj"))
         self.assertIn("read for other inputs", self.refused("drop", "a.obj", "floor.obj", "--fixed",
                                                             "./floor.obj", "--in-place"))
         self.assertEqual(self.read_bytes("floor.obj"), before)
@@ -84,22 +90,23 @@ class Usage(PlaceTest):
             file.write("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")
         before = self.read_bytes("m.txt")
         for option in ("--matrix", "-r", "--log"):
-            self.assertIn("is an input", self.refused("drop", "a.obj", "--start", "m.txt", option,
+            self.assertIn("is an input", self.refused("drop", "a.obj", "--start", "m.txt", "-n", option,
                                                       "./m.txt", "-f"))
         self.assertEqual(self.read_bytes("m.txt"), before)
         self.assertIn("two outputs", self.refused("drop", "a.obj", "-o", "out.obj", "--matrix",
                                                   "./out.obj"))
 
     def test_bad_files_are_named(self):
-        self.assertIn("none.obj", self.run_tool("drop", "a.obj", "--fixed", "none.obj",
+        self.assertIn("none.obj", self.run_tool("drop", "a.obj", "-n", "--fixed", "none.obj",
                                                 status=3).err)
         with open(self.path("m.txt"), "w") as file:
             file.write("1 0 0 0\n0 1 0 0\n0 0 1\n")
-        self.assertIn("found 11", self.run_tool("drop", "a.obj", "--start", "m.txt",
+        self.assertIn("found 11", self.run_tool("drop", "a.obj", "--start", "m.txt", "-n",
                                                 status=3).err)
         with open(self.path("m.txt"), "w") as file:
             file.write("1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1")
-        self.assertIn("last row", self.run_tool("drop", "a.obj", "--start", "m.txt", status=3).err)
+        self.assertIn("last row", self.run_tool("drop", "a.obj", "--start", "m.txt", "-n",
+                                                status=3).err)
         self.run_tool("drop", "a.obj", "-o", "out.obj", status=0)
         self.run_tool("drop", "a.obj", "-o", "out.obj", status=4)
 

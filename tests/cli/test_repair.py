@@ -41,7 +41,7 @@ class Repair(ToolTest):
         self.assertEqual((repair["removed_faces"], repair["covered_faces"], repair["faces"]),
                          (0, 12, 12))
         self.assertIn("12 faces lie on others",
-                      self.run_tool(part, "--repair=split", status=0).text)
+                      self.run_tool(part, "--repair=split", "-n", status=0).text)
 
     def test_parts_that_touch_have_points_of_their_own(self):
         part = write(self.path("part.obj"), together(cube(), cube((1.0, 1.0, 0.0))))
@@ -108,6 +108,27 @@ class Repair(ToolTest):
         run = self.run_tool(part, "--repair", "-o", "out.stl", status=0)
         self.assertIn("1 component has disappeared", run.err)
 
+    def test_in_place_a_file_keeps_its_kind(self):
+        part = write(self.path("part.stl"), TWO_CUBES)
+        run = self.run_tool(part, "--repair", "-o", "text.stl", "--ascii", status=0)
+        self.run_tool(part, "--repair", "--in-place", status=0)
+        self.assertEqual(len(self.read_bytes("part.stl")) % 50, 84 % 50)
+        self.no_pairs("part.stl")
+        before = self.read("text.stl")
+        self.run_tool("text.stl", "--repair=split", "--in-place", status=0)
+        self.assertEqual(self.read("text.stl").split("facet", 1)[1], before.split("facet", 1)[1])
+        self.assertEqual(self.listing(), ["part.stl", "text.stl"])
+        points, faces = TWO_CUBES
+        part = write(self.path("open.obj"), (points, faces[1:]))
+        before = self.read("open.obj")
+        self.run_tool(part, "--repair", "--in-place", status=1)
+        self.assertEqual(self.read("open.obj"), before)
+
+    def test_moves_beyond_rounding_are_said(self):
+        part = write(self.path("part.obj"), TWO_CUBES)
+        repair = self.repaired(part, "--repair", "-o", "out.obj")["repair"]
+        self.assertEqual(repair["max_move"]["step"], 2 ** -52)
+
     def test_a_clean_mesh_stays_as_it_is(self):
         part = write(self.path("part.obj"), cube())
         for mode in ("split", "outer", "remove"):
@@ -144,7 +165,7 @@ class Repair(ToolTest):
                         ["-o", "out.stl"], ["--repair", "-o", "out.xyz"]):
             self.run_tool(part, *options, status=2)
         # A word after --repair is an input, not its mode.
-        self.run_tool("--repair", part, status=0)
+        self.run_tool("--repair", part, "-n", status=0)
 
 
 main()

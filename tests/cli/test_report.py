@@ -105,10 +105,14 @@ class Report(ToolTest):
         self.assertEqual(run.err.count("standard input"), 1, msg=run.err)
         with open(self.path("nan.obj"), "wb") as file:
             file.write(obj_bytes(CROSSING) + b"v nan 0 0\nf 1 2 -1\n")
-        err = subprocess.run([PLACE, "drop", "nan.obj"], cwd=self.folder, capture_output=True,
-                             timeout=120).stderr.decode()
-        self.assertIn("warning: nan.obj: 1 face with a NaN", err)
-        self.assertEqual([line for line in err.splitlines() if line.count("nan.obj: ") > 1], [])
+        data = self.read_bytes("nan.obj")
+        for given, name in (("nan.obj", "nan.obj"), ("-", "standard input")):
+            for tool in ([PLACE, "drop", given, "-n"], [BOOLEAN, "union", given, "-n"]):
+                err = subprocess.run(tool, cwd=self.folder, capture_output=True, input=data,
+                                     timeout=120).stderr.decode()
+                self.assertIn(f"warning: {name}: 1 face with a NaN", err)
+                self.assertEqual([line for line in err.splitlines()
+                                  if line.count(f"{name}: ") > 1 or " -: " in line], [])
 
     def test_standard_input_is_read_and_standard_output_carries_only_data(self):
         run = self.run_tool("-", stdin=obj_bytes(CROSSING), status=1)

@@ -32,13 +32,22 @@ class Usage(ToolTest):
         self.refused()
         self.refused(self.part, "--mend")
 
-    def test_options_of_other_tools_are_refused_with_a_reason(self):
+    def test_nothing_is_replaced_but_by_a_repaired_mesh(self):
         self.assertIn("changes no mesh", self.refused(self.part, "--in-place"))
 
+    def test_a_log_is_a_file(self):
+        self.assertIn("stderr", self.refused(self.part, "--log", "-"))
+        self.assertNotIn("-", self.listing())
+
+    def test_a_repair_that_gives_nothing_back_is_refused(self):
+        self.assertIn("-o FILE", self.refused(self.part, "--repair"))
+        self.run_tool(self.part, "--repair=split", "-n", status=0)
+
     def test_an_option_that_would_do_nothing_is_refused(self):
-        for options in (["--ascii"], ["--binary"], ["--precision", "float"], ["-n"],
+        for options in (["--ascii"], ["--binary"], ["--precision", "float"],
                         ["--output-format", "ply"]):
             self.assertIn("need -o", self.refused(self.part, *options))
+        self.assertIn("needs -o", self.refused(self.part, "-n"))
 
     def test_contradictions_are_refused(self):
         self.refused(self.part, "-o", "m.ply", "--ascii", "--binary")

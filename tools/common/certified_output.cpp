@@ -1,11 +1,14 @@
 #include "tools/common/certified_output.hpp"
 
+#include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
 #include <libmesh/io/io_error.hpp>
 #include <libmesh/io/read.hpp>
+#include <libmesh/round/rounding_harm.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -13,11 +16,6 @@
 
 namespace tools {
 namespace {
-
-bool is_text(const std::string& format) {
-    return format.ends_with("ascii") || format.starts_with("obj") || format.starts_with("off") ||
-           format.starts_with("xyz") || format.starts_with("csv");
-}
 
 bool same_corners(const tf::mesh& a, const tf::mesh& b) {
     if (a.faces.size() != b.faces.size()) return false;
@@ -63,29 +61,25 @@ void look_again(const std::filesystem::path& path, const std::string& format,
 
 }  // namespace
 
-bool writes_single(const common_options& o, const std::optional<std::filesystem::path>& output,
-                   std::span<const property_source> inputs) {
-    if (output) {
-        const std::string format = mesh_format(o, *output);
-        if (format == "glb" || (format == "stl" && !o.ascii)) return true;
-    }
-    if (o.precision != "keep") return o.precision == "float";
-    return std::all_of(inputs.begin(), inputs.end(), [](const property_source& s) {
-        return s.file->stored_as == tf::precision::single_ && !is_text(s.file->format) &&
-               tf::fits_single(s.file->mesh.points);
-    });
+void warn_of_moves(job& work, tf::points_view points, double max_move, bool to_single) {
+    const double step = tf::coordinate_step(points, to_single);
+    if (!(max_move > step)) return;
+    work.warn("moved", "so that no faces meet when rounded, points moved by up to " +
+                           shortest(max_move) + ", " + shortest(std::ceil(max_move / step)) +
+                           " steps of the " + (to_single ? "float32" : "double") +
+                           " numbers there; --max-move DIST sets a limit");
 }
 
-tf::write_result write_certified(job& work, tf::mesh_file& file,
+tf::write_result write_certified(job& work, tf::mesh_file& file, const written_form& form,
                                  const std::filesystem::path& path) {
     const common_options& o = work.options;
-    const std::string format = mesh_format(o, path);
-    output_place place(path, o.force, work.keeper);
+    output_place place(path, o.force || o.in_place, work.keeper);
     tf::write_result written;
     try {
-        written = tf::write_mesh(place.writable(), file,
-                                 {.format = format, .ascii = o.ascii, .precision = file.stored_as});
-        look_again(place.writable(), format, file.mesh);
+        written = tf::write_mesh(
+            place.writable(), file,
+            {.format = form.format, .ascii = form.ascii, .precision = file.stored_as});
+        look_again(place.writable(), form.format, file.mesh);
     } catch (const tf::io_error& error) {
         throw failure(bad_output, "output", place.said_of_path(error.what()));
     }

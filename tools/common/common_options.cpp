@@ -47,12 +47,8 @@ void add_output_options(command_line& line, common_options& o, const common_feat
     line.option({"--output-dir", "DIR", "one result per INPUT, named STEM+SUFFIX.EXT"},
                 [&o](std::string_view value) { o.output_dir = value; });
     line.option(o.suffix, {"--suffix", "TEXT", "SUFFIX for --output-dir", o.suffix});
-    if (features.changes_meshes)
-        line.flag(o.in_place, {.names = "--in-place",
-                               .text = "replace each INPUT (written beside it, then renamed)"});
-    else
-        line.refuse("--in-place", false,
-                    "makes no sense here: this tool changes no mesh, -o writes a marked copy");
+    line.flag(o.in_place, {.names = "--in-place",
+                           .text = "replace each INPUT (written beside it, then renamed)"});
 }
 
 void add_format_options(command_line& line, common_options& o, const common_features& features) {
@@ -177,6 +173,7 @@ void check_common_options(const command_line& line, const common_options& option
     };
     if (from_standard_input(options.inputs) + from_standard_input(options.also_read) > 1)
         refuse("standard input can be read only once");
+    if (options.log == "-") refuse("--log -: what is said goes to stderr anyway; expected a FILE");
     if (options.output == "-" && options.output_format.empty())
         refuse("-o - needs --output-format");
     if (!options.output.empty()) static_cast<void>(mesh_format(options, options.output));
@@ -201,6 +198,12 @@ void check_files(const command_line& line, const common_options& options) {
         if (read.holds(path)) refuse(path.string() + " is an input; no output may replace it");
         if (!written.add(path)) refuse(path.string() + " is named for two outputs");
     }
+}
+
+void require_output(const command_line& line, const common_options& options,
+                    const std::string& instead) {
+    if (wants_mesh(options) || options.dry_run || !line.outputs().empty()) return;
+    refuse("nothing to give back: -o FILE writes the result, " + instead);
 }
 
 bool wants_mesh(const common_options& options) {

@@ -47,7 +47,6 @@ struct common_options {
 /// What of the common options a tool offers.
 struct common_features {
     std::vector<std::string> output_formats;  ///< extensions; empty: writes no mesh
-    bool changes_meshes = true;               ///< then --in-place makes sense
     bool one_result = false;                  ///< of all inputs: then --output-dir makes none
 };
 
@@ -62,6 +61,11 @@ void check_common_options(const command_line& line, const common_options& option
 /// That no file is written that is read, or written twice, however it is spelled. All that is read
 /// must be named in `options` by now. \throws failure (bad_usage)
 void check_files(const command_line& line, const common_options& options);
+
+/// That the result goes somewhere: to a mesh, a report or another output, or that -n says it need
+/// not. \throws failure (bad_usage) that also names what does without, `instead`
+void require_output(const command_line& line, const common_options& options,
+                    const std::string& instead = "-n only says what it would be");
 
 /// Whether some option asks for a mesh.
 [[nodiscard]] bool wants_mesh(const common_options& options);

@@ -33,14 +33,14 @@ std::vector<std::byte> read_standard_input(const guard& keeper) {
     return bytes;
 }
 
-std::string name_of(const std::string& input) { return input == "-" ? "standard input" : input; }
-
 }  // namespace
+
+std::string name_of_input(const std::string& path) { return path == "-" ? "standard input" : path; }
 
 job::job(const std::string& input, const common_options& all_options, console& messages,
          guard& stop, std::map<std::string, double>& all_seconds)
     : path(input),
-      name(name_of(input)),
+      name(name_of_input(input)),
       options(all_options),
       out(messages),
       keeper(stop),
@@ -61,7 +61,7 @@ tf::mesh_file job::read() {
 
 tf::mesh_file job::read(const std::string& input, json& about) {
     const timer whole = time("read");
-    const std::string label = name_of(input);
+    const std::string label = name_of_input(input);
     out.progress(label + ": read", 0.0);
     tf::mesh_file file;
     std::string digest;

@@ -96,10 +96,11 @@ class session {
         for (const std::string& input : inputs) {
             job one(input, options_, out_, keeper_, seconds_);
             const outcome result =
-                halted ? outcome{stopped, "not-started", input + ": not started"} : attempt([&] {
-                    keeper_.check();
-                    return body(one);
-                });
+                halted ? outcome{stopped, "not-started", name_of_input(input) + ": not started"}
+                       : attempt([&] {
+                             keeper_.check();
+                             return body(one);
+                         });
             finish(one, result);
             halted = halted || result.status == stopped;
             worst = graver(worst, result.status);
@@ -119,8 +120,7 @@ class session {
                               result.text.find("--memory") == std::string::npos;
         const std::string text = by_limit ? "stopped by the memory limit (--memory)" : result.text;
         one.entry["error"] = {{"code", result.code}, {"text", text}};
-        const std::string path = one.path == "-" ? "standard input" : one.path;
-        const bool named = text.find(path) != std::string::npos;
+        const bool named = text.find(name_of_input(one.path)) != std::string::npos;
         out_.error(named ? text : one.name + ": " + text);
     }
 

@@ -23,6 +23,9 @@ namespace tools {
 
 using json = nlohmann::ordered_json;
 
+/// For people: the path, or "standard input" for "-".
+[[nodiscard]] std::string name_of_input(const std::string& path);
+
 /// The work on one input, or on all where they are one set (`common_options::joined`); then `path`
 /// is that of the first, and the report names none.
 class job {

@@ -1,6 +1,7 @@
 /// \file
 /// tf-boolean: set operations on solids.
 
+#include "tools/common/certified_output.hpp"
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
 #include "tools/common/run.hpp"
@@ -205,6 +206,7 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
         return tools::found;
     }
     if (moves_too_far(work, s, solids, result)) return tools::found;
+    tools::warn_of_moves(work, result.surface.points, result.max_move, to_single);
     tools::write_surface(work, s, solids, result, to_single);
     return tools::done;
 }
@@ -229,6 +231,9 @@ int main(int argc, char** argv) {
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "cut", "check", "write"}, argc, argv,
-        [&] { tools::settle_words(s, options); },
+        [&] {
+            tools::settle_words(s, options);
+            if (!s.check) tools::require_output(line, options);
+        },
         [&](tools::job& work) { return operate(work, s); });
 }

@@ -7,6 +7,7 @@
 #include "tools/common/output_file.hpp"
 #include <libmesh/boolean/separate_fans.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/round/rounding_harm.hpp>
 #include <libmesh/topology.hpp>
 #include <libmesh/volume.hpp>
 #include <libmesh/weld/equal_points.hpp>
@@ -50,6 +51,9 @@ void add_sources(tf::mesh_file& file, const boolean_settings& settings,
                                                " " + solids[i].path);
 }
 
+/// All inputs together give one result, so that none is replaced.
+written_form form_of(const common_options& o) { return {mesh_format(o, o.output), o.ascii}; }
+
 }  // namespace
 
 void check_output_places(const job& work, const boolean_settings& settings) {
@@ -77,8 +81,9 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
 
 bool writes_single(const job& work, const std::vector<solid>& solids) {
     const common_options& o = work.options;
-    return writes_single(o, o.output.empty() ? std::nullopt : std::optional(o.output),
-                         sources_of(solids));
+    std::vector<const tf::mesh_file*> files;
+    for (const solid& s : solids) files.push_back(&s.file);
+    return writes_single(o, o.output.empty() ? std::nullopt : std::optional(form_of(o)), files);
 }
 
 void separate_parts(job& work, tf::solid_result& result) {
@@ -127,6 +132,7 @@ void enter_result(job& work, const tf::solid_result& result, bool bounds_solid, 
                        {"meeting", meeting_list(result)},
                        {"certified", result.certified},
                        {"max_move", result.max_move},
+                       {"step", tf::coordinate_step(surface.points, to_single)},
                        {"rounding_steps", result.rounding_steps}};
 }
 
@@ -139,12 +145,12 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     file.mesh = std::move(result.surface);
     file.stored_faces = file.mesh.faces.size();
     file.stored_as = to_single ? tf::precision::single_ : tf::precision::double_;
-    const std::string format = mesh_format(o, o.output);
+    const written_form form = form_of(o);
     if (!settings.no_attributes)
         carry_properties(file, sources_of(solids),
                          {result.source_face, result.source_point, result.face_of_cut_point});
-    if (holds_sources(format)) add_sources(file, settings, solids, result);
-    const tf::write_result written = write_certified(work, file, o.output);
+    if (holds_sources(form.format)) add_sources(file, settings, solids, result);
+    const tf::write_result written = write_certified(work, file, form, o.output);
     work.entry["output"]["file"] = o.output.string();
     work.entry["output"]["format"] = written.format;
     for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);

@@ -28,8 +28,12 @@ std::string listed(const std::array<const char*, N>& words) {
 }
 
 void take_operation(boolean_settings& s, common_options& o) {
-    if (!s.expression.empty()) return;
     const std::string& first = o.inputs.front();
+    if (!s.expression.empty()) {
+        if (is_operation(first) && !std::filesystem::exists(first))
+            refuse("--expr stands instead of " + first + ", not beside it");
+        return;
+    }
     if (is_operation(first)) {
         s.operation = first;
         o.inputs.erase(o.inputs.begin());

@@ -40,7 +40,7 @@ void keep_usable(job& work, solid& s) {
         s.triangle_of_face.push_back(f);
     }
     s.file.mesh.faces = std::move(usable);
-    work.warn("non-finite", s.path + ": " + counted(s.non_finite, "face", "faces") +
+    work.warn("non-finite", name_of_input(s.path) + ": " + counted(s.non_finite, "face", "faces") +
                                 " with a NaN or infinite coordinate left out");
 }
 
@@ -60,8 +60,9 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
                  json& about) {
     solid s;
     s.path = path;
+    const std::string name = name_of_input(path);
     s.file = work.read(path, about);
-    for (const tf::io_warning& w : s.file.warnings) work.warn(w.code, path + ": " + w.text);
+    for (const tf::io_warning& w : s.file.warnings) work.warn(w.code, name + ": " + w.text);
     const auto timing = work.time("prepare");
     s.triangles = s.file.mesh.faces.size();
     if (!matrix_file.empty()) {
@@ -72,9 +73,9 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     keep_usable(work, s);
     // A mesh of nothing is what a difference may leave; points alone are no mesh.
     if (s.file.mesh.faces.empty() && !s.file.mesh.points.empty())
-        throw failure(bad_input, "no-triangles", path + ": no triangle with finite coordinates");
-    check_arrangeable(path, s.file.mesh);
-    if (s.file.mesh.faces.empty()) work.warn("empty", path + ": no faces: an empty solid");
+        throw failure(bad_input, "no-triangles", name + ": no triangle with finite coordinates");
+    check_arrangeable(name, s.file.mesh);
+    if (s.file.mesh.faces.empty()) work.warn("empty", name + ": no faces: an empty solid");
     about["faces"] = s.file.stored_faces;
     about["triangles"] = s.triangles;
     about["volume"] = tf::signed_volume(s.file.mesh);
@@ -160,7 +161,7 @@ std::vector<std::uint32_t> check_solids(job& work, const std::vector<solid>& sol
 void warn_of_open(job& work, const std::vector<solid>& solids,
                   const std::vector<std::uint32_t>& open) {
     for (const std::uint32_t i : open)
-        work.warn("open", solids[i].path + ": no solid: " +
+        work.warn("open", name_of_input(solids[i].path) + ": no solid: " +
                               work.entry["inputs"][i]["reason"].get<std::string>());
 }
 

@@ -100,7 +100,10 @@ std::string body::name() const {
     return path == "-" ? "stdin" : std::filesystem::path(path).filename().string();
 }
 
-std::string body::label() const { return part.empty() ? path : path + ": " + part; }
+std::string body::label() const {
+    const std::string file_name = name_of_input(path);
+    return part.empty() ? file_name : file_name + ": " + part;
+}
 
 body make_body(job& work, const std::string& path, tf::mesh_file file) {
     body b;
@@ -113,7 +116,7 @@ body make_body(job& work, const std::string& path, tf::mesh_file file) {
     const std::size_t all = b.cloud ? b.file->mesh.points.size() : b.file->mesh.faces.size();
     b.non_finite = all - usable.size();
     if (b.non_finite > 0)
-        work.warn("non-finite", path + ": " +
+        work.warn("non-finite", b.label() + ": " +
                                     (b.cloud ? counted(b.non_finite, "point", "points")
                                              : counted(b.non_finite, "face", "faces")) +
                                     " with a NaN or infinite coordinate left out");
@@ -122,7 +125,7 @@ body make_body(job& work, const std::string& path, tf::mesh_file file) {
     if (usable.size() < all) b.triangle_of_face = std::move(usable);
     if (b.mesh.points.empty())
         throw failure(bad_input, "no-triangles",
-                      path + ": no triangle with finite coordinates (" +
+                      b.label() + ": no triangle with finite coordinates (" +
                           counted(b.file->mesh.points.size(), "point", "points") + ")");
     b.box = tf::bounding_box(b.mesh.points);
     return b;
@@ -171,8 +174,14 @@ void take_places(body& b, const std::vector<tf::point3>& placed, const tf::trans
     }
 }
 
-void round_to_single(tf::mesh_file& file) {
-    for (tf::point3& p : file.mesh.points) p = rounded(p);
+double round_to_single(tf::mesh_file& file) {
+    double largest = 0.0;
+    for (tf::point3& p : file.mesh.points) {
+        const tf::point3 before = std::exchange(p, rounded(p));
+        for (std::size_t k = 0; k < 3 && finite(before); ++k)
+            largest = std::max(largest, std::abs(p[k] - before[k]));
+    }
+    return largest;
 }
 
 void turn_normals(tf::mesh_file& file, const tf::transform<3>& matrix) {

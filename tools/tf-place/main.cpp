@@ -3,6 +3,7 @@
 
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
+#include "tools/common/console.hpp"
 #include "tools/common/run.hpp"
 #include "tools/tf-place/move.hpp"
 #include "tools/tf-place/outputs.hpp"
@@ -25,8 +26,9 @@ using tools::place_settings;
 
 void add_modes(command_line& line) {
     line.group("Modes");
-    line.mention(
-        {.names = "drop", .text = "translate down until MOVING rests on the bed or on\n--fixed"});
+    line.mention({.names = "drop",
+                  .text = "translate down until MOVING rests on the bed or on\n--fixed; from below "
+                          "the bed, up to it, if there is no\n--fixed"});
     line.mention({.names = "lay", .text = "turn a flat side down, on the bed"});
     line.mention({.names = "slide",
                   .text = "translate along --direction until contact (less\n--clearance)"});
@@ -152,6 +154,8 @@ const char* const epilogue =
     "What penetrates at the start is not moved, but by clear; what touches stays.\n"
     "Only closed meshes have an inside. Resting on the bed, the lowest points have\n"
     "exactly its height (a float32 that is not below it, where these are written).\n"
+    "Where coordinates are coarser at the place than they were, faces are looked at\n"
+    "again; a warning, and \"rounding\" in the report, say what moved and what folds.\n"
     "With several MOVING each is placed on its own, but by arrange; then -o is the\n"
     "plate, and --matrix has 4 lines for each. Face numbers are those of the\n"
     "files, from 0; of a cloud of points they are those of its points. Clouds bound\n"
@@ -201,7 +205,7 @@ void check_arrange_and_fit(const place_settings& s) {
 }
 
 /// Options that would do nothing are refused rather than passed over.
-void check_settings(place_settings& s, common_options& o) {
+void check_settings(const command_line& line, place_settings& s, common_options& o) {
     s.mode = tools::parse_mode(s.mode_text);
     s.fixed = o.also_read;
     if (!s.start.empty()) o.also_read.push_back(s.start.string());
@@ -227,6 +231,7 @@ void check_settings(place_settings& s, common_options& o) {
         refuse(
             "--output-format, --ascii, --binary and --precision need -o, --output-dir or "
             "--in-place");
+    if (s.mode != place_mode::measure) tools::require_output(line, o);
 }
 
 /// The fixed meshes, read once for all MOVING.
@@ -252,8 +257,13 @@ void read_fixed(tools::job& work, const place_settings& s, bool as_single, fixed
     for (const std::string& path : s.fixed) {
         tools::json about{{"input", path}};
         tf::mesh_file file = work.read(path, about);
-        for (const tf::io_warning& w : file.warnings) work.warn(w.code, path + ": " + w.text);
-        if (as_single) tools::round_to_single(file);
+        for (const tf::io_warning& w : file.warnings)
+            work.warn(w.code, tools::name_of_input(path) + ": " + w.text);
+        const double moved = as_single ? tools::round_to_single(file) : 0.0;
+        if (moved > 0.0)
+            work.warn("rounded", tools::name_of_input(path) +
+                                     ": written in single precision: coordinates move by up to " +
+                                     tools::shortest(moved));
         for (tools::body& part : parts_of(work, path, std::move(file), s.mode)) {
             part.file_number = fixed.entries.size();
             fixed.bodies.push_back(std::move(part));
@@ -322,7 +332,7 @@ int main(int argc, char** argv) {
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "search", "settle", "write"}, argc, argv,
-        [&] { check_settings(s, options); },
+        [&] { check_settings(line, s, options); },
         [&](tools::job& work) {
             return s.mode == place_mode::arrange ? tools::arrange_all(work, s)
                                                  : look_at(work, s, fixed);

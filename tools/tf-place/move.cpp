@@ -28,6 +28,12 @@ double float_not_below(double x) {
         std::nextafterf(static_cast<float>(nearest), std::numeric_limits<float>::infinity()));
 }
 
+bool all_finite(const std::vector<tf::point3>& points) {
+    return std::all_of(points.begin(), points.end(), [](const tf::point3& p) {
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    });
+}
+
 class placing {
   public:
     placing(job& work, body& moving, const surroundings& among, const place_settings& settings,
@@ -39,7 +45,20 @@ class placing {
     }
 
     [[nodiscard]] placement run() {
-        if (settings_.mode != place_mode::fit) look_at_start();
+        const bool looks = settings_.mode != place_mode::fit;
+        if (looks) look_at_start();
+        find_place();
+        if (result_.placed && !all_finite(result_.points)) {
+            forget_place();
+            fail(std::string("is beyond the range of ") + (to_single_ ? "float32" : "doubles") +
+                 " at its place");
+        }
+        if (looks) look_at_place();
+        return std::move(result_);
+    }
+
+  private:
+    void find_place() {
         switch (settings_.mode) {
             case place_mode::drop:
             case place_mode::slide:
@@ -47,7 +66,7 @@ class placing {
                 break;
             case place_mode::fit:
                 fit();
-                return std::move(result_);
+                break;
             case place_mode::lay:
                 lay();
                 break;
@@ -61,11 +80,8 @@ class placing {
                 result_.placed = true;
                 break;
         }
-        look_at_place();
-        return std::move(result_);
     }
 
-  private:
     [[nodiscard]] place_status status_of(const std::optional<nearest_part>& near) const {
         const double c = result_.clearance;
         if (!near) return c > 0.0 ? place_status::clear : place_status::separate;
@@ -107,7 +123,7 @@ class placing {
     /// Says why nothing can move if that is so: penetrating, or nearer than the clearance.
     [[nodiscard]] bool stuck_at_start() {
         const std::string part =
-            result_.nearest ? among_.all()[result_.nearest->part].label() : moving_.path;
+            result_.nearest ? among_.all()[result_.nearest->part].label() : moving_.label();
         switch (result_.status_at_start) {
             case place_status::penetrating:
                 fail("penetrates " + part + " where it is; clear would take it out");
@@ -165,7 +181,11 @@ class placing {
         const tf::point3 motion =
             in_range(settings_.direction.value_or(tf::point3{0.0, 0.0, -1.0}));
         const double speed = length(motion);
-        if (settings_.has_bed() && !meet_bed(motion)) return;
+        if (settings_.has_bed()) {
+            const double above = height_above_bed();
+            if (above < 0.0) return lift(motion, above);
+            bed_time_ = above / -motion.z;
+        }
         if (stuck_at_start()) return;
         const double allowed = longest_.value_or(infinity) / speed;
         const double latest = std::min(bed_time_, allowed);
@@ -202,24 +222,31 @@ class placing {
         return slid;
     }
 
-    /// The time at which the bed is met; false when MOVING is below it.
-    [[nodiscard]] bool meet_bed(const tf::point3& motion) {
+    /// How far the lowest point is above the bed, and the clearance over it; negative below it.
+    [[nodiscard]] double height_above_bed() {
         const double given = settings_.bed.value_or(0.0);
         const double level = given + result_.clearance;
         result_.bed = bed_level{given, bed_to_write(level, to_single_)};
-        const double above = moving_.box->min.z - result_.bed->used;
-        if (above < 0.0) {
-            const bool below = moving_.box->min.z < given;
-            result_.status_at_start =
-                below ? place_status::penetrating : place_status::closer_than_clearance;
-            result_.status = result_.status_at_start;
-            fail("reaches " + shortest(-above) + " below " +
-                 (result_.clearance > 0.0 ? "the clearance over the bed" : "the bed") +
-                 "; drop only goes down");
-            return false;
-        }
-        bed_time_ = above / -motion.z;
-        return true;
+        return moving_.box->min.z - result_.bed->used;
+    }
+
+    /// From below the bed, back along the direction up to it, where nothing can be in the way.
+    void lift(const tf::point3& motion, double above) {
+        const bool below = moving_.box->min.z < result_.bed->given;
+        result_.status_at_start =
+            below ? place_status::penetrating : place_status::closer_than_clearance;
+        result_.status = result_.status_at_start;
+        const std::string depth =
+            "reaches " + shortest(-above) + " below " +
+            (result_.clearance > 0.0 ? "the clearance over the bed" : "the bed");
+        if (!among_.all().empty())
+            return fail(depth +
+                        "; with --fixed, drop only goes down: drop it without --fixed first");
+        const double time = above / motion.z;
+        if (longest_ && time > *longest_ / length(motion))
+            return fail(depth + ", further than " + shortest(*longest_));
+        result_.on_bed = true;
+        settle({}, {0.0 - motion.x, 0.0 - motion.y, 0.0 - motion.z}, time, true, false);
     }
 
     void lay() {
@@ -309,7 +336,9 @@ class placing {
     }
 
     void forget_place() {
-        result_.placed = false;
+        result_.placed = result_.on_bed = false;
+        result_.contacts.clear();
+        result_.contact_count = 0;
         result_.reason.clear();
         result_.points = moving_.mesh.points;
         result_.matrix = {};
@@ -382,7 +411,13 @@ class placing {
 }  // namespace
 
 double bed_to_write(double given, bool to_single) {
-    return to_single ? float_not_below(given) : given;
+    if (!to_single) return given;
+    if (!(std::abs(given) <= static_cast<double>(std::numeric_limits<float>::max())))
+        throw failure(bad_usage, "usage",
+                      "--bed: " + shortest(given) +
+                          " is beyond the range of float32, which is what will be written; a "
+                          "format of text, or --precision double in PLY, has more");
+    return float_not_below(given);
 }
 
 placement place(job& work, body& moving, const surroundings& among, const place_settings& settings,

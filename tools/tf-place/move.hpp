@@ -50,7 +50,7 @@ struct placement {
     skipped_work skipped{};
 };
 
-/// Height of the bed that can be written.
+/// Height of the bed that can be written. \throws failure (bad_usage) where none can
 [[nodiscard]] double bed_to_write(double given, bool to_single);
 
 /// Finds the place. `to_single`: what is written is float32.

@@ -2,7 +2,9 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
+#include "tools/common/written_form.hpp"
 #include "tools/tf-place/marks.hpp"
+#include "tools/tf-place/rounding.hpp"
 #include "tools/tf-place/words.hpp"
 #include <libmesh/io/io_error.hpp>
 #include <libmesh/io/write.hpp>
@@ -91,23 +93,6 @@ void enter_fit(job& work, const tf::fit_result& fit) {
                     {"pivot_moved", triple(fit.pivot_moved)}};
 }
 
-bool is_text(const std::string& format) {
-    return format.ends_with("ascii") || format.starts_with("obj") || format.starts_with("off") ||
-           format.starts_with("xyz") || format.starts_with("csv");
-}
-
-/// In-place, a file keeps its kind.
-std::pair<std::string, bool> format_of(const job& work, const tf::mesh_file& file,
-                                       const std::filesystem::path& path) {
-    const common_options& o = work.options;
-    if (!o.in_place) return {mesh_format(o, path), o.ascii};
-    const std::string format = file.format.substr(0, file.format.find('-'));
-    if (std::find(o.mesh_formats.begin(), o.mesh_formats.end(), format) == o.mesh_formats.end())
-        throw failure(bad_output, "output",
-                      work.path + ": --in-place cannot write " + file.format + "; use -o");
-    return {format, o.ascii || (file.format.ends_with("ascii") && !o.binary)};
-}
-
 /// All together, with the parts of their files; a file of one part is one with the file's name.
 /// Other properties are left out.
 tf::mesh_file scene_of(const std::vector<const body*>& bodies) {
@@ -144,11 +129,11 @@ tf::mesh_file scene_of(const std::vector<const body*>& bodies) {
 
 /// Writes `file` and says so in the report.
 void write_file(job& work, const tf::mesh_file& file, const std::filesystem::path& path,
-                const std::string& format, bool ascii, bool to_single, bool scene) {
+                const written_form& form, bool to_single, bool scene) {
     const common_options& o = work.options;
     const tf::write_options options{
-        .format = format,
-        .ascii = ascii,
+        .format = form.format,
+        .ascii = form.ascii,
         .precision = to_single ? tf::precision::single_ : tf::precision::double_};
     output_place place(path, o.force || o.in_place, work.keeper);
     tf::write_result written;
@@ -165,6 +150,9 @@ void write_file(job& work, const tf::mesh_file& file, const std::filesystem::pat
         {"max_move", written.largest_move},
         {"scene", scene}};
     for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
+    if (written.largest_move > 0.0)  // of measure, which moves nothing, and of what is fixed
+        work.warn("rounded", "written in single precision: coordinates move by up to " +
+                                 shortest(written.largest_move));
 }
 
 /// Of a scene, the classes of all files follow each other as its faces do; clouds have none there.
@@ -210,12 +198,8 @@ void check_outputs(const job& work, const place_settings& settings) {
 
 bool writes_single(const job& work, const tf::mesh_file& file) {
     const auto path = mesh_output(work.options, work.path);
-    if (!path) return false;
-    const auto [format, ascii] = format_of(work, file, *path);
-    if (format == "glb" || (format == "stl" && !ascii)) return true;
-    if (work.options.precision != "keep") return work.options.precision == "float";
-    return file.stored_as == tf::precision::single_ && !is_text(file.format) &&
-           tf::fits_single(file.mesh.points);
+    const tf::mesh_file* const input = &file;
+    return path && writes_single(work.options, form_of(work, file, *path), {&input, 1});
 }
 
 void enter_blank_report(job& work, const place_settings& settings) {
@@ -243,6 +227,7 @@ void enter_blank_report(job& work, const place_settings& settings) {
         {"used", nullptr}};
     entry["parts"] = json::array();
     entry["not_placed"] = json::array();
+    entry["rounding"] = nullptr;
     entry["matrix_file"] = settings.matrix.empty() ? json(nullptr) : json(settings.matrix.string());
     entry["output"] = nullptr;
     entry["warnings"] = json::array();
@@ -339,10 +324,14 @@ void write_result(job& work, body& moving, const placement& p, const surrounding
                   bool to_single) {
     const common_options& o = work.options;
     const auto path = mesh_output(o, work.path);
-    if (!path || o.dry_run) return;
-    const auto [format, ascii] = format_of(work, *moving.file, *path);
+    if (!path) return;
+    if (settings.mode != place_mode::measure)
+        enter_rounding(work, {look_at_rounding(work, moving, p.matrix, p.points, to_single)},
+                       to_single);
+    if (o.dry_run) return;
+    const written_form form = form_of(work, *moving.file, *path);
     std::optional<all_classes> classes;
-    if (has_classes(settings, format)) classes = classify_faces(moving, among, p);
+    if (has_classes(settings, form.format)) classes = classify_faces(moving, among, p);
     take_places(moving, p.points, p.matrix, to_single);
     turn_normals(*moving.file, all_moves);
     std::vector<const body*> bodies{&moving};
@@ -352,7 +341,7 @@ void write_result(job& work, body& moving, const placement& p, const surrounding
     if (classes && settings.scene) color_scene(file, moving, among.all(), *classes);
     if (classes && !settings.scene)
         color_moving(file, moving.cloud, classes->moving, settings.mode == place_mode::measure);
-    write_file(work, file, *path, format, ascii, to_single, settings.scene);
+    write_file(work, file, *path, form, to_single, settings.scene);
 }
 
 void write_plate(job& work, const std::vector<body>& bodies, const std::vector<bool>& placed,
@@ -363,8 +352,8 @@ void write_plate(job& work, const std::vector<body>& bodies, const std::vector<b
     for (std::size_t i = 0; i < bodies.size(); ++i)
         if (placed[i]) there.push_back(&bodies[i]);
     if (there.empty()) return;
-    const auto [format, ascii] = format_of(work, *there[0]->file, *path);
-    write_file(work, scene_of(there), *path, format, ascii, to_single, true);
+    write_file(work, scene_of(there), *path, form_of(work, *there[0]->file, *path), to_single,
+               true);
 }
 
 }  // namespace tools

@@ -4,6 +4,7 @@
 #include "tools/common/output_file.hpp"
 #include "tools/tf-place/move.hpp"
 #include "tools/tf-place/outputs.hpp"
+#include "tools/tf-place/rounding.hpp"
 #include <libmesh/place/arrange.hpp>
 
 #include <algorithm>
@@ -17,13 +18,15 @@ std::vector<body> read_all(job& work, const tf::transform<3>& start) {
     for (const std::string& path : work.options.inputs) {
         json about{{"input", path}};
         tf::mesh_file file = work.read(path, about);
-        for (const tf::io_warning& w : file.warnings) work.warn(w.code, path + ": " + w.text);
+        for (const tf::io_warning& w : file.warnings)
+            work.warn(w.code, name_of_input(path) + ": " + w.text);
         if (start != tf::transform<3>{})
             for (tf::point3& p : file.mesh.points) p = start(p);
         bodies.push_back(make_body(work, path, std::move(file)));
         if (bodies.back().cloud)
-            throw failure(bad_usage, "usage",
-                          path + ": is a cloud of points; arrange takes meshes only");
+            throw failure(
+                bad_usage, "usage",
+                bodies.back().label() + ": is a cloud of points; arrange takes meshes only");
         about["faces"] = bodies.back().file->stored_faces;
         work.entry["parts"].push_back(std::move(about));
     }
@@ -79,20 +82,27 @@ exit_status arrange_all(job& work, const place_settings& settings) {
 
     std::vector<tf::transform<3>> matrices;
     std::vector<bool> placed;
+    std::vector<rounding> roundings;
     std::string matrix_lines;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         matrices.push_back(tf::after(found.parts[i].matrix, start));
         placed.push_back(found.parts[i].placed);
-        if (placed[i])
-            take_places(bodies[i], found.parts[i].points, found.parts[i].matrix, to_single);
+        if (placed[i]) {
+            const tf::arranged_part& at = found.parts[i];
+            if (wants_mesh(work.options))
+                roundings.push_back(
+                    look_at_rounding(work, bodies[i], at.matrix, at.points, to_single));
+            take_places(bodies[i], at.points, at.matrix, to_single);
+        }
         matrix_lines += matrix_text(matrices[i]);
     }
     enter_places(work, bodies, found, matrices);
     work.entry["bed"] = {{"given", bed}, {"used", options.corner.z}, {"reached", true}};
     std::string words = std::to_string(bodies.size() - found.not_placed.size()) + " of " +
                         counted(bodies.size(), "part", "parts") + " placed";
-    for (const std::uint32_t i : found.not_placed) words += "; no place for " + bodies[i].path;
+    for (const std::uint32_t i : found.not_placed) words += "; no place for " + bodies[i].label();
     work.out.result(work.name + ": " + words);
+    if (!roundings.empty()) enter_rounding(work, roundings, to_single);
     const auto timing = work.time("write");
     if (!settings.matrix.empty()) {
         output_file file(settings.matrix, work.options.force, work.keeper);

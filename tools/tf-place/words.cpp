@@ -5,10 +5,10 @@
 namespace tools {
 namespace {
 
-const char* moved_word(place_mode mode) {
+const char* moved_word(place_mode mode, bool up) {
     switch (mode) {
         case place_mode::drop:
-            return "dropped";
+            return up ? "lifted" : "dropped";
         case place_mode::slide:
             return "slid";
         default:
@@ -75,9 +75,10 @@ std::string verdict(const body& moving, const placement& p, const surroundings& 
         return "laid on side " + std::to_string(p.chosen) + " of " +
                std::to_string(p.sides.size()) + ", of area " + shortest(p.sides[p.chosen].area) +
                "; " + relation_in_words(moving, p, among);
-    const std::string text =
-        p.travel == 0.0 ? "stays where it is"
-                        : std::string(moved_word(settings.mode)) + " by " + shortest(p.travel);
+    const std::string text = p.travel == 0.0
+                                 ? "stays where it is"
+                                 : std::string(moved_word(settings.mode, p.direction.z > 0.0)) +
+                                       " by " + shortest(p.travel);
     return text + "; " + relation_in_words(moving, p, among);
 }
 

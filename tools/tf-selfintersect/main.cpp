@@ -151,10 +151,11 @@ void check_outputs(const tools::job& work, const request& r) {
         if (!path.empty()) tools::check_output(path, o.force);
     if (o.dry_run) return;
     if (!r.curves.empty()) tools::check_output(r.curves, o.force);
-    if (const auto path = tools::mesh_output(o, work.path)) tools::check_output(*path, o.force);
+    if (const auto path = tools::mesh_output(o, work.path))
+        tools::check_output(*path, o.force || o.in_place);
 }
 
-void check_request(const request& r, common_options& options) {
+void check_request(const command_line& line, const request& r, common_options& options) {
     const auto refuse = [](const std::string& text) {
         throw tools::failure(tools::bad_usage, "usage", text);
     };
@@ -164,12 +165,17 @@ void check_request(const request& r, common_options& options) {
         refuse("--max-move and --keep-components need --repair");
     if (r.repair && (r.search.first || r.search.between || r.search.within || r.search.box))
         refuse("--repair looks at the whole mesh: no --first, --between, --within or --box");
+    if (options.in_place && !r.repair)
+        refuse("--in-place: without --repair this tool changes no mesh; -o writes a marked copy");
     if (!r.repair) options.mesh_formats = {"ply", "glb"};  // that can hold marks
     if (!options.output.empty()) static_cast<void>(tools::mesh_format(options, options.output));
-    const bool mesh_asked = !options.output.empty() || !options.output_dir.empty();
-    if (!mesh_asked && (options.ascii || options.binary || options.precision != "keep" ||
-                        !options.output_format.empty() || options.dry_run))
-        refuse("--output-format, --ascii, --binary, --precision and -n need -o or --output-dir");
+    if (!tools::wants_mesh(options)) {
+        if (options.ascii || options.binary || options.precision != "keep" ||
+            !options.output_format.empty())
+            refuse("--output-format, --ascii, --binary and --precision need -o or --output-dir");
+        if (options.dry_run && !r.repair) refuse("-n needs -o or --output-dir, or --repair");
+    }
+    if (r.repair) tools::require_output(line, options);
 }
 
 template <class Write>
@@ -247,12 +253,11 @@ int main(int argc, char** argv) {
     add_what_to_give_back(line, r, options);
     add_repair(line, r);
     line.group("Common options");
-    tools::add_common_options(
-        line, options,
-        {.output_formats = {"ply", "glb", "obj", "stl", "off"}, .changes_meshes = false});
+    tools::add_common_options(line, options,
+                              {.output_formats = {"ply", "glb", "obj", "stl", "off"}});
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "tree", "pairs", "regions", "repair", "write"}, argc,
-        argv, [&] { check_request(r, options); },
+        argv, [&] { check_request(line, r, options); },
         [&](tools::job& work) { return look_at(work, r); });
 }

@@ -1,10 +1,12 @@
 #include "tools/tf-selfintersect/repairing.hpp"
 
 #include "tools/common/arrangeable.hpp"
+#include "tools/common/carried_properties.hpp"
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
 #include <libmesh/attributes.hpp>
 #include <libmesh/boolean/separate_fans.hpp>
+#include <libmesh/round/rounding_harm.hpp>
 #include <libmesh/topology.hpp>
 #include <libmesh/volume.hpp>
 
@@ -67,7 +69,10 @@ void enter_repair(job& work, const findings& result, const repair_settings& sett
         {"meeting", meeting},
         {"open", {{"count", repaired.open_count}, {"list", open}}},
         {"max_move",
-         {{"given", settings.max_move.given}, {"used", allowed}, {"largest", repaired.max_move}}},
+         {{"given", settings.max_move.given},
+          {"used", allowed},
+          {"largest", repaired.max_move},
+          {"step", tf::coordinate_step(surface.points, to_single)}}},
         {"removed_faces", repaired.removed},
         {"covered_faces", repaired.covered},
         {"filled_faces", repaired.filled},
@@ -151,7 +156,7 @@ void add_source_faces(tf::mesh_file& file, const findings& result,
 
 void write_repaired(job& work, const tf::mesh_file& input, const findings& result,
                     tf::repaired_mesh& repaired, const std::filesystem::path& output,
-                    bool to_single) {
+                    const written_form& form, bool to_single) {
     const auto timing = work.time("write");
     tf::mesh_file file;
     file.mesh = std::move(repaired.surface);
@@ -166,7 +171,7 @@ void write_repaired(job& work, const tf::mesh_file& input, const findings& resul
         leaves_out_properties({&source, 1}))
         work.warn("attributes", "not all properties of the input are carried over");
     add_source_faces(file, result, repaired.face_of);
-    const tf::write_result written = write_certified(work, file, output);
+    const tf::write_result written = write_certified(work, file, form, output);
     work.entry["output"] = {{"file", output.string()},
                             {"format", written.format},
                             {"precision_out", to_single ? "float" : "double"},
@@ -191,8 +196,10 @@ const char* name_of(tf::repair_mode mode) {
 bool repair_and_write(job& work, const tf::mesh_file& file, const findings& result,
                       const repair_settings& settings,
                       const std::optional<std::filesystem::path>& output) {
-    const property_source source{&file, &result.triangle_of_face};
-    const bool to_single = writes_single(work.options, output, {&source, 1});
+    std::optional<written_form> form;
+    if (output) form = form_of(work, file, *output);
+    const tf::mesh_file* const input = &file;
+    const bool to_single = writes_single(work.options, form, {&input, 1});
     tf::repaired_mesh repaired = compute(work, result, settings, to_single);
     const std::uint64_t separated = settings.mode == tf::repair_mode::outer && repaired.certified
                                         ? separate_parts(repaired)
@@ -205,8 +212,9 @@ bool repair_and_write(job& work, const tf::mesh_file& file, const findings& resu
         return false;
     }
     say_result(work, settings, repaired);
+    warn_of_moves(work, repaired.surface.points, repaired.max_move, to_single);
     if (output && !work.options.dry_run)
-        write_repaired(work, file, result, repaired, *output, to_single);
+        write_repaired(work, file, result, repaired, *output, *form, to_single);
     return true;
 }
 

@@ -127,18 +127,17 @@ void check_label(const weld_outputs& outputs, const weld_settings& s, const comm
         refuse("--label " + outputs.label + ": expected a name without blanks and commas");
 }
 
-void check_request(const tools::weld_request& r, const common_options& o) {
+void check_request(const command_line& line, const tools::weld_request& r,
+                   const common_options& o) {
     const bool mesh = tools::wants_mesh(o);
     const weld_outputs& outputs = r.outputs;
     if (outputs.check && (mesh || !outputs.removed.empty()))
         refuse("--check only counts; it excludes -o, --output-dir, --in-place and --removed");
-    if (!mesh && !outputs.check && outputs.map.empty() && outputs.removed.empty() &&
-        o.report.empty())
-        refuse("nothing to give back: -o FILE writes the result, --check only counts");
+    if (!outputs.check) tools::require_output(line, o, "--check only counts");
     if (!mesh && (!o.output_format.empty() || o.precision != "keep"))
         refuse("--output-format and --precision need -o, --output-dir or --in-place");
-    if (!mesh && outputs.removed.empty() && (o.ascii || o.binary || o.dry_run))
-        refuse("--ascii, --binary and -n need an output that they apply to");
+    if (!mesh && outputs.removed.empty() && (o.ascii || o.binary))
+        refuse("--ascii and --binary need an output that they apply to");
     if (!outputs.removed.empty()) tools::check_points_format(outputs.removed);
     for (const auto& condition : r.settings.same)
         for (const auto& name : r.settings.across)
@@ -175,6 +174,7 @@ int main(int argc, char** argv) {
     line.refuse("--html", true, "makes no sense here: pages show faces; -o file.ply shows points");
     line.epilogue(epilogue);
     return tools::run(
-        line, options, {"read", "weld", "write"}, argc, argv, [&] { check_request(r, options); },
+        line, options, {"read", "weld", "write"}, argc, argv,
+        [&] { check_request(line, r, options); },
         [&](tools::job& work) { return tools::weld_somewhere(work, r, tiles); });
 }

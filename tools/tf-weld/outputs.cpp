@@ -55,19 +55,7 @@ std::array<char, 8> little_endian(std::uint64_t number) {
     return bytes;
 }
 
-void require_writable_format(const job& work, const tf::mesh_file& file) {
-    const common_options& o = work.options;
-    const std::string format = file.format.substr(0, file.format.find('-'));
-    if (o.in_place &&
-        std::find(o.mesh_formats.begin(), o.mesh_formats.end(), format) == o.mesh_formats.end())
-        throw failure(bad_output, "output",
-                      work.path + ": --in-place cannot write " + file.format + "; use -o");
-}
-
-void refuse_label_format(const job& work, const std::filesystem::path& path,
-                         const tf::mesh_file& file) {
-    const std::string format = work.options.in_place ? file.format.substr(0, file.format.find('-'))
-                                                     : mesh_format(work.options, path);
+void refuse_label_format(const std::filesystem::path& path, const std::string& format) {
     if (format == "stl" || format == "obj" || format == "off" || format == "glb")
         throw failure(
             bad_usage, "usage",
@@ -85,24 +73,17 @@ void check_outputs(const job& work, const weld_request& request) {
 }
 
 void check_formats(const job& work, const weld_request& request, const tf::mesh_file& file) {
-    require_writable_format(work, file);
     const auto path = mesh_output(work.options, work.path);
-    if (path && !request.outputs.label.empty()) refuse_label_format(work, *path, file);
+    if (!path) return;
+    const written_form form = form_of(work, file, *path);
+    if (!request.outputs.label.empty()) refuse_label_format(*path, form.format);
 }
 
-tf::write_options write_options_for(const common_options& o, std::string format, bool ascii) {
-    tf::write_options options{.format = std::move(format), .ascii = ascii};
+tf::write_options write_options_for(const common_options& o, const written_form& form) {
+    tf::write_options options{.format = form.format, .ascii = form.ascii};
     if (o.precision == "float") options.precision = tf::precision::single_;
     if (o.precision == "double") options.precision = tf::precision::double_;
     return options;
-}
-
-std::pair<std::string, bool> format_of(const job& work, const tf::mesh_file& file,
-                                       const std::filesystem::path& path) {
-    const common_options& o = work.options;
-    if (!o.in_place) return {mesh_format(o, path), o.ascii};
-    const bool text = file.format.ends_with("ascii");
-    return {file.format.substr(0, file.format.find('-')), o.ascii || (text && !o.binary)};
 }
 
 const std::filesystem::path& pending_outputs::add(const std::filesystem::path& path, bool force) {
@@ -225,9 +206,9 @@ void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& fil
     for (const std::uint32_t p : rows) gone.mesh.points.push_back(file.mesh.points[p]);
     if (const tf::element* vertices = tf::find_element(file.attributes, "vertex"))
         gone.attributes.elements.push_back(tf::gather(*vertices, rows));
-    const auto written =
-        write_file(outputs, path, work.options.force, gone,
-                   write_options_for(work.options, check_points_format(path), work.options.ascii));
+    const auto written = write_file(
+        outputs, path, work.options.force, gone,
+        write_options_for(work.options, {check_points_format(path), work.options.ascii}));
     for (const tf::io_warning& warning : written.warnings) work.warn(warning.code, warning.text);
 }
 
@@ -245,9 +226,8 @@ void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& weld
                   const welding& w, const weld_request& request,
                   const std::filesystem::path& path) {
     const common_options& o = work.options;
-    const auto [format, ascii] = format_of(work, welded, path);
     const tf::write_result written = write_file(outputs, path, o.force || o.in_place, welded,
-                                                write_options_for(o, format, ascii));
+                                                write_options_for(o, form_of(work, welded, path)));
     std::optional<std::uint64_t> again;
     if (request.outputs.label.empty())
         again = still_within(work, welded, w, request.settings, written.written_as);

@@ -3,6 +3,7 @@
 /// What tf-weld writes: the welded set, the map, the points removed, the report.
 
 #include "tools/common/output_file.hpp"
+#include "tools/common/written_form.hpp"
 #include "tools/tf-weld/welding.hpp"
 #include <libmesh/io/mesh_file.hpp>
 #include <libmesh/io/write.hpp>
@@ -11,7 +12,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace tools {
@@ -42,12 +42,8 @@ void check_outputs(const job& work, const weld_request& request);
 /// Looks whether what comes of `file` can be written as asked. \throws failure
 void check_formats(const job& work, const weld_request& request, const tf::mesh_file& file);
 
-[[nodiscard]] tf::write_options write_options_for(const common_options& o, std::string format,
-                                                  bool ascii);
-/// The format of what is written at `path` for `file`, and whether it is text; in-place, the file
-/// keeps its kind.
-[[nodiscard]] std::pair<std::string, bool> format_of(const job& work, const tf::mesh_file& file,
-                                                     const std::filesystem::path& path);
+[[nodiscard]] tf::write_options write_options_for(const common_options& o,
+                                                  const written_form& form);
 
 /// The keys of a report's file, each with nothing in it.
 void enter_blank_report(job& work, const weld_request& request);

@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// In which format, and with which numbers, a mesh is written.
+
+#include "tools/common/run.hpp"
+#include <libmesh/io/mesh_file.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace tools {
+
+struct written_form {
+    std::string format{};  ///< extension without its dot
+    bool ascii = false;
+
+    /// Whether it has coordinates in float32 only.
+    [[nodiscard]] bool single_only() const {
+        return format == "glb" || (format == "stl" && !ascii);
+    }
+};
+
+/// How what is made of `input` is written to `path`: as the options or the extension say; in place,
+/// as the input is. \throws failure (bad_usage), or (bad_output) where that cannot be
+[[nodiscard]] written_form form_of(const job& work, const tf::mesh_file& input,
+                                   const std::filesystem::path& path);
+
+/// Whether the file holds its coordinates as float32.
+[[nodiscard]] bool is_single(const tf::mesh_file& file);
+
+/// Whether coordinates become floats: where `form` has nothing else, or where the user, or else
+/// every input, says so. Known before the work, which depends on it.
+[[nodiscard]] bool writes_single(const common_options& options,
+                                 const std::optional<written_form>& form,
+                                 std::span<const tf::mesh_file* const> inputs);
+
+}  // namespace tools
