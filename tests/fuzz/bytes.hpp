@@ -51,14 +51,16 @@ class bytes {
                 return 0.1 * small();
             case 4: {
                 const double whole = small();
-                return std::ldexp(whole, 8 * static_cast<int>(static_cast<std::int8_t>(byte())));
+                return whole + std::ldexp(small(), -46);  // near, with all digits
             }
             case 5: {
                 const double whole = small();
-                return finite(whole * any_double());
+                return std::ldexp(whole, static_cast<std::int8_t>(byte()));
             }
-            case 6:
-                return -any_double();
+            case 6: {
+                const double whole = small();
+                return std::ldexp(whole, 8 * static_cast<int>(static_cast<std::int8_t>(byte())));
+            }
             default:
                 return any_double();
         }

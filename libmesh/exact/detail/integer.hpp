@@ -81,10 +81,48 @@ constexpr integer<A + 1> operator*(const integer<A>& a, const integer<1>& b) {
     return result;
 }
 
+/// Without its sign, and which limbs of it, [first, last), hold anything.
+template <std::size_t Limbs>
+struct magnitude {
+    integer<Limbs> value;  ///< read as unsigned
+    std::size_t first = 0;
+    std::size_t last = Limbs;
+};
+
+template <std::size_t Limbs>
+constexpr magnitude<Limbs> magnitude_of(const integer<Limbs>& a) {
+    magnitude<Limbs> result{a.negative() ? integer<Limbs>{} - a : a};
+    while (result.last > 0 && result.value.limbs[result.last - 1] == 0) --result.last;
+    while (result.first < result.last && result.value.limbs[result.first] == 0) ++result.first;
+    return result;
+}
+
+/// Product of integers so wide that few of their limbs hold anything: numbers of one scale have
+/// zeros below, small ones zeros above. \cost by the limbs in between.
+template <std::size_t A, std::size_t B>
+constexpr integer<A + B> wide_product(const integer<A>& a, const integer<B>& b) {
+    const magnitude<A> x = magnitude_of(a);
+    const magnitude<B> y = magnitude_of(b);
+    integer<A + B> result{};
+    for (std::size_t j = y.first; j < y.last; ++j) {
+        std::uint64_t carry = 0;
+        for (std::size_t i = x.first; i < x.last; ++i) {
+            const uint128 t =
+                uint128{x.value.limbs[i]} * y.value.limbs[j] + result.limbs[i + j] + carry;
+            result.limbs[i + j] = static_cast<std::uint64_t>(t);
+            carry = static_cast<std::uint64_t>(t >> 64);
+        }
+        result.limbs[j + x.last] = carry;
+    }
+    return a.negative() != b.negative() ? integer<A + B>{} - result : result;
+}
+
 /// Schoolbook product of the limbs read as unsigned, then put right: a negative factor reads as
 /// itself + 2^(64 A), which adds 2^(64 A) times the other factor to the product.
 template <std::size_t A, std::size_t B>
 constexpr integer<A + B> operator*(const integer<A>& a, const integer<B>& b) {
+    constexpr std::size_t widest_in_full = 8;
+    if constexpr (A > widest_in_full || B > widest_in_full) return wide_product(a, b);
     integer<A + B> result{};
     for (std::size_t j = 0; j < B; ++j) {
         std::uint64_t carry = 0;
