@@ -1,6 +1,7 @@
 #include <libmesh/io/detail/face_sink.hpp>
 #include <libmesh/io/detail/json_depth.hpp>
 #include <libmesh/io/detail/readers.hpp>
+#include <libmesh/io/detail/scene_depth.hpp>
 #include <libmesh/io/read.hpp>
 
 #include <assimp/Importer.hpp>
@@ -200,6 +201,7 @@ mesh_file read_scene(const source& in, const std::filesystem::path& path,
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unwanted);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     if (hint == "glb" || hint == "gltf" || hint == "vrm") refuse_deep_json(in);
+    refuse_deep_scene(in);
     const aiScene& scene = load_scene(importer, in, path, hint);
     mesh_file file = scene_reader(in, scene, hint == "glb" || hint == "gltf").read();
     file.format = hint;

@@ -288,3 +288,54 @@ TEST_CASE("hostile: glTF whose nodes form an endless chain or a ring is refused"
     CHECK(refusal(chain(900, -1), "a.gltf").find("deep") == std::string::npos);
     CHECK(refusal(chain(1000, -1), "a.gltf").find("deep") == std::string::npos);
 }
+
+TEST_CASE("hostile: XML, FBX and DirectX that nest without end are refused, wide ones are not") {
+    if (!tf::reads_scenes()) return;
+    const auto times = [](std::size_t count, const std::string& text) {
+        std::string all;
+        for (std::size_t i = 0; i < count; ++i) all += text;
+        return all;
+    };
+    const auto deep = [](const std::string& bytes, const char* name) {
+        const std::string said = refusal(bytes, name);
+        CHECK(said.find("$$$") == std::string::npos);
+        return said.find("nested more than 1000 levels deep") != std::string::npos;
+    };
+    const std::string xml = "<?xml version=\"1.0\"?><!-- </a> --><X3D profile=\"a>b\"><Scene>";
+    const std::string shape =
+        "<Shape><IndexedFaceSet coordIndex=\"0 1 2 -1\"><Coordinate point=\"0 0 0 1 0 0 0 1 0\"/>"
+        "</IndexedFaceSet></Shape>";
+    const auto x3d = [&](std::size_t levels, const std::string& more) {
+        return xml + times(levels, "<Group>" + more) + shape + times(levels, "</Group>") +
+               "</Scene></X3D>";
+    };
+    CHECK(refusal(x3d(900, ""), "a.x3d").empty());
+    CHECK(refusal(xml + times(2000, "<Group>" + shape + "</Group>") + "</Scene></X3D>", "a.x3d")
+              .empty());
+    for (const char* more :
+         {"", "<!-- </Group> -->", "<Group DEF='</Group>'/>", "<![CDATA[</a>]]>"})
+        for (const char* name : {"a.x3d", "a.dae", "a.amf", "a.3ds"})
+            CHECK(deep(x3d(100'000, more), name));
+    std::string wide = "\xFF\xFE";
+    for (const char c : x3d(100'000, "")) wide += {c, '\0'};
+    CHECK(deep(wide, "a.x3d"));
+
+    const std::string fbx = "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n}\n";
+    CHECK(deep(fbx + times(100'000, "A: { ; }\n"), "a.fbx"));
+    CHECK(deep(fbx + times(100'000, "A: \"}\" {\n"), "a.fbx"));
+    CHECK_FALSE(deep(fbx + times(5000, "A: {\n}\n"), "a.fbx"));
+    CHECK(deep("xof 0303txt 0032\n" + times(100'000, "Frame { # }\n // }\n"), "a.x"));
+    for (const int width : {4, 8}) {
+        const auto binary = [&](std::size_t levels) {
+            std::string bytes = "Kaydara FBX Binary  " + std::string("\0\x1a\0", 3) +
+                                little_endian(width == 8 ? 7500 : 7400, 4);
+            const std::size_t record = width == 8 ? 26 : 14, total = bytes.size() + levels * record;
+            for (std::size_t i = 0; i < levels; ++i)
+                bytes +=
+                    little_endian(total, width) + std::string(width == 8 ? 16 : 8, '\0') + "\1A";
+            return bytes;
+        };
+        CHECK(deep(binary(100'000), "a.fbx"));
+        CHECK_FALSE(deep(binary(900), "a.fbx"));
+    }
+}
