@@ -84,6 +84,7 @@ class rounding {
             if (!cut_again()) break;
         }
         point_of_.resize(result_.surface.points.size());  // a step may have ended half way
+        if (vanished_) drop_unused_points();
         result_.point_of = std::move(point_of_);
         return std::move(result_);
     }
@@ -174,12 +175,13 @@ class rounding {
         const bool joined = at.size() < points.size();
         result_.surface.points = std::move(at);
         point_of_ = std::move(point_of);
-        take_faces(new_of_old);
+        take_faces(new_of_old, joined);
         return joined;
     }
 
-    /// The exact faces in new numbers, without those that repeat a corner.
-    void take_faces(const std::vector<std::uint32_t>& new_of_old) {
+    /// The exact faces in new numbers, without those that repeat a corner, as some may where points
+    /// were `joined`.
+    void take_faces(const std::vector<std::uint32_t>& new_of_old, bool joined) {
         const std::vector<face>& exact = exact_.faces;
         const auto renumbered = [&](std::size_t f) {
             const auto [a, b, c] = exact[f];
@@ -188,7 +190,8 @@ class rounding {
         mesh& now = result_.surface;
         std::vector<std::uint32_t> face_of;
         detail::compact(
-            exact.size(), [&](std::size_t f) { return detail::has_three_corners(renumbered(f)); },
+            exact.size(),
+            [&](std::size_t f) { return !joined || detail::has_three_corners(renumbered(f)); },
             [&](std::size_t count) {
                 now.faces.resize(count);
                 face_of.resize(count);
@@ -199,13 +202,30 @@ class rounding {
                 face_of[place] = result_.face_of[f];
                 if (!sound_.empty()) sound_[place] = stays_sound(f, now.points, now.faces[place]);
             });
+        vanished_ = vanished_ || face_of.size() < exact.size();
         result_.face_of = std::move(face_of);
+    }
+
+    /// Faces that vanish leave points behind.
+    void drop_unused_points() {
+        mesh& now = result_.surface;
+        const std::vector<std::uint32_t> used = detail::used_points(now.points.size(), now.faces);
+        std::vector<std::uint32_t> new_of_old(now.points.size());
+        for (std::uint32_t p = 0; p < used.size(); ++p) {
+            now.points[p] = now.points[used[p]];
+            point_of_[p] = point_of_[used[p]];
+            new_of_old[used[p]] = p;
+        }
+        now.points.resize(used.size());
+        point_of_.resize(used.size());
+        for (face& f : now.faces)
+            for (std::uint32_t& corner : f) corner = new_of_old[corner];
     }
 
     /// Whether what is known of an exact face holds of it as `rounded`: no corner has moved.
     [[nodiscard]] std::uint8_t stays_sound(std::size_t f, points_view points,
                                            const face& rounded) const {
-        if (exact_.sound[f] == 0) return 0;
+        if (exact_.sound[f] == 0 || !options_.to_float) return exact_.sound[f];
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t p = exact_.faces[f][i];
             if (p >= exact_.given.size() || !(exact_.given[p] == points[rounded[i]])) return 0;
@@ -329,6 +349,7 @@ class rounding {
     std::size_t most_faces_;
     std::uint64_t first_meeting_count_ = 0, last_meeting_count_ = 0;
     double moved_ = 0.0;     ///< how far, in the last rounding; infinite where points were joined
+    bool vanished_ = false;  ///< some faces, so that points may be left that none has
     bool only_cut_ = false;  ///< joining what is near has been seen to spread
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between
