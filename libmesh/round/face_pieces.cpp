@@ -31,9 +31,19 @@ face_pieces::flat_point face_pieces::flat(std::uint32_t p) const {
     return {points_[p][axes_[0]] - origin_[axes_[0]], points_[p][axes_[1]] - origin_[axes_[1]]};
 }
 
-double face_pieces::area(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const flat_point p = flat(a), q = flat(b), r = flat(c);
+double face_pieces::area(const flat_point& p, const flat_point& q, const flat_point& r) {
     return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+}
+
+double face_pieces::area(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    return area(flat(a), flat(b), flat(c));
+}
+
+double face_pieces::depth(const face& f, const flat_point& p) const {
+    const flat_point a = flat(f[0]), b = flat(f[1]), c = flat(f[2]);
+    const double x = area(p, b, c), y = area(a, p, c), z = area(a, b, p);
+    const double sum = std::abs(x) + std::abs(y) + std::abs(z);
+    return sum > 0.0 ? std::min({x, y, z}) / sum : -1.0;
 }
 
 bool face_pieces::in_circle(std::uint32_t a, std::uint32_t b, std::uint32_t c,
@@ -74,9 +84,7 @@ void face_pieces::split_inside(std::uint32_t p) {
         const auto [a, b, c] = all_[i];
         if (!has_three_corners(all_[i])) continue;
         if (p == a || p == b || p == c) return;
-        const double x = area(p, b, c), y = area(a, p, c), z = area(a, b, p);
-        const double sum = std::abs(x) + std::abs(y) + std::abs(z);
-        const double least = sum > 0.0 ? std::min({x, y, z}) / sum : -1.0;
+        const double least = depth(all_[i], flat(p));
         if (least > most) {
             most = least;
             best = i;
@@ -167,6 +175,24 @@ double face_pieces::flip(std::span<const std::array<std::uint32_t, 2>> kept, dou
         if (!done.any) break;
     }
     return moved;
+}
+
+std::vector<std::size_t> face_pieces::lying_in(std::span<const face> before) const {
+    std::vector<std::size_t> found(all_.size());
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+        found[i] = std::min(i, before.size() - 1);
+        if (all_[i] == before[found[i]]) continue;
+        const flat_point a = flat(all_[i][0]), b = flat(all_[i][1]), c = flat(all_[i][2]);
+        const flat_point middle{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+        double most = -std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < before.size(); ++k) {
+            const double least = depth(before[k], middle);
+            if (!(least > most)) continue;
+            most = least;
+            found[i] = k;
+        }
+    }
+    return found;
 }
 
 }  // namespace tf::detail

@@ -1,5 +1,6 @@
 #include <libmesh/detail/stars.hpp>
 #include <libmesh/detail/union_find.hpp>
+#include <libmesh/detail/used_points.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/round/detail/cancelled_faces.hpp>
 #include <libmesh/round/detail/face_pieces.hpp>
@@ -123,14 +124,12 @@ class joining {
 
     /// The points that faces use, offending ones or all.
     [[nodiscard]] std::vector<std::uint32_t> used_points(bool offending_only) const {
-        std::vector<std::uint8_t> used(surface().points.size(), 0);
+        const std::size_t points = surface().points.size();
+        if (!offending_only) return detail::used_points(points, surface().faces);
+        std::vector<face> faces;
         for (std::size_t f = 0; f < surface().faces.size(); ++f)
-            if (!offending_only || bad_[f] != 0)
-                for (const std::uint32_t c : surface().faces[f]) used[c] = 1;
-        std::vector<std::uint32_t> points;
-        for (std::uint32_t p = 0; p < used.size(); ++p)
-            if (used[p] != 0) points.push_back(p);
-        return points;
+            if (bad_[f] != 0) faces.push_back(surface().faces[f]);
+        return detail::used_points(points, faces);
     }
 
     [[nodiscard]] std::vector<edge_name> offending_edges() const {
@@ -395,8 +394,7 @@ class joining {
         std::vector<edge_name> borders;
     };
     [[nodiscard]] flat_patches find_patches() const {
-        using edge_of_operand = std::pair<edge_name, std::uint32_t>;
-        std::vector<std::pair<edge_of_operand, std::uint32_t>> edges;
+        std::vector<std::pair<std::pair<edge_name, std::uint32_t>, std::uint32_t>> edges;
         for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
             for (const edge_name& e : edges_of(surface().faces[f]))
                 edges.push_back({{e, operand_of(f)}, f});
@@ -419,19 +417,21 @@ class joining {
     }
 
     /// Flat patches of offending faces get the triangles of Delaunay, so that patches that lie on
-    /// each other are cut in the same way where they have the same points.
+    /// each other are cut in the same way. A piece is of the face that its middle lies in.
     void flip() {
-        const flat_patches found = find_patches();
-        const auto& by_patch = found.by_patch;
+        const auto [by_patch, borders] = find_patches();
+        const std::vector<std::uint32_t> face_of = result_.face_of;
         for (std::size_t begin = 0, end = 0; begin < by_patch.size(); begin = end) {
             std::vector<face> faces;
             for (; end < by_patch.size() && by_patch[end][0] == by_patch[begin][0]; ++end)
                 faces.push_back(surface().faces[by_patch[end][1]]);
-            if (faces.size() == 1) continue;
-            face_pieces pieces(std::move(faces), surface().points);
-            note(pieces.flip(found.borders, reach_));
-            for (std::size_t i = begin; i < end; ++i)
+            face_pieces pieces(faces, surface().points);
+            note(pieces.flip(borders, reach_));
+            const std::vector<std::size_t> lies_in = pieces.lying_in(faces);
+            for (std::size_t i = begin; i < end; ++i) {
                 surface().faces[by_patch[i][1]] = pieces.all()[i - begin];
+                result_.face_of[by_patch[i][1]] = face_of[by_patch[begin + lies_in[i - begin]][1]];
+            }
         }
         end_pass();
         cancel();

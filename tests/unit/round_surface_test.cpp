@@ -1,3 +1,5 @@
+#include <libmesh/boolean/boolean.hpp>
+#include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/volume.hpp>
 
@@ -16,6 +18,37 @@ namespace {
 using test::box;
 using test::moved;
 using test::together;
+
+/// A box of side 1 and height 1/2 around the origin whose sides above and below are n x n squares.
+tf::mesh slab(std::uint32_t n) {
+    tf::mesh mesh = test::grid(n);
+    const auto row = n + 1, above = row * row;
+    for (tf::point3& p : mesh.points) p = {p.x / n - 0.5, p.y / n - 0.5, 0.25};
+    for (std::uint32_t p = 0; p < above; ++p) {
+        const auto [x, y, z] = mesh.points[p];
+        mesh.points.push_back({x, y, -z});
+    }
+    for (std::size_t f = 0, top = mesh.faces.size(); f < top; ++f) {
+        const auto [a, b, c] = mesh.faces[f];
+        mesh.faces.push_back({a + above, c + above, b + above});
+    }
+    const auto wall = [&](std::uint32_t a, std::uint32_t b) {
+        mesh.faces.push_back({a, a + above, b + above});
+        mesh.faces.push_back({a, b + above, b});
+    };
+    for (std::uint32_t i = 0; i < n; ++i) {
+        wall(i, i + 1);
+        wall(n * row + i + 1, n * row + i);
+        wall((i + 1) * row, i * row);
+        wall(i * row + n, (i + 1) * row + n);
+    }
+    return mesh;
+}
+
+tf::triangle3 corners_of(tf::mesh_view mesh, std::size_t f) {
+    const auto& [a, b, c] = mesh.faces[f];
+    return {mesh.points[a], mesh.points[b], mesh.points[c]};
+}
 
 tf::exact_surface exact_of(const tf::mesh& mesh) { return {mesh.points, {}, mesh.faces}; }
 
@@ -84,15 +117,27 @@ TEST_CASE("round: parts that rounding turns inside out vanish, and gaps close") 
     CHECK(test::is_clean_solid(result.surface));
 }
 
-TEST_CASE("round: of a part that vanishes in one point, no point is left") {
-    const tf::mesh speck = moved(box(0x1p-40, 0x1p-40, 0x1p-40), {5, 5, 5});
-    const tf::mesh solid = box(1, 1, 1);
-    const tf::rounded_surface result =
-        tf::round_surface(exact_of(together(speck, solid)), {.to_float = true});
-    CHECK(result.certified);
-    CHECK(result.surface == solid);
-    CHECK(result.point_of.size() == solid.points.size());
-    CHECK(result.point_of.front() == speck.points.size());
+TEST_CASE("round: the middle of a piece that was mended lies in the face that it names") {
+    // Slabs whose flat sides are cut otherwise, one turned by less than floats show.
+    const tf::mesh whole = slab(1);
+    for (const double turn : {1e-7, 1e-9}) {
+        tf::mesh turned = slab(2);
+        for (tf::point3& p : turned.points)
+            p = {p.x - turn * p.y, p.y + turn * (p.x - p.z), p.z + turn * p.y};
+        const std::vector<tf::mesh_view> both{whole, turned};
+        const tf::solid_result result =
+            tf::boolean(both, tf::boolean_expression::union_of(2), {.to_float = true});
+        REQUIRE(result.certified);
+        CHECK(result.rounding_steps > 0);
+        for (std::size_t f = 0; f < result.surface.faces.size(); ++f) {
+            const auto [operand, index] = result.source_face[f];
+            const tf::triangle3 source = corners_of(both[operand], index);
+            const auto [a, b, c] = corners_of(result.surface, f);
+            const tf::point3 middle{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3,
+                                    (a.z + b.z + c.z) / 3};
+            CHECK(tf::closest_point(source, middle).squared_distance < 1e-12);
+        }
+    }
 }
 
 TEST_CASE("round: without steps, what is broken is told") {

@@ -31,6 +31,8 @@ class face_pieces {
     double flip(std::span<const std::array<std::uint32_t, 2>> kept, double most);
     /// Some may repeat a corner.
     [[nodiscard]] const std::vector<face>& all() const { return all_; }
+    /// [piece] Of `before`, which cover the same places, the face that its middle seems to lie in.
+    [[nodiscard]] std::vector<std::size_t> lying_in(std::span<const face> before) const;
 
   private:
     struct flat_point {
@@ -38,7 +40,10 @@ class face_pieces {
     };
     [[nodiscard]] flat_point flat(std::uint32_t p) const;
     /// Twice the area of a, b, c, positive where they turn as the face does.
+    [[nodiscard]] static double area(const flat_point& p, const flat_point& q, const flat_point& r);
     [[nodiscard]] double area(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+    /// How well within a face p lies: the least share of a corner in it, below 0 outside.
+    [[nodiscard]] double depth(const face& f, const flat_point& p) const;
     [[nodiscard]] bool in_circle(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                  std::uint32_t d) const;
     void split_at(std::uint32_t a, std::uint32_t b, std::uint32_t p);
