@@ -117,6 +117,17 @@ TEST_CASE("round: parts that rounding turns inside out vanish, and gaps close") 
     CHECK(test::is_clean_solid(result.surface));
 }
 
+TEST_CASE("round: of a part that vanishes in one point, no point is left") {
+    const tf::mesh speck = moved(box(0x1p-40, 0x1p-40, 0x1p-40), {5, 5, 5});
+    const tf::mesh solid = box(1, 1, 1);
+    const tf::rounded_surface result =
+        tf::round_surface(exact_of(together(speck, solid)), {.to_float = true});
+    CHECK(result.certified);
+    CHECK(result.surface == solid);
+    CHECK(result.point_of.size() == solid.points.size());
+    CHECK(result.point_of.front() == speck.points.size());
+}
+
 TEST_CASE("round: the middle of a piece that was mended lies in the face that it names") {
     // Slabs whose flat sides are cut otherwise, one turned by less than floats show.
     const tf::mesh whole = slab(1);
