@@ -19,8 +19,11 @@ namespace {
 void check_faces(const char* function, std::size_t point_count, std::span<const face> faces) {
     if (faces.size() > std::numeric_limits<std::uint32_t>::max())
         refuse(function, "more than 2^32 - 1 faces");
+    if (point_count > std::numeric_limits<std::uint32_t>::max()) return;  // all corners are points
+    const auto points = static_cast<std::uint32_t>(point_count);
     const std::size_t bad = first_bad(faces.size(), [&](std::size_t i) {
-        return std::max({faces[i][0], faces[i][1], faces[i][2]}) >= point_count;
+        const auto& [a, b, c] = faces[i];
+        return std::max(std::max(a, b), c) >= points;
     });
     if (bad != faces.size())
         refuse(function, "face " + std::to_string(bad) + " has a corner that is no point");

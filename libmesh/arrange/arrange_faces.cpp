@@ -13,9 +13,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <memory>
+#include <memory_resource>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tf {
 namespace {
@@ -117,10 +121,11 @@ struct numbering {
     std::vector<std::uint32_t> made_begin;  ///< [clusters] item of a cluster's first made point
 };
 
-numbering number_points(std::size_t given, const mesh_meetings& met,
+/// `named` are the points that meetings have.
+numbering number_points(std::size_t given, std::vector<constructed_point> named,
                         const std::vector<cut_cluster>& cuts) {
     numbering result;
-    std::vector<constructed_point> items = met.points;
+    std::vector<constructed_point> items = std::move(named);
     for (const cut_cluster& c : cuts) {
         result.made_begin.push_back(static_cast<std::uint32_t>(items.size()));
         items.insert(items.end(), c.made.begin(), c.made.end());
@@ -146,17 +151,21 @@ numbering number_points(std::size_t given, const mesh_meetings& met,
     // Named points that no face kept (they are corners by another name, or lie in faces that a
     // lower name covers) take no number of their own: a set is numbered once.
     result.of_item.assign(items.size(), none);
+    std::size_t count = 0;
     for (std::uint32_t i = 0; i < items.size(); ++i) {
         const std::uint32_t root = sets.root(i);
         if (given_of[root] != none) {
             result.of_item[i] = given_of[root];
         } else if (root == i) {
-            result.of_item[i] = static_cast<std::uint32_t>(given + result.constructed.size());
-            result.constructed.push_back(items[i]);
+            result.of_item[i] = static_cast<std::uint32_t>(given + count);
+            if (i != count) items[count] = items[i];
+            ++count;
         } else {
             result.of_item[i] = result.of_item[root];  // roots are the lowest of their set
         }
     }
+    items.resize(count);
+    result.constructed = std::move(items);
     return result;
 }
 
@@ -181,9 +190,11 @@ std::vector<piece> pieces_of(const std::vector<cut_cluster>& cuts) {
     for (std::uint32_t c = 0; c < cuts.size(); ++c)
         for (std::uint32_t i = 0; i < cuts[c].faces.size(); ++i)
             pieces.push_back({cuts[c].covers[cuts[c].faces[i].covers].face, c, i});
-    std::sort(pieces.begin(), pieces.end(), [](const piece& p, const piece& q) {
+    const auto before = [](const piece& p, const piece& q) {
         return p.first_cover != q.first_cover ? p.first_cover < q.first_cover : p.index < q.index;
-    });
+    };
+    if (!std::is_sorted(pieces.begin(), pieces.end(), before))  // where no faces overlap, it is
+        std::sort(pieces.begin(), pieces.end(), before);
     return pieces;
 }
 
@@ -301,24 +312,29 @@ arrange_faces_result detail::arrange_pairs(mesh_view mesh, std::span<const face_
     arrange_faces_result result;
     const std::size_t count = mesh.faces.size();
     result.pairs = pairs.size();
-    const mesh_meetings met = detail::meetings_of(mesh, pairs);
+    mesh_meetings met = detail::meetings_of(mesh, pairs);
     const detail::meetings_by_face by_face(met.meetings);
     const clusters groups = gather(count, met);
     result.cut_faces = groups.members.size();
 
     constexpr std::size_t clusters_a_chunk = 16;
+    constexpr std::size_t memory_a_chunk = std::size_t{1} << 15;  // enough for nearly all clusters
     std::vector<cut_cluster> cuts(groups.size());
     for_chunks(groups.size(), clusters_a_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t i = begin; i < end; ++i)
-                       cuts[i] = detail::cut({mesh, &met, groups[i], &by_face});
+                   const auto first = std::make_unique_for_overwrite<std::byte[]>(memory_a_chunk);
+                   std::pmr::monotonic_buffer_resource memory(first.get(), memory_a_chunk);
+                   for (std::size_t i = begin; i < end; ++i) {
+                       cuts[i] = detail::cut({mesh, &met, groups[i], &by_face, &memory});
+                       memory.release();
+                   }
                });
     if (progress && !progress(0.8)) {
         result.cancelled = true;
         return result;
     }
 
-    numbering numbers = number_points(mesh.points.size(), met, cuts);
+    numbering numbers = number_points(mesh.points.size(), std::move(met.points), cuts);
     std::vector<char> is_not_whole(count, 0);
     for (const std::uint32_t f : groups.members) is_not_whole[f] = 1;
     for (const std::uint32_t f : degenerate) is_not_whole[f] = 1;

@@ -23,20 +23,32 @@ struct line_name {
 };
 
 template <class T>
-void sort_unique(std::vector<T>& values) {
+using vector = std::pmr::vector<T>;
+
+template <class Vector>
+void sort_unique(Vector& values) {
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-template <class T>
-std::uint32_t place_in(const std::vector<T>& sorted, const T& value) {
+template <class Vector>
+std::uint32_t place_in(const Vector& sorted, const typename Vector::value_type& value) {
     return static_cast<std::uint32_t>(std::lower_bound(sorted.begin(), sorted.end(), value) -
                                       sorted.begin());
 }
 
 class cutter {
   public:
-    explicit cutter(const cluster_input& input) : in_(input) {
+    explicit cutter(const cluster_input& input)
+        : in_(input),
+          points_(in_.memory),
+          lines_(in_.memory),
+          lines_of_(in_.memory),
+          segments_(in_.memory),
+          vertex_of_(in_.memory),
+          chains_(in_.memory),
+          covers_(in_.memory),
+          id_(in_.memory) {
         collect();
         project();
     }
@@ -84,9 +96,9 @@ class cutter {
     };
 
     void collect() {
-        std::vector<incidence> on;
+        vector<incidence> on(in_.memory);
         on.reserve(16);
-        std::vector<std::array<std::uint32_t, 3>> crossings;  // from, to, face
+        vector<std::array<std::uint32_t, 3>> crossings(in_.memory);  // from, to, face
         for (const std::uint32_t f : in_.members) {
             for (std::size_t i = 0; i < 3; ++i) {
                 const edge_name e = edge_of(corners(f), i);
@@ -166,8 +178,8 @@ class cutter {
     planar_triangulation start() {
         // Local numbers in the triangulation: three corners that hold everything, then the points
         // (a corner of a single member being one of those three).
-        std::vector<constructed_point> points;
-        std::vector<std::vector<std::uint32_t>> lines;
+        vector<constructed_point> points(in_.memory);
+        vector<vector<std::uint32_t>> lines(in_.memory);
         vertex_of_.assign(points_.size(), none);
         points.reserve(points_.size() + 3);
         lines.reserve(points_.size() + 3);
@@ -244,11 +256,11 @@ class cutter {
     /// Spreads each member from one of its sides over the triangles within its boundary.
     void cover(const planar_triangulation& plane) {
         covers_.resize(plane.triangle_count());
-        std::vector<std::uint32_t> seen(plane.triangle_count(), none);
+        vector<std::uint32_t> seen(plane.triangle_count(), none, in_.memory);
         for (const std::uint32_t f : in_.members) {
             const plane_points p = plane_of(f);
             const bool opposite = tf::orient2d(axis_, p.a, p.b, p.c) != orientation_;
-            std::vector<edge_name> rim;
+            vector<edge_name> rim(in_.memory);
             for (std::size_t i = 0; i < 3; ++i) {
                 const auto& way =
                     chains_[place_in(lines_, line_name{false, edge_of(corners(f), i)})];
@@ -259,8 +271,9 @@ class cutter {
             const auto& way = chains_[place_in(lines_, line_name{false, edge_of(corners(f), 0)})];
             // The chain runs from the lower to the higher point.
             const bool forward = (corners(f)[0] < corners(f)[1]) != opposite;
-            std::vector<std::uint32_t> stack{forward ? plane.left_of(way[0], way[1])
-                                                     : plane.left_of(way[1], way[0])};
+            vector<std::uint32_t> stack(
+                1, forward ? plane.left_of(way[0], way[1]) : plane.left_of(way[1], way[0]),
+                in_.memory);
             seen[stack.back()] = f;
             while (!stack.empty()) {
                 const std::uint32_t t = stack.back();
@@ -308,7 +321,7 @@ class cutter {
     }
 
     void write(const planar_triangulation& plane) {
-        std::vector<std::uint32_t> order;
+        vector<std::uint32_t> order(in_.memory);
         for (std::uint32_t t = 0; t < plane.triangle_count(); ++t)
             if (!covers_[t].empty()) order.push_back(t);
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t s, std::uint32_t t) {
@@ -325,14 +338,14 @@ class cutter {
     }
 
     const cluster_input& in_;
-    std::vector<std::uint32_t> points_;                 ///< of the input or named, ascending
-    std::vector<line_name> lines_;                      ///< ascending, edges first
-    std::vector<std::vector<std::uint32_t>> lines_of_;  ///< of each point
-    std::vector<segment> segments_;
-    std::vector<std::uint32_t> vertex_of_;            ///< of each point, in the triangulation
-    std::vector<std::vector<std::uint32_t>> chains_;  ///< vertices along each edge
-    std::vector<std::vector<covering_face>> covers_;  ///< of each triangle
-    std::vector<std::uint32_t> id_;                   ///< of each vertex, outside
+    vector<std::uint32_t> points_;            ///< of the input or named, ascending
+    vector<line_name> lines_;                 ///< ascending, edges first
+    vector<vector<std::uint32_t>> lines_of_;  ///< of each point
+    vector<segment> segments_;
+    vector<std::uint32_t> vertex_of_;       ///< of each point, in the triangulation
+    vector<vector<std::uint32_t>> chains_;  ///< vertices along each edge
+    vector<vector<covering_face>> covers_;  ///< of each triangle
+    vector<std::uint32_t> id_;              ///< of each vertex, outside
     int axis_ = 2;
     int orientation_ = 1;
     cut_cluster result_;

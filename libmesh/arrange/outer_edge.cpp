@@ -127,17 +127,20 @@ std::vector<part_extent> find_extents(const mesh_arrangement& cut, const surface
     const std::size_t given = cut.given_points.size();
     std::vector<std::vector<extent>> runs(chunk_count(cut.faces.size(), grain));
     for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        extent run{parts[patches.patch[begin]], no_point, {}};
         for (std::size_t f = begin; f < end; ++f) {
             const std::uint32_t part = parts[patches.patch[f]];
-            if (runs[c].empty() || runs[c].back().part != part)
-                runs[c].push_back({part, no_point, {}});
-            extent& run = runs[c].back();
+            if (run.part != part) {
+                runs[c].push_back(run);
+                run = {part, no_point, {}};
+            }
             for (const std::uint32_t p : cut.faces[f]) {
                 if (p >= given) continue;
                 raise(cut, run.top, p);
                 run.box.include(cut.given_points[p]);
             }
         }
+        runs[c].push_back(run);
     });
     std::vector<part_extent> result(parts.count(), part_extent{no_point, {}});
     for (const auto& chunk : runs)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 
@@ -17,17 +18,27 @@ std::array<double, 2> plan_of(const constructed_point& p, int axis) {
 
 }  // namespace
 
-planar_triangulation::planar_triangulation(std::vector<constructed_point> points,
-                                           std::vector<std::vector<std::uint32_t>> lines_of,
-                                           int axis, int orientation, crossing cross)
+planar_triangulation::planar_triangulation(
+    std::pmr::vector<constructed_point> points,
+    std::pmr::vector<std::pmr::vector<std::uint32_t>> lines_of, int axis, int orientation,
+    crossing cross)
     : points_(std::move(points)),
+      plan_(points_.get_allocator()),
       lines_of_(std::move(lines_of)),
-      leaving_(points_.size(), none),
+      made_by_(points_.get_allocator()),
+      origin_(points_.get_allocator()),
+      twin_(points_.get_allocator()),
+      line_(points_.get_allocator()),
+      leaving_(points_.size(), none, points_.get_allocator()),
+      opposite_(points_.get_allocator()),
       given_(points_.size()),
       axis_(axis),
       orientation_(orientation),
       cross_(std::move(cross)) {
     plan_.reserve(points_.size());
+    // Each point splits a triangle in three, or two in four.
+    for (auto* const of_half_edge : {&origin_, &twin_, &line_})
+        of_half_edge->reserve(6 * points_.size());
     for (const constructed_point& p : points_) plan_.push_back(plan_of(p, axis_));
     add_triangle();
     for (std::uint32_t i = 0; i < 3; ++i) set(i, i, none, none);
@@ -261,7 +272,7 @@ bool planar_triangulation::wants_flip(half_edge h) const {
 
 /// Each flip adds a side at p, so there are no more of them than points.
 void planar_triangulation::improve_around(std::uint32_t p) {
-    std::vector<half_edge> opposite;
+    std::pmr::vector<half_edge>& opposite = opposite_;
     around(p, [&](half_edge h) {
         opposite.push_back(next(h));
         return false;
@@ -288,7 +299,8 @@ std::uint32_t planar_triangulation::make_crossing(half_edge side, std::uint32_t 
     const auto p = static_cast<std::uint32_t>(points_.size());
     points_.push_back(cross_(line, other));
     plan_.push_back(plan_of(points_.back(), axis_));
-    lines_of_.push_back({std::min(line, other), std::max(line, other)});
+    lines_of_.emplace_back(
+        std::initializer_list<std::uint32_t>{std::min(line, other), std::max(line, other)});
     made_by_.emplace_back(line, other);
     leaving_.push_back(none);
     split_side(side, p);
@@ -322,7 +334,7 @@ std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to
         throw std::logic_error("tf::planar_triangulation: a segment leads out of the plane");
 
     // The sides between here and the next vertex on the way.
-    std::deque<std::array<std::uint32_t, 2>> sides;
+    std::pmr::deque<std::array<std::uint32_t, 2>> sides(points_.get_allocator());
     for (;;) {
         if (line_[crossed] != none) {
             const std::uint32_t made = make_crossing(crossed, line);
@@ -342,7 +354,7 @@ std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to
         crossed = of_v > 0 ? next(beyond) : previous(beyond);
     }
 
-    std::vector<std::array<std::uint32_t, 2>> fresh;
+    std::pmr::vector<std::array<std::uint32_t, 2>> fresh(points_.get_allocator());
     std::size_t steps = 0;
     const std::size_t most = 16 + 16 * sides.size() * sides.size();
     while (!sides.empty()) {
@@ -371,7 +383,7 @@ std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to
 }
 
 /// Flips among the sides that forcing a segment has made, a bounded number of times.
-void planar_triangulation::improve(std::vector<std::array<std::uint32_t, 2>>& sides) {
+void planar_triangulation::improve(std::pmr::vector<std::array<std::uint32_t, 2>>& sides) {
     for (int rounds = 0; rounds < 4; ++rounds) {
         bool changed = false;
         for (auto& [u, v] : sides) {
@@ -386,9 +398,10 @@ void planar_triangulation::improve(std::vector<std::array<std::uint32_t, 2>>& si
     }
 }
 
-std::vector<std::uint32_t> planar_triangulation::constrain(std::uint32_t from, std::uint32_t to,
-                                                           std::uint32_t line) {
-    std::vector<std::uint32_t> way{from};
+std::pmr::vector<std::uint32_t> planar_triangulation::constrain(std::uint32_t from,
+                                                                std::uint32_t to,
+                                                                std::uint32_t line) {
+    std::pmr::vector<std::uint32_t> way(1, from, points_.get_allocator());
     note_line(from, line);
     note_line(to, line);
     while (way.back() != to) {

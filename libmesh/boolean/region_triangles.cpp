@@ -72,13 +72,13 @@ class triangulator {
     }
 
     planar_triangulation start() {
-        std::vector<constructed_point> points;
+        std::pmr::vector<constructed_point> points;
         points.reserve(frame_size + ids_.size());
         points.resize(frame_size);
         for (const std::uint32_t id : ids_) points.push_back(point(id));
         const std::array<point3, 3> around = frame(points);
         std::copy(around.begin(), around.end(), points.begin());
-        std::vector<std::vector<std::uint32_t>> lines(points.size());
+        std::pmr::vector<std::pmr::vector<std::uint32_t>> lines(points.size());
         name_lines();
         for (std::size_t s = 0; s < region_.rim.size(); ++s)
             for (const std::uint32_t end : {region_.rim[s].from, region_.rim[s].to})
@@ -107,7 +107,7 @@ class triangulator {
     }
 
     /// A triangle that strictly holds all points in projection, wherever in their balls they are.
-    [[nodiscard]] std::array<point3, 3> frame(const std::vector<constructed_point>& points) const {
+    [[nodiscard]] std::array<point3, 3> frame(std::span<const constructed_point> points) const {
         planar_box box(axis_);
         for (std::size_t i = frame_size; i < points.size(); ++i)
             box.include(points[i].centre(), 2 * points[i].radius());

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <utility>
 #include <vector>
@@ -51,6 +52,7 @@ struct cluster_input {
     const mesh_meetings* met;
     std::span<const std::uint32_t> members;  ///< faces that overlap in one plane, ascending
     const meetings_by_face* by_face;
+    std::pmr::memory_resource* memory;  ///< of all that is not in the result
 };
 
 [[nodiscard]] cut_cluster cut(const cluster_input& input);

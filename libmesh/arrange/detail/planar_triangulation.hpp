@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory_resource>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,8 +34,10 @@ class planar_triangulation {
     /// `orientation` (+1 or -1), and in which or on whose sides all others lie.
     ///
     /// \param lines_of  which lines each point is known to lie on, ascending
-    planar_triangulation(std::vector<constructed_point> points,
-                         std::vector<std::vector<std::uint32_t>> lines_of, int axis,
+    ///
+    /// All memory is that of `points`.
+    planar_triangulation(std::pmr::vector<constructed_point> points,
+                         std::pmr::vector<std::pmr::vector<std::uint32_t>> lines_of, int axis,
                          int orientation, crossing cross);
 
     /// Puts a point in; the vertex that is there now: the point itself, or an equal one.
@@ -42,7 +45,8 @@ class planar_triangulation {
 
     /// Forces the segment between two vertices in, and the vertices along it, from the first to the
     /// last. Where it crosses a segment of before, a new point is made.
-    std::vector<std::uint32_t> constrain(std::uint32_t from, std::uint32_t to, std::uint32_t line);
+    std::pmr::vector<std::uint32_t> constrain(std::uint32_t from, std::uint32_t to,
+                                              std::uint32_t line);
 
     [[nodiscard]] std::size_t triangle_count() const { return origin_.size() / 3; }
     [[nodiscard]] std::array<std::uint32_t, 3> corners(std::size_t t) const {
@@ -57,7 +61,7 @@ class planar_triangulation {
     [[nodiscard]] std::uint32_t left_of(std::uint32_t from, std::uint32_t to) const;
 
     /// All points: those given, then those made.
-    [[nodiscard]] const std::vector<constructed_point>& points() const { return points_; }
+    [[nodiscard]] std::span<const constructed_point> points() const { return points_; }
     /// The two lines whose crossing a made point is. \pre point is not a given one
     [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> made_by(std::uint32_t point) const {
         return made_by_[point - given_];
@@ -98,21 +102,22 @@ class planar_triangulation {
     [[nodiscard]] bool can_flip(half_edge h) const;
     [[nodiscard]] bool wants_flip(half_edge h) const;
     void improve_around(std::uint32_t p);
-    void improve(std::vector<std::array<std::uint32_t, 2>>& sides);
+    void improve(std::pmr::vector<std::array<std::uint32_t, 2>>& sides);
 
     void mark(half_edge h, std::uint32_t line);
     /// One step of `constrain`: the next vertex on the way, to which there is a marked side now.
     std::uint32_t advance(std::uint32_t from, std::uint32_t to, std::uint32_t line);
     std::uint32_t make_crossing(half_edge side, std::uint32_t line);
 
-    std::vector<constructed_point> points_;
-    std::vector<std::array<double, 2>> plan_;  ///< where points are, for choices that are free
-    std::vector<std::vector<std::uint32_t>> lines_of_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> made_by_;
-    std::vector<std::uint32_t> origin_;  ///< of each half-edge
-    std::vector<half_edge> twin_;
-    std::vector<std::uint32_t> line_;  ///< that the side is forced to be on, or none
-    std::vector<half_edge> leaving_;   ///< of each vertex, a half-edge that begins there
+    std::pmr::vector<constructed_point> points_;
+    std::pmr::vector<std::array<double, 2>> plan_;  ///< where points are, for choices that are free
+    std::pmr::vector<std::pmr::vector<std::uint32_t>> lines_of_;
+    std::pmr::vector<std::pair<std::uint32_t, std::uint32_t>> made_by_;
+    std::pmr::vector<std::uint32_t> origin_;  ///< of each half-edge
+    std::pmr::vector<half_edge> twin_;
+    std::pmr::vector<std::uint32_t> line_;  ///< that the side is forced to be on, or none
+    std::pmr::vector<half_edge> leaving_;   ///< of each vertex, a half-edge that begins there
+    std::pmr::vector<half_edge> opposite_;  ///< of `improve_around`
     std::size_t given_;
     int axis_;
     int orientation_;
