@@ -114,9 +114,14 @@ TEST_CASE("turned: a part that another may have passed is looked at, whether it 
 }
 
 TEST_CASE("turned: a part that ends at edges of four faces is not loose by itself") {
-    // A box stands on the rim of a hole of its size: its bottom and the rest meet at that rim only.
+    // A box with a pointed bottom stands on the rim of a hole of its size: bottom and sides meet at
+    // that rim only.
     const tf::mesh far = moved(box(1, 1, 1), {9, 9, 9});
-    tf::mesh standing = together(far, box(1, 1, 1));
+    tf::mesh pointed = box(1, 1, 1);
+    pointed.faces.erase(pointed.faces.begin(), pointed.faces.begin() + 2);
+    pointed.points.push_back({0.5, 0.5, -0.5});
+    pointed.faces.insert(pointed.faces.end(), {{0, 2, 8}, {2, 3, 8}, {3, 1, 8}, {1, 0, 8}});
+    tf::mesh standing = together(far, pointed);
     const auto b = static_cast<std::uint32_t>(far.points.size());
     for (const double z : {0.0, -1.0})
         for (const double side : {-1.0, 2.0})
@@ -125,9 +130,9 @@ TEST_CASE("turned: a part that ends at edges of four faces is not loose by itsel
         for (const double other : {0.0, 1.0}) standing.points.push_back({side, other, -1});
     // Corners of the hole at z = 0, of the plate there, of the plate below, of the hole below.
     const std::array<std::uint32_t, 4> hole{b, b + 1, b + 3, b + 2};
-    const std::array<std::uint32_t, 4> top{b + 8, b + 10, b + 11, b + 9};
-    const std::array<std::uint32_t, 4> bottom{b + 12, b + 14, b + 15, b + 13};
-    const std::array<std::uint32_t, 4> below{b + 16, b + 18, b + 19, b + 17};
+    const std::array<std::uint32_t, 4> top{b + 9, b + 11, b + 12, b + 10};
+    const std::array<std::uint32_t, 4> bottom{b + 13, b + 15, b + 16, b + 14};
+    const std::array<std::uint32_t, 4> below{b + 17, b + 19, b + 20, b + 18};
     const auto wall = [&](const auto& from, const auto& to) {
         for (std::size_t i = 0; i < 4; ++i) {
             const std::size_t j = (i + 1) % 4;
