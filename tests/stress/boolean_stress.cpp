@@ -3,13 +3,10 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the pairs of each family (default 40), TREEFORM_STRESS_SEED the seed.
 
-#include <libmesh/arrange/cells.hpp>
-#include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/boolean/boolean.hpp>
 #include <libmesh/intersect/point_location.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libmesh/volume.hpp>
-#include <libmesh/weld/equal_points.hpp>
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>
@@ -51,29 +48,18 @@ struct two_volumes {
 };
 
 two_volumes arranged_volumes(const tf::mesh& a, const tf::mesh& b) {
-    const tf::mesh all = tf::join_equal_points(test::together(a, b));
-    const auto cut = tf::arrange_faces(all).cut;
-    std::vector<std::uint32_t> operand(all.faces.size(), 1);
-    std::fill_n(operand.begin(), a.faces.size(), 0U);
-    const auto cells = tf::find_cells(all, cut, operand, 2);
-    REQUIRE(cells.open.empty());
+    const std::array operands{a, b};
+    const test::exact_arrangement arranged(operands);
+    REQUIRE(arranged.closed());
+    const auto both = tf::boolean_expression::intersection_of(2);
+    const auto either = tf::boolean_expression::union_of(2);
     two_volumes sums{0, 0};
-    for (std::size_t f = 0; f < cut.faces.size(); ++f) {
-        const auto front = cells.winding_of(cells.cell_of_side[f][0]);
-        const auto behind = cells.winding_of(cells.cell_of_side[f][1]);
-        const auto inside = [](auto w, bool any) {
-            return any ? w[0] != 0 || w[1] != 0 : w[0] != 0 && w[1] != 0;
-        };
-        const tf::face& c = cut.faces[f];
-        mpq_class part = 0;
-        for (const bool any : {false, true}) {
-            const int sign = int{inside(behind, any)} - int{inside(front, any)};
-            if (sign == 0) continue;
-            if (part == 0)
-                part = under(rational(cut.point(c[0])), rational(cut.point(c[1])),
-                             rational(cut.point(c[2])));
-            (any ? sums.either : sums.both) += sign * part;
-        }
+    for (std::size_t f = 0; f < arranged.cut().faces.size(); ++f) {
+        const int of_both = arranged.sign(f, both), of_either = arranged.sign(f, either);
+        if (of_both == 0 && of_either == 0) continue;
+        const mpq_class part = arranged.under_face(f);
+        sums.both += of_both * part;
+        sums.either += of_either * part;
     }
     sums.both /= 6;
     sums.either /= 6;

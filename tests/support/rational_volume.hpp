@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Volumes of solids in rational numbers, of rounded results and of what they ought to be.
+/// Set operations before any rounding, and their volumes in rational numbers.
 
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
@@ -10,6 +10,7 @@
 #include <libmesh/weld/equal_points.hpp>
 
 #include <gmpxx.h>
+#include <support/rational_points.hpp>
 #include <support/soups.hpp>
 
 #include <array>
@@ -21,24 +22,6 @@
 #include <vector>
 
 namespace test {
-
-using rational_point = std::array<mpq_class, 3>;
-
-inline rational_point rational(const tf::point3& p) { return {p.x, p.y, p.z}; }
-
-inline rational_point minus(const rational_point& p, const rational_point& q) {
-    return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-}
-inline rational_point cross(const rational_point& p, const rational_point& q) {
-    return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
-inline mpq_class dot(const rational_point& p, const rational_point& q) {
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-}
-inline rational_point along(const rational_point& p, const rational_point& q, const mpq_class& t) {
-    const rational_point d = minus(q, p);
-    return {p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]};
-}
 
 struct rational_plane {
     rational_point at, normal;
@@ -86,53 +69,64 @@ inline rational_point rational(const tf::constructed_point& p) {
     return result;
 }
 
-/// Six times the signed volume under a triangle.
-inline mpq_class under(const rational_point& a, const rational_point& b, const rational_point& c) {
-    return dot(a, cross(b, c));
-}
-
-inline mpq_class volume_of(const tf::mesh& mesh) {
-    mpq_class sum = 0;
-    for (const tf::face& f : mesh.faces)
-        sum += under(rational(mesh.points[f[0]]), rational(mesh.points[f[1]]),
-                     rational(mesh.points[f[2]]));
-    return sum / 6;
-}
-
-/// The volumes of several set operations on the same operands, before any rounding: exact face by
-/// face, added up in 1024 bits, since the denominators of a sum grow without end. Nothing where an
-/// operand is open.
-inline std::optional<std::vector<mpf_class>> exact_volumes(
-    std::span<const tf::mesh> operands, std::span<const tf::boolean_expression> expressions) {
-    constexpr mp_bitcnt_t bits = 1024;
-    tf::mesh all;
-    std::vector<std::uint32_t> operand;
-    for (const tf::mesh& mesh : operands) {
-        all = together(std::move(all), mesh);
-        operand.resize(all.faces.size(), static_cast<std::uint32_t>(&mesh - operands.data()));
+/// Operands cut along each other, before any rounding.
+class exact_arrangement {
+  public:
+    explicit exact_arrangement(std::span<const tf::mesh> operands)
+        : count_(operands.size()), in_(std::make_unique<bool[]>(operands.size())) {
+        tf::mesh all;
+        std::vector<std::uint32_t> operand;
+        for (const tf::mesh& mesh : operands) {
+            all = together(std::move(all), mesh);
+            operand.resize(all.faces.size(), static_cast<std::uint32_t>(&mesh - operands.data()));
+        }
+        all = tf::join_equal_points(all);
+        cut_ = tf::arrange_faces(all).cut;
+        cells_ = tf::find_cells(all, cut_, operand, count_);
     }
-    all = tf::join_equal_points(all);
-    const auto cut = tf::arrange_faces(all).cut;
-    const auto cells = tf::find_cells(all, cut, operand, operands.size());
-    if (!cells.open.empty()) return std::nullopt;
-    const auto in = std::make_unique<bool[]>(operands.size());
+
+    /// Whether each operand bounds a solid; else nothing below has a meaning.
+    [[nodiscard]] bool closed() const { return cells_.open.empty(); }
+    [[nodiscard]] const tf::mesh_arrangement& cut() const { return cut_; }
+
+    /// Whether face f bounds what the expression makes: 1 with the inside behind it, -1 with the
+    /// inside in front of it, else 0.
+    [[nodiscard]] int sign(std::size_t f, const tf::boolean_expression& expression) const {
+        return int{inside(cells_.cell_of_side[f][1], expression)} -
+               int{inside(cells_.cell_of_side[f][0], expression)};
+    }
+    /// Six times the signed volume under face f.
+    [[nodiscard]] mpq_class under_face(std::size_t f) const {
+        const auto& [a, b, c] = cut_.faces[f];
+        return under(rational(cut_.point(a)), rational(cut_.point(b)), rational(cut_.point(c)));
+    }
+
+  private:
+    [[nodiscard]] bool inside(std::uint32_t cell, const tf::boolean_expression& expression) const {
+        const auto windings = cells_.winding_of(cell);
+        for (std::size_t k = 0; k < count_; ++k) in_[k] = windings[k] != 0;
+        return expression({in_.get(), count_});
+    }
+
+    std::size_t count_;
+    std::unique_ptr<bool[]> in_;  ///< [count_]
+    tf::mesh_arrangement cut_;
+    tf::arrangement_cells cells_;
+};
+
+/// The volumes of several set operations on the same operands: exact face by face, added up in 1024
+/// bits, since the denominators of a sum grow without end.
+/// \pre arranged.closed()
+inline std::vector<mpf_class> exact_volumes(const exact_arrangement& arranged,
+                                            std::span<const tf::boolean_expression> expressions) {
+    constexpr mp_bitcnt_t bits = 1024;
     std::vector<mpf_class> sums(expressions.size(), mpf_class(0, bits));
-    for (std::size_t f = 0; f < cut.faces.size(); ++f) {
-        const auto inside = [&](std::size_t side, const tf::boolean_expression& expression) {
-            const auto windings = cells.winding_of(cells.cell_of_side[f][side]);
-            for (std::size_t k = 0; k < operands.size(); ++k) in[k] = windings[k] != 0;
-            return int{expression({in.get(), operands.size()})};
-        };
+    for (std::size_t f = 0; f < arranged.cut().faces.size(); ++f) {
         std::optional<mpf_class> part;
         for (std::size_t e = 0; e < expressions.size(); ++e) {
-            const int sign = inside(1, expressions[e]) - inside(0, expressions[e]);
+            const int sign = arranged.sign(f, expressions[e]);
             if (sign == 0) continue;
-            const auto& [a, b, c] = cut.faces[f];
-            if (!part)
-                part = mpf_class(mpq_class(under(rational(cut.point(a)), rational(cut.point(b)),
-                                                 rational(cut.point(c))) /
-                                           6),
-                                 bits);
+            if (!part) part = mpf_class(mpq_class(arranged.under_face(f) / 6), bits);
             sums[e] += sign * *part;
         }
     }
