@@ -1,10 +1,9 @@
 /// \file
 /// B9: predicates and the classified triangle pair, on every family of hard cases.
 
-#include "bench/peers/cgal_predicates.hpp"
 #include "bench/peers/versions.hpp"
+#include "bench/triangle_askers.hpp"
 #include "bench/workload.hpp"
-#include "support/stress_families.hpp"
 #include <libmesh/exact/predicates.hpp>
 #include <libmesh/geometry/triangle_triangle.hpp>
 
@@ -18,15 +17,13 @@ using test::stress_family;
 using test::triangle_pair;
 using pair_list = std::shared_ptr<const std::vector<triangle_pair>>;
 
-bool is_degenerate(const triangle3& t) { return collinear(t[0], t[1], t[2]); }
-
 /// Pairs of proper triangles, since the peers take no others.
 pair_list pairs_of(stress_family family, std::size_t count) {
     test::stress_stream stream(family, 1);
     std::vector<triangle_pair> pairs;
     while (pairs.size() < count) {
         const triangle_pair pair = stream.next();
-        if (!is_degenerate(pair.a) && !is_degenerate(pair.b)) pairs.push_back(pair);
+        if (is_proper(pair)) pairs.push_back(pair);
     }
     return std::make_shared<const std::vector<triangle_pair>>(std::move(pairs));
 }

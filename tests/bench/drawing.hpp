@@ -41,8 +41,8 @@ inline constexpr std::string_view style =
 
 [[nodiscard]] inline std::string short_number(double value) {
     const double size = std::abs(value);
-    if (size >= 1e6) return fmt::format("{:.3g}M", value / 1e6);
-    if (size >= 1e3) return fmt::format("{:.3g}k", value / 1e3);
+    if (size >= 1e6 && size < 1e9) return fmt::format("{:.3g}M", value / 1e6);
+    if (size >= 1e3 && size < 1e6) return fmt::format("{:.3g}k", value / 1e3);
     return fmt::format("{:.3g}", value);
 }
 
@@ -60,17 +60,24 @@ class scale {
         const double share = (measure(value) - measure(low_)) / (measure(high_) - measure(low_));
         return from_ + share * (to_ - from_);
     }
-    /// Round values within the range: 1 2 5 a decade, or about five steps.
+    /// Round values within the range: 1 2 5 a decade, decades, or every few of them where they
+    /// would touch; or about five steps.
     [[nodiscard]] std::vector<double> ticks() const {
         std::vector<double> all;
         if (logarithmic_) {
+            const int first = static_cast<int>(std::floor(std::log10(low_)));
+            const int last = static_cast<int>(std::ceil(std::log10(high_)));
+            int every = 1;
+            for (const int step : {2, 3, 5, 10, 20, 50, 100})
+                if ((last - first) / every > 9) every = step;
             const bool wide = high_ / low_ > 300;
-            for (double decade = std::pow(10, std::floor(std::log10(low_))); decade <= high_;
-                 decade *= 10)
-                for (const double step : {1.0, 2.0, 5.0})
-                    if ((!wide || step == 1.0) && decade * step >= low_ * 0.999 &&
-                        decade * step <= high_ * 1.001)
-                        all.push_back(decade * step);
+            for (int decade = first; decade <= last; ++decade)
+                for (const double step : {1.0, 2.0, 5.0}) {
+                    const double tick = std::pow(10, decade) * step;
+                    if (decade % every == 0 && (!wide || step == 1.0) && tick >= low_ * 0.999 &&
+                        tick <= high_ * 1.001)
+                        all.push_back(tick);
+                }
         } else {
             const double rough = (high_ - low_) / 5;
             const double decade = std::pow(10, std::floor(std::log10(rough)));
@@ -132,11 +139,15 @@ class drawing {
             "<title>{}</title></circle>\n",
             x, y, classes, escaped(tip));
     }
-    /// A mark: 0 circle, 1 square, 2 diamond, 3 triangle.
+    /// A mark: 0 circle, 1 square, 2 diamond, 3 triangle, 4 the same upside down, 5 cross.
     void shape(double x, double y, int kind, std::string_view classes, const std::string& tip) {
-        constexpr std::array<std::string_view, 4> outlines{
-            "M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0", "M-3.6,-3.6h7.2v7.2h-7.2z", "M0,-5L5,0L0,5L-5,0z",
-            "M0,-4.6L4.6,3.8L-4.6,3.8z"};
+        constexpr std::array<std::string_view, 6> outlines{
+            "M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0",
+            "M-3.6,-3.6h7.2v7.2h-7.2z",
+            "M0,-5L5,0L0,5L-5,0z",
+            "M0,-4.6L4.6,3.8L-4.6,3.8z",
+            "M0,4.6L4.6,-3.8L-4.6,-3.8z",
+            "M-1.5,-4.6h3v3.1h3.1v3h-3.1v3.1h-3v-3.1h-3.1v-3h3.1z"};
         out_ += fmt::format(
             "<path transform=\"translate({:.1f} {:.1f})\" d=\"{}\" class=\"mark {}\" "
             "fill-opacity=\"0.85\"><title>{}</title></path>\n",

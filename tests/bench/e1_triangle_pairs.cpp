@@ -3,13 +3,10 @@
 
 #include "bench/accuracy.hpp"
 #include "bench/guarded.hpp"
-#include "bench/peers/cgal_predicates.hpp"
 #include "bench/peers/cgal_triangles.hpp"
 #include "bench/peers/fcl_triangles.hpp"
-#include "bench/peers/sign_triangles.hpp"
 #include "bench/peers/versions.hpp"
-#include "support/stress_families.hpp"
-#include <libmesh/exact/predicates.hpp>
+#include "bench/triangle_askers.hpp"
 #include <libtree/parallel.hpp>
 
 #include <fmt/core.h>
@@ -22,8 +19,6 @@
 namespace tf::bench {
 namespace {
 
-using pairs_view = std::span<const test::triangle_pair>;
-using make_asker = std::function<asker(pairs_view)>;
 constexpr std::size_t chunk = 10'000;  // pairs that peers convert at once
 
 /// Pairs of a family, of proper triangles, and the exact kernel's word on them.
@@ -65,8 +60,7 @@ shared_pairs load_pairs(test::stress_family family, const amount& amount) {
     test::stress_stream stream(family, 1);
     while (made->pairs.size() < amount.judged) {
         const test::triangle_pair pair = stream.next();
-        const auto proper = [](const triangle3& t) { return !collinear(t[0], t[1], t[2]); };
-        if (proper(pair.a) && proper(pair.b)) made->pairs.push_back(pair);
+        if (is_proper(pair)) made->pairs.push_back(pair);
     }
     made->meet = ask_all([](pairs_view some) { return cgal_exact(question::triangles_meet, some); },
                          made->pairs);
@@ -137,39 +131,21 @@ job job_of(const method& method, const shared_pairs& given, const amount& amount
             }};
 }
 
-template <class Signs>
-method by_signs(std::string who, double eps = 0.0) {
-    return {std::move(who), [eps](pairs_view pairs) {
-                return [pairs, eps](verdicts& verdicts) {
-                    for (std::size_t i = 0; i < pairs.size(); ++i)
-                        verdicts[i] = triangles_meet<Signs>(pairs[i].a, pairs[i].b, eps) ? 1 : 0;
-                };
-            }};
-}
-
 std::vector<method> methods() {
-    std::vector<method> all{
-        {"treeform",
-         [](pairs_view pairs) {
-             return [pairs](verdicts& verdicts) {
-                 for (std::size_t i = 0; i < pairs.size(); ++i)
-                     verdicts[i] = intersect(pairs[i].a, pairs[i].b).kind != overlap::none ? 1 : 0;
-             };
-         },
-         own_kinds},
-        by_signs<integer_signs>("treeform integers only"),
-        by_signs<rounded_signs<float>>("naive float"),
-        by_signs<rounded_signs<double>>("naive double")};
+    std::vector<method> all{{"treeform", asking_treeform(), own_kinds},
+                            {"treeform integers only", asking_signs<integer_signs>()},
+                            {"naive float", asking_signs<rounded_signs<float>>()},
+                            {"naive double", asking_signs<rounded_signs<double>>()}};
     for (const double eps : {1e-7, 1e-6, 1e-5, 1e-4})
-        all.push_back(by_signs<rounded_signs<float>>(fmt::format("float eps {:g}", eps), eps));
+        all.push_back(
+            {fmt::format("float eps {:g}", eps), asking_signs<rounded_signs<float>>(eps)});
     for (const double eps : {1e-15, 1e-12, 1e-9, 1e-6})
-        all.push_back(by_signs<rounded_signs<double>>(fmt::format("double eps {:g}", eps), eps));
+        all.push_back(
+            {fmt::format("double eps {:g}", eps), asking_signs<rounded_signs<double>>(eps)});
     for (const bool in_float : {true, false})
         all.push_back({fcl_name() + (in_float ? " float" : " double"),
                        [=](pairs_view pairs) { return fcl_triangles_meet(pairs, in_float); }});
-    all.push_back({cgal_name() + " EPICK",
-                   [](pairs_view pairs) { return cgal_filtered(question::triangles_meet, pairs); },
-                   [](pairs_view pairs) {
+    all.push_back({cgal_name() + " EPICK", asking_cgal_filtered(), [](pairs_view pairs) {
                        return values_of(
                            pairs.size(),
                            [&](std::size_t i) { return cgal_kinds(pairs.subspan(i, 1), false)[0]; },

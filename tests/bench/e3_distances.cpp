@@ -3,11 +3,10 @@
 
 #include "bench/accuracy.hpp"
 #include "bench/peers/cgal_distances.hpp"
-#include "bench/peers/cgal_predicates.hpp"
 #include "bench/peers/fcl_triangles.hpp"
 #include "bench/peers/plain_distance.hpp"
 #include "bench/peers/versions.hpp"
-#include <libmesh/exact/predicates.hpp>
+#include "bench/triangle_askers.hpp"
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libtree/parallel.hpp>
@@ -24,7 +23,6 @@
 namespace tf::bench {
 namespace {
 
-using pairs_view = std::span<const test::triangle_pair>;
 constexpr const char* touch_errors = "wrong whether they meet";
 constexpr const char* ulps_name = "largest error in ulps";
 constexpr const char* size_name = "largest error in u L";
@@ -60,8 +58,7 @@ shared_pairs load_pairs(distance_question asked, test::stress_family family, std
     while (made->pairs.size() < count) {
         const test::triangle_pair pair = stream.next();
         const double size = size_of(pair);
-        const auto proper = [](const triangle3& t) { return !collinear(t[0], t[1], t[2]); };
-        if (!(size > 1e-140 && size < 1e140) || !proper(pair.a) || !proper(pair.b)) continue;
+        if (!(size > 1e-140 && size < 1e140) || !is_proper(pair)) continue;
         made->pairs.push_back(pair);
         made->sizes.push_back(size);
     }

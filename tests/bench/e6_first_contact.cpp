@@ -6,7 +6,7 @@
 #include "bench/peers/fcl_sweep.hpp"
 #include "bench/peers/plain_sweep.hpp"
 #include "bench/peers/versions.hpp"
-#include <libmesh/exact/predicates.hpp>
+#include "bench/triangle_askers.hpp"
 #include <libmesh/geometry/triangle_sweep.hpp>
 #include <libmesh/place/first_contact.hpp>
 #include <libtree/parallel.hpp>
@@ -72,8 +72,7 @@ shared_motions load_motions(test::stress_family family, std::size_t count) {
             std::max(distance(pair.b[0], pair.b[1]), distance(pair.b[0], pair.b[2]));
         const double length = std::hypot(d.x, d.y, d.z);
         const auto usable = [](double x) { return x > 1e-140 && x < 1e140; };
-        const auto proper = [](const triangle3& t) { return !collinear(t[0], t[1], t[2]); };
-        if (!usable(size) || !usable(length) || !proper(pair.a) || !proper(pair.b)) continue;
+        if (!usable(size) || !usable(length) || !is_proper(pair)) continue;
         if (intersect(pair.a, pair.b).kind != overlap::none) continue;
         made->push_back({pair.a, pair.b, d, size});
     }

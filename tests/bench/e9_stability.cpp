@@ -3,19 +3,18 @@
 /// break down?
 
 #include "bench/accuracy.hpp"
-#include "bench/peers/cgal_predicates.hpp"
-#include "bench/peers/sign_triangles.hpp"
 #include "bench/peers/versions.hpp"
-#include "support/stress_families.hpp"
+#include "bench/triangle_askers.hpp"
 #include "support/stress_parts.hpp"
 #include "support/stress_placement.hpp"
-#include <libmesh/exact/predicates.hpp>
 
 #include <fmt/core.h>
 
 #include <array>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace tf::bench {
 namespace {
@@ -23,7 +22,6 @@ namespace {
 using namespace test::stress;
 using test::random_source;
 using test::triangle_pair;
-using pairs_view = std::span<const triangle_pair>;
 
 /// What is made harder: pairs whose difficulty is 10^exponent.
 struct sweep {
@@ -118,9 +116,8 @@ shared_sweep load(const sweep& sweep, std::size_t count) {
         random_source random(1);
         while (made->pairs.size() < count * (step + 1)) {
             const triangle_pair pair = sweep.make(random, power_of_ten(made->exponents[step]));
-            const auto proper = [](const triangle3& t) { return !collinear(t[0], t[1], t[2]); };
             // What rounding makes degenerate is left out, as the peers take none.
-            if (proper(pair.a) && proper(pair.b)) made->pairs.push_back(pair);
+            if (is_proper(pair)) made->pairs.push_back(pair);
         }
     }
     made->meet.resize(made->pairs.size());
@@ -132,35 +129,17 @@ shared_sweep load(const sweep& sweep, std::size_t count) {
 
 struct method {
     std::string who;
-    std::function<asker(pairs_view)> ask;
+    make_asker ask;
 };
 
-template <class Signs>
-method by_signs(std::string who, double eps = 0.0) {
-    return {std::move(who), [eps](pairs_view pairs) {
-                return [pairs, eps](verdicts& verdicts) {
-                    for (std::size_t i = 0; i < pairs.size(); ++i)
-                        verdicts[i] = triangles_meet<Signs>(pairs[i].a, pairs[i].b, eps) ? 1 : 0;
-                };
-            }};
-}
-
 std::vector<method> methods() {
-    std::vector<method> all{
-        {"treeform",
-         [](pairs_view pairs) {
-             return [pairs](verdicts& verdicts) {
-                 for (std::size_t i = 0; i < pairs.size(); ++i)
-                     verdicts[i] = intersect(pairs[i].a, pairs[i].b).kind != overlap::none ? 1 : 0;
-             };
-         }},
-        by_signs<rounded_signs<float>>("naive float"),
-        by_signs<rounded_signs<double>>("naive double")};
+    std::vector<method> all{{"treeform", asking_treeform()},
+                            {"naive float", asking_signs<rounded_signs<float>>()},
+                            {"naive double", asking_signs<rounded_signs<double>>()}};
     for (const double eps : {1e-12, 1e-9, 1e-6})
-        all.push_back(by_signs<rounded_signs<double>>(fmt::format("double eps {:g}", eps), eps));
-    all.push_back({cgal_name() + " EPICK", [](pairs_view pairs) {
-                       return cgal_filtered(question::triangles_meet, pairs);
-                   }});
+        all.push_back(
+            {fmt::format("double eps {:g}", eps), asking_signs<rounded_signs<double>>(eps)});
+    all.push_back({cgal_name() + " EPICK", asking_cgal_filtered()});
     return all;
 }
 
@@ -208,6 +187,15 @@ contest contest_of(const sweep& sweep, std::size_t count) {
     return contest;
 }
 
+/// Tolerances get the colours of peers that are not here.
+int tone_in_chart(const std::string& who) {
+    constexpr std::array<std::pair<std::string_view, int>, 3> tolerances{
+        {{"1e-12", 2}, {"1e-09", 4}, {"1e-06", 5}}};
+    for (const auto& [eps, tone] : tolerances)
+        if (who.ends_with(eps)) return tone;
+    return tone_of(who);
+}
+
 /// Per cent of wrong verdicts by difficulty, a curve each.
 std::string chart_of(const outcome& outcome, const sweep& sweep, const std::string& machine) {
     line_chart chart;
@@ -215,7 +203,9 @@ std::string chart_of(const outcome& outcome, const sweep& sweep, const std::stri
     chart.x = {sweep.what, true};
     chart.y = {"of the pairs, per cent", false};
     for (std::size_t who = 0; who < outcome.rows.size(); ++who) {
-        curve curve{outcome.rows[who].who, {}, tone_of(outcome.rows[who].who, who + 1)};
+        const std::string& name = outcome.rows[who].who;
+        // Where several are right they lie on each other: dashes show the one below.
+        curve curve{name, {}, tone_in_chart(name), name.starts_with("CGAL")};
         for (const int e : exponents_of(sweep))
             curve.points.push_back(
                 {power_of_ten(e), figure_of(outcome.rows[who], unit_of_step(e)).value_or(0)});
@@ -237,9 +227,9 @@ section draw_stability(const std::vector<outcome>& outcomes, const std::string& 
     section section{
         .paper = "",
         .ours =
-            "The first step, from easy to hard by factors of ten, at which a method gives a "
-            "wrong verdict on one of the pairs; CGAL's exact kernel judges. Where nothing "
-            "stands, there is none."};
+            "The first step, from easy to hard by factors of ten (of 10^12 for the unit of "
+            "length), at which a method gives a wrong verdict on one of the pairs; CGAL's exact "
+            "kernel judges. Where nothing stands, there is none."};
     std::vector<std::string> head{""};
     for (const sweep& sweep : sweeps)
         head.push_back(fmt::format("{} ({})", sweep.name, sweep.what));

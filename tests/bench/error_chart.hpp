@@ -20,7 +20,7 @@ struct error_series {
     std::string name;
     std::vector<error_point> points{};
     int tone = 1;
-    int shape = 0;        ///< circle, square, diamond, triangle
+    int shape = 0;        ///< as `drawing::shape`
     bool joined = false;  ///< a setting that is swept: dots are joined in their order
 };
 

@@ -59,8 +59,10 @@ double median_of(const std::vector<double>& sorted) {
     return sorted.size() % 2 == 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
 }
 
+/// 0: the first run counts.
 int repetitions(effort effort, double seconds, int long_runs) {
     if (effort == effort::tiny) return 2;
+    if (seconds > 2 && long_runs == 1) return 0;
     if (seconds > 10) return 1;
     return seconds < 0.05 ? 20 : long_runs;
 }
@@ -71,14 +73,23 @@ std::vector<measured> measure(const contest& contest, const setting& setting) {
     start_harness();
     std::vector<job> jobs;
     std::vector<measured> results;
+    std::vector<std::size_t> again;  // those whose first run is not the one that counts
     for (const contestant& contestant : contest.contestants) {
         const job& job = jobs.emplace_back(contestant.prepare());
-        const double warm_up = seconds_of_run(job, contestant.threads);
+        const double first = seconds_of_run(job, contestant.threads);
         results.push_back({.who = contestant.who,
                            .threads = contestant.threads,
+                           .median = first,
+                           .low = first,
+                           .high = first,
+                           .runs = 1,
+                           .peak_mb = job.peak_mb(),
                            .error = job.error(),
                            .figures = job.figures()});
         job.discard();
+        const int runs = repetitions(setting.effort, first, contest.long_runs);
+        if (runs == 0) continue;
+        again.push_back(results.size() - 1);
         const auto timed = [job, threads = contestant.threads](benchmark::State& state) {
             for ([[maybe_unused]] auto _ : state)
                 state.SetIterationTime(seconds_of_run(job, threads));
@@ -87,12 +98,12 @@ std::vector<measured> measure(const contest& contest, const setting& setting) {
         benchmark::RegisterBenchmark(std::to_string(jobs.size() - 1).c_str(), timed)
             ->UseManualTime()
             ->Iterations(1)
-            ->Repetitions(repetitions(setting.effort, warm_up, contest.long_runs));
+            ->Repetitions(runs);
     }
     collector times;
-    benchmark::RunSpecifiedBenchmarks(&times, ".");
+    if (!again.empty()) benchmark::RunSpecifiedBenchmarks(&times, ".");
     benchmark::ClearRegisteredBenchmarks();
-    for (std::size_t i = 0; i < results.size(); ++i) {
+    for (const std::size_t i : again) {
         const std::vector<double> seconds = times.sorted_seconds(std::to_string(i));
         results[i].median = median_of(seconds);
         results[i].low = seconds.front();

@@ -39,7 +39,7 @@ std::optional<double> own_peak_mb(const contestant& contestant) {
     return kb ? std::optional(*kb * 1024 / 1e6) : std::nullopt;
 }
 
-std::optional<double> number_printed_by(const std::vector<std::string>& command) {
+std::optional<std::string> text_printed_by(const std::vector<std::string>& command) {
     int ends[2];
     if (::pipe(ends) != 0) return {};
     posix_spawn_file_actions_t actions;
@@ -63,6 +63,11 @@ std::optional<double> number_printed_by(const std::vector<std::string>& command)
     ::close(ends[0]);
     int status = 0;
     if (!started || ::waitpid(child, &status, 0) != child || status != 0) return {};
+    return text;
+}
+
+std::optional<double> number_printed_by(const std::vector<std::string>& command) {
+    const std::string text = text_printed_by(command).value_or("");
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     return end == text.c_str() ? std::nullopt : std::optional(value);

@@ -123,7 +123,9 @@ void csv_report::add(const std::string& id, const contest& contest, std::size_t 
 void table::add(const contest& contest, std::size_t size, const std::vector<measured>& results) {
     const bool serial = std::all_of(results.begin(), results.end(),
                                     [](const auto& row) { return row.threads == 1; });
-    if (!serial || results.size() > 4) {
+    const bool short_names = std::all_of(results.begin(), results.end(),
+                                         [](const auto& row) { return row.who.size() < 18; });
+    if (!serial || !short_names || results.size() > 4) {
         print_block(contest, size, results);
     } else {
         const std::string columns = heads_of(contest, size, results);

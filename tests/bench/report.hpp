@@ -25,9 +25,9 @@ class csv_report {
     std::ofstream file_;
 };
 
-/// Prints contests as they come: a block each, or a line each where up to four contestants
-/// run on one thread. Times are medians; a block has the fastest and the slowest run too. Behind
-/// them stands how many times as long as treeform it took.
+/// Prints contests as they come: a block each, or a line each where up to four contestants of short
+/// names run on one thread. Times are medians; a block has the fastest and the slowest run too.
+/// Behind them stands how many times as long as treeform it took.
 class table {
   public:
     void add(const contest& contest, std::size_t size, const std::vector<measured>& results);

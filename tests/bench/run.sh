@@ -45,13 +45,14 @@ while (($#)); do
 done
 
 tools/install_packages.sh g++ cmake ninja-build doctest-dev libbenchmark-dev libcgal-dev \
-    libgmp-dev libmpfr-dev libassimp-dev libeigen3-dev libtbb-dev libhwy-dev libcli11-dev libfmt-dev libfcl-dev libnanoflann-dev
+    libgmp-dev libmpfr-dev libassimp-dev libeigen3-dev libtbb-dev libhwy-dev libcli11-dev nlohmann-json3-dev \
+    libfmt-dev libfcl-dev libnanoflann-dev
 
 if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache
 fi
 cmake -G Ninja -S . -B build/bench -DCMAKE_BUILD_TYPE=Release -DTREEFORM_BUILD_BENCH=ON \
-    -DTREEFORM_BUILD_TOOLS=OFF >/dev/null
+    -DTREEFORM_BUILD_TOOLS=ON >/dev/null
 if [[ -n $families ]]; then
     cmake --build build/bench --target stress_files
     exec build/bench/tests/bench/stress_files ${size+"${size[@]}"} "$families" "${options[@]}"

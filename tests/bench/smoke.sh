@@ -19,6 +19,7 @@ awk -F, '
     $6 !~ /^[0-9.]+(e[-+]?[0-9]+)?$/ { bad("value is not a number") }
     $2 == "" || $5 == "" || $7 == "" { bad("empty field") }
     $8 !~ /^([0-9.]+)?$/ { bad("peak_mb is not a number") }
+    $1 == "E8" && $8 == "" { bad("no peak") }
     $5 ~ /^treeform( integers only)?$/ && $9 != "" && $9 != 0 { bad("treeform is wrong") }
     { ids[$1] = 1 }
     END {

@@ -43,6 +43,8 @@ struct job {
     /// How far the last answer is from the truth; none where that is not defined.
     std::function<std::optional<double>()> error = [] { return std::optional<double>{}; };
     std::function<std::vector<figure>()> figures = [] { return std::vector<figure>{}; };
+    /// What the last run took, where it is a process of its own.
+    std::function<std::optional<double>()> peak_mb = [] { return std::optional<double>{}; };
 };
 
 struct contestant {

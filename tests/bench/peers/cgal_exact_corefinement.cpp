@@ -1,6 +1,5 @@
 #include "bench/peers/cgal_exact_corefinement.hpp"
 
-#include "bench/exact_volume.hpp"
 #include "bench/peers/exact_number.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -10,6 +9,7 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/Surface_mesh.h>
+#include <support/rational_points.hpp>
 
 #include <array>
 #include <cstdint>
@@ -70,13 +70,13 @@ mpq_class volume_of(const Surface& surface) {
     constexpr mp_bitcnt_t bits = 1024;
     mpf_class sum(0, bits);
     for (const auto f : surface.faces()) {
-        std::array<std::array<mpq_class, 3>, 3> corners;
+        std::array<test::rational_point, 3> corners;
         std::size_t i = 0;
         for (const auto v : surface.vertices_around_face(surface.halfedge(f))) {
             const auto& p = surface.point(v);
             corners.at(i++) = {rational(p.x()), rational(p.y()), rational(p.z())};
         }
-        sum += mpf_class(six_volumes(corners[0], corners[1], corners[2]), bits);
+        sum += mpf_class(test::under(corners[0], corners[1], corners[2]), bits);
     }
     return mpq_class(sum) / 6;
 }

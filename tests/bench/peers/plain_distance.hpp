@@ -3,6 +3,7 @@
 /// Distances of points and triangles as textbooks write them, in any floating-point type: regions
 /// by the signs of products, quotients without care for what is nearly parallel or thin.
 
+#include "bench/peers/plain_vectors.hpp"
 #include "bench/peers/sign_triangles.hpp"
 #include <libmesh/geometry/triangle_triangle.hpp>
 
@@ -14,7 +15,7 @@
 namespace tf::bench {
 
 template <class Real>
-class plain_distance {
+class plain_distance : plain_vectors<Real> {
   public:
     /// From a point to a closed triangle.
     /// \source Ericson, Real-Time Collision Detection (2005), 5.1.5
@@ -37,20 +38,10 @@ class plain_distance {
     }
 
   private:
-    using vec = std::array<Real, 3>;
-    using corners = std::array<vec, 3>;
+    using typename plain_vectors<Real>::vec, typename plain_vectors<Real>::corners;
+    using plain_vectors<Real>::vec_of, plain_vectors<Real>::corners_of, plain_vectors<Real>::minus;
+    using plain_vectors<Real>::along, plain_vectors<Real>::dot;
 
-    static vec vec_of(const point3& p) {
-        return {static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)};
-    }
-    static corners corners_of(const triangle3& t) {
-        return {vec_of(t[0]), vec_of(t[1]), vec_of(t[2])};
-    }
-    static vec minus(const vec& p, const vec& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-    static Real dot(const vec& p, const vec& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-    static vec along(const vec& p, const vec& u, Real s) {
-        return {p[0] + s * u[0], p[1] + s * u[1], p[2] + s * u[2]};
-    }
     static Real between(const vec& p, const vec& q) {
         const vec d = minus(p, q);
         return dot(d, d);

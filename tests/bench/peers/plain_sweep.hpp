@@ -4,6 +4,7 @@
 /// advancing as far as the distance allows.
 
 #include "bench/peers/plain_distance.hpp"
+#include "bench/peers/plain_vectors.hpp"
 
 #include <array>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace tf::bench {
 /// The least t in [0, 1] at which a corner meets a face or two edges meet, each by one quotient of
 /// determinants in `Real`; what is parallel to the motion is passed over.
 template <class Real>
-class plain_sweep {
+class plain_sweep : plain_vectors<Real> {
   public:
     [[nodiscard]] static std::optional<double> first_contact(const triangle3& a, const triangle3& b,
                                                              const point3& d) {
@@ -35,19 +36,9 @@ class plain_sweep {
     }
 
   private:
-    using vec = std::array<Real, 3>;
-    using corners = std::array<vec, 3>;
-    static vec vec_of(const point3& p) {
-        return {static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)};
-    }
-    static corners corners_of(const triangle3& t) {
-        return {vec_of(t[0]), vec_of(t[1]), vec_of(t[2])};
-    }
-    static vec minus(const vec& p, const vec& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-    static Real dot(const vec& p, const vec& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-    static vec cross(const vec& p, const vec& q) {
-        return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-    }
+    using typename plain_vectors<Real>::vec, typename plain_vectors<Real>::corners;
+    using plain_vectors<Real>::vec_of, plain_vectors<Real>::corners_of, plain_vectors<Real>::minus;
+    using plain_vectors<Real>::dot, plain_vectors<Real>::cross;
 
     /// p + t u = q0 + v e + w f with v, w >= 0 and v + w <= 1.
     static std::optional<Real> corner(const vec& p, const vec& u, const corners& q) {
