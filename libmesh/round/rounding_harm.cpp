@@ -1,3 +1,4 @@
+#include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/detail/twofold.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libmesh/round/rounding_harm.hpp>
@@ -76,6 +77,13 @@ double largest_move(points_view points, const transform<3>& by, points_view plac
         for (std::size_t k = 0; k < 3; ++k)
             largest = std::max(largest, difference(by, points[i], k, placed[i][k]));
     return largest;
+}
+
+std::vector<point3> in_single(points_view points) {
+    std::vector<point3> rounded(points.begin(), points.end());
+    for (point3& p : rounded)
+        for (std::size_t k = 0; k < 3; ++k) p[k] = detail::nearest_float(p[k]);
+    return rounded;
 }
 
 rounding_harm harm_of_rounding(mesh_view mesh, points_view placed,

@@ -8,6 +8,7 @@
 #include <libtree/transform.hpp>
 
 #include <cstdint>
+#include <vector>
 
 namespace tf {
 
@@ -22,6 +23,9 @@ namespace tf {
 /// \pre as many points
 [[nodiscard]] TREEFORM_API double largest_move(points_view points, const transform<3>& by,
                                                points_view placed);
+
+/// The points with each coordinate rounded to float32: the nearest one, infinite beyond its range.
+[[nodiscard]] TREEFORM_API std::vector<point3> in_single(points_view points);
 
 struct rounding_harm {
     std::uint64_t collapsed = 0;  ///< faces that have no area, and had one

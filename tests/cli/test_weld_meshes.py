@@ -27,6 +27,14 @@ class Meshes(WeldTest):
         self.assertEqual([[points[c] for c in f] for f in faces],
                          [[cube()[0][c] for c in f] for f in cube()[1]])
 
+    def test_what_rounding_to_floats_folds_is_said(self):
+        write(self.path("odd.obj"), cube((1e9, 1e9, 0)))
+        warnings = self.report("odd.obj", "-o", "odd.stl", status=0)["files"][0]["warnings"]
+        self.assertEqual([w["code"] for w in warnings], ["rounded", "precision", "folded"])
+        self.assertIn("12 faces have no area any more", warnings[2]["text"])
+        self.assertEqual(self.report("odd.obj", "-o", "odd.ply", status=0)["files"][0]["warnings"],
+                         [])
+
     def test_an_stl_stays_the_same_stl(self):
         data = stl_bytes(cube())
         self.write("cube.stl", data)

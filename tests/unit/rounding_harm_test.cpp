@@ -1,4 +1,3 @@
-#include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/round/rounding_harm.hpp>
 #include <libtree/parallel.hpp>
 
@@ -19,12 +18,6 @@ using points = std::vector<tf::point3>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-points in_floats(points all) {
-    for (tf::point3& p : all)
-        for (std::size_t k = 0; k < 3; ++k) p[k] = tf::detail::nearest_float(p[k]);
-    return all;
-}
-
 }  // namespace
 
 TEST_CASE("step: it is the distance to the next number at the largest coordinate") {
@@ -38,6 +31,15 @@ TEST_CASE("step: it is the distance to the next number at the largest coordinate
               static_cast<double>(std::nextafter(x, 1e30F)) - static_cast<double>(x));
     CHECK(tf::coordinate_step({}, true) == 0x1p-149);
     CHECK(tf::coordinate_step(points{{infinity, std::nan(""), 1}}, false) == 0x1p-52);
+}
+
+TEST_CASE("in single: every coordinate is the nearest float, infinite beyond their range") {
+    const points rounded = tf::in_single(points{{0.1, 1e300, -1e-300}, {1, -2, 16777217.0}});
+    CHECK(rounded[0].x == static_cast<double>(0.1F));
+    CHECK(rounded[0].y == infinity);
+    CHECK(rounded[0].z == 0.0);
+    CHECK(rounded[1] == tf::point3{1, -2, 16777216.0});
+    CHECK(tf::in_single({}).empty());
 }
 
 TEST_CASE("largest move: it sees what the doubles of the place itself lose") {
@@ -61,7 +63,7 @@ TEST_CASE("harm: floats far from the origin make faces of a fine mesh collapse a
     const tf::mesh ball = test::ball(4, 1.0);
     const auto harm = [&](double away) {
         const tf::mesh there = test::moved(ball, {away, away / 3, 0});
-        return tf::harm_of_rounding(there, in_floats(there.points));
+        return tf::harm_of_rounding(there, tf::in_single(there.points));
     };
     CHECK(harm(0.0).collapsed == 0);
     CHECK(harm(0.0).meeting == 0);
@@ -98,7 +100,7 @@ TEST_CASE("harm: nothing, a stop, bad input, and any number of threads") {
     const tf::mesh none;
     CHECK(tf::harm_of_rounding(none, {}).meeting == 0);
     const tf::mesh ball = test::ball(4, 1.0);
-    const auto far = in_floats(test::moved(ball, {1e7, 3e6, 0}).points);
+    const auto far = tf::in_single(test::moved(ball, {1e7, 3e6, 0}).points);
     CHECK(tf::harm_of_rounding(ball, far, [](double) { return false; }).cancelled);
     CHECK_THROWS_AS(static_cast<void>(tf::harm_of_rounding(ball, {})), std::invalid_argument);
     points broken = ball.points;

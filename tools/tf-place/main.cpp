@@ -321,7 +321,10 @@ int main(int argc, char** argv) {
         s.mode_text = text;
         options.joined = text == "arrange";  // they go to one plate
     });
-    line.inputs(options.inputs, "STL OBJ PLY OFF GLB/glTF 3MF files; \"-\" = stdin", "MOVING");
+    line.inputs(options.inputs,
+                "meshes: STL OBJ PLY OFF GLB/glTF 3MF; points: PLY\n"
+                "PCD XYZ CSV; \"-\" = stdin",
+                "MOVING");
     add_modes(line);
     add_options(line, s, options);
     add_what_to_give_back(line, s, options);

@@ -1,6 +1,7 @@
 #include "tools/tf-place/rounding.hpp"
 
 #include "tools/common/console.hpp"
+#include "tools/common/folds.hpp"
 #include "tools/common/written_form.hpp"
 
 #include <algorithm>
@@ -20,16 +21,6 @@ rounding together(const std::vector<rounding>& all) {
         sum.harm->meeting += one.harm->meeting;
     }
     return sum;
-}
-
-std::string harm_in_words(const tf::rounding_harm& harm) {
-    std::string text;
-    if (harm.collapsed > 0)
-        text = counted(harm.collapsed, "face has", "faces have") + " no area any more";
-    if (harm.meeting > 0)
-        text += (text.empty() ? "" : ", ") + counted(harm.meeting, "pair", "pairs") + " of faces " +
-                (harm.meeting == 1 ? "meets" : "meet") + " that did not";
-    return text;
 }
 
 }  // namespace
@@ -60,12 +51,7 @@ void enter_rounding(job& work, const std::vector<rounding>& all, bool to_single)
     if (sum.noticeable)
         work.warn("rounded", std::string(to_single ? "written in single precision: " : "") +
                                  "coordinates move by up to " + shortest(sum.max_move));
-    const std::string words = sum.harm ? harm_in_words(*sum.harm) : std::string();
-    if (words.empty()) return;
-    work.warn("folded", "by rounding, " + words + "; " +
-                            (to_single ? "--precision double, in a format that has it, may keep "
-                                         "them"
-                                       : "nearer to the origin they would stay"));
+    if (sum.harm) warn_of_folds(work, *sum.harm, to_single);
 }
 
 }  // namespace tools

@@ -1,12 +1,14 @@
 #include "tools/tf-weld/outputs.hpp"
 
 #include "tools/common/console.hpp"
+#include "tools/common/folds.hpp"
 #include <libmesh/io/io_error.hpp>
 #include <libmesh/io/write.hpp>
 
 #include <array>
 #include <charconv>
 #include <utility>
+#include <vector>
 
 namespace tools {
 namespace {
@@ -41,6 +43,14 @@ void warn_of_rounding(job& work, const tf::write_result& written,
                          "keeps them apart where the format has it"
                        : "are within the tolerance of another again; only --keep first rules "
                          "that out"));
+}
+
+void look_for_folds(job& work, const tf::mesh& welded) {
+    const std::vector<tf::point3> rounded = tf::in_single(welded.points);
+    const auto harm = tf::harm_of_rounding(welded, rounded, work.progress("rounding"));
+    work.out.end_progress();
+    work.keeper.check();
+    warn_of_folds(work, harm, true);
 }
 
 void put_number(std::string& text, std::uint64_t number) {
@@ -234,6 +244,7 @@ void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& weld
     enter_output(work, path, written, again);
     for (const tf::io_warning& warning : written.warnings) work.warn(warning.code, warning.text);
     warn_of_rounding(work, written, again, request);
+    if (written.largest_move > 0.0 && w.non_finite == 0) look_for_folds(work, welded.mesh);
 }
 
 }  // namespace tools
