@@ -333,7 +333,12 @@ section draw_solids(const std::vector<outcome>& outcomes, const std::string& mac
             "exact corners from what is written, whichever is furthest, over the diagonal of the "
             "box of the result. The exact surface is treeform's arrangement before rounding. "
             "Distances are computed in double, and what that may be off is added: what is called "
-            "2e-15 may be nothing, and nobody is called exact.",
+            "2e-15 may be nothing, and nobody is called exact but where the result is and ought to "
+            "be empty. A ball without the same ball turned by 1e-15, or by 1e-9 and written in "
+            "float, is thinner than rounding: treeform leaves out the pieces that have no inside "
+            "left, and where they were may be 0.1 of the size from the rest, while their volume is "
+            "the error above. CGAL writes them, as faces without area that pass through each "
+            "other.",
             "Repair: \"outer\" keeps what bounds the solid, so it refuses meshes that bound none; "
             "\"remove\" deletes what meets and fills the holes, and refuses where that comes to no "
             "end. An open edge that CGAL leaves counts here, one that was open before counts, too, "
@@ -342,9 +347,8 @@ section draw_solids(const std::vector<outcome>& outcomes, const std::string& mac
             "that bounds no solid there is neither. \"outer\" is off by the rounding of the "
             "corners it has cut. \"remove\" and CGAL's local repair close holes where parts "
             "overlapped: they are another answer by intention, and these errors say how far off. "
-            "CGAL's autorefine is as near as \"outer\" where it "
-            "succeeds; where its error is 1 it has kept next to nothing of the mesh, closed and "
-            "without a word."}};
+            "CGAL's autorefine is as near as \"outer\" where it succeeds; where its error is 1 it "
+            "has kept next to nothing of the mesh, closed and without a word."}};
 }
 
 }  // namespace tf::bench
