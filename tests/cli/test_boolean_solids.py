@@ -272,6 +272,12 @@ class Solids(BooleanTest):
                                    "error": 0})
         self.assertIsNone(self.made("union", "a.obj", "b.obj", "c.obj")["volumes"])
 
+    def test_a_volume_that_no_double_holds_is_not_told(self):
+        self.mesh("large.obj", box((-1e200, -1e200, -1e200), (1e200, 1e200, 1e200)))
+        run = self.run_tool("union", "large.obj", "-o", "out.obj", "-r", "r.json", status=0)
+        self.assertNotIn("volume", run.text)
+        self.assertIsNone(json.loads(self.read("r.json"))["files"][0]["output"]["volume"])
+
     def test_an_empty_result_is_an_empty_solid(self):
         for extension in ("obj", "stl", "ply", "off", "glb"):
             name = "out." + extension

@@ -8,7 +8,6 @@ $TREEFORM_STRESS_COUNT, from $TREEFORM_STRESS_SEED on.
 from support import *
 
 import random
-import signal
 
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "data")
 BOOLEAN = os.environ.get("TF_BOOLEAN", "tf-boolean")
@@ -73,7 +72,7 @@ class Mutations(ToolTest):
             room = choose.randrange(len(whole) + 1)
             limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
             status, err = self.run_in_folder(command, preexec_fn=limit)
-            self.assertIn(status, [0, 1, 4, -signal.SIGXFSZ], msg=f"{command}\n{err}")
+            self.assertIn(status, [0, 1, 4], msg=f"{command}\n{err}")
         else:
             process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL,
                                        stderr=subprocess.DEVNULL)

@@ -26,6 +26,15 @@ def read_ply(path):
 
 
 class Outputs(ToolTest):
+    def test_a_file_beyond_the_limit_is_an_output_error_and_nothing_is_left(self):
+        part = write(self.path("part.obj"), TWO_CUBES)
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+        run = subprocess.run([TOOL, part, "-o", "marked.ply"], cwd=self.folder,
+                             capture_output=True, preexec_fn=limit)
+        self.assertEqual(run.returncode, 4, msg=run.stderr)
+        self.assertIn(b"marked.ply", run.stderr)
+        self.assertEqual(os.listdir(self.folder), ["part.obj"])
+
     def test_pairs_are_listed_with_the_numbers_of_the_file(self):
         part = write(self.path("part.obj"), together(FOLD, PIERCE))
         self.run_tool(part, "--pairs", "p.csv", status=1)

@@ -183,6 +183,7 @@ guard::guard(std::string tool, limits bounds) : state_(std::make_unique<state>()
     state_->bounds = bounds;
     if (bounds.memory > 0) bound_data(bounds.memory);
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an output error like any other
+    std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that may not get as large
     state_->signals = watched_signals();
     pthread_sigmask(SIG_BLOCK, &state_->signals, &state_->signals_before);
     state_->signal_fd = signalfd(-1, &state_->signals, SFD_CLOEXEC | SFD_NONBLOCK);

@@ -4,6 +4,7 @@
 #include "tools/common/console.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tools {
 
@@ -13,7 +14,9 @@ std::string verdict(const job& work, const boolean_settings& settings,
     std::string text =
         settings.name() + ": " + counted(result.surface.faces.size(), "face", "faces");
     if (result.surface.faces.empty()) return text + ", nothing is left";
-    if (!output["volume"].is_null()) text += ", volume " + shortest(output["volume"].get<double>());
+    const json& volume = output["volume"];
+    if (!volume.is_null() && std::isfinite(volume.get<double>()))
+        text += ", volume " + shortest(volume.get<double>());
     if (!result.certified)
         return text + ", but " +
                (result.meeting_count > 0
