@@ -162,9 +162,10 @@ solid_result with_mended_operands(
         ++result.rounding_steps;
         result.broken.insert(result.broken.end(), mended.broken.begin(), mended.broken.end());
         if (is_done(mended) && !mended.certified) continue;
+        const bool diverges = mended.meeting_count > 4 * result.meeting_count + 1000;
         if (mended.certified || mended.meeting_count < result.meeting_count)
             take_surface(result, std::move(mended));
-        if (result.certified) break;
+        if (result.certified || diverges) break;
     }
     return result;
 }

@@ -42,7 +42,8 @@ double largest_difference(const point3& p, const point3& q) {
 /// Half a unit in the last place of the largest coordinate: rounding to nearest moves none further.
 double half_unit(const point3& p) {
     const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    return (std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest) / 2;
+    const double unit = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+    return std::max(unit / 2, std::numeric_limits<double>::denorm_min());  // half of which is none
 }
 
 double largest_coordinate(const std::vector<point3>& points) {
@@ -96,10 +97,10 @@ class rounding {
         return only_cut_ && options_.steps > 0 && result_.steps < most_steps &&
                result_.meeting_count < last_meeting_count_;
     }
-    [[nodiscard]] bool gets_worse() {
-        if (result_.steps == 0) first_meeting_count_ = result_.meeting_count;
+    /// More and more faces would be cut by each other.
+    [[nodiscard]] bool gets_worse() const {
         return result_.surface.faces.size() > most_faces_ ||
-               result_.meeting_count > 4 * first_meeting_count_ + 1000;
+               (result_.steps > 0 && result_.meeting_count > 2 * last_meeting_count_ + 1000);
     }
 
     /// Each phase has half of the work that was left; nobody knows how many there will be.
@@ -347,7 +348,7 @@ class rounding {
     std::vector<std::uint8_t> sound_;      ///< by face, or empty
     std::vector<std::uint8_t> offending_;  ///< by face
     std::size_t most_faces_;
-    std::uint64_t first_meeting_count_ = 0, last_meeting_count_ = 0;
+    std::uint64_t last_meeting_count_ = 0;
     double moved_ = 0.0;     ///< how far, in the last rounding; infinite where points were joined
     bool vanished_ = false;  ///< some faces, so that points may be left that none has
     bool only_cut_ = false;  ///< joining what is near has been seen to spread

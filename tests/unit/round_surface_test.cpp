@@ -88,6 +88,19 @@ TEST_CASE("round: constructed points go to the nearest double or float") {
     CHECK(single.max_move < 0x1p-24);
 }
 
+TEST_CASE("round: a move of less than the least number there is, is a move") {
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    tf::exact_surface exact;
+    exact.given = {{0, 0, 0}, {4 * least, 0, 0}, {0, 4 * least, 0}};
+    exact.constructed = {tf::constructed_point::where_line_meets(
+        {0, 0, 0}, {least, least, least},
+        {{4 * least, 0, 0}, {0, 4 * least, 0}, {0, 0, 4 * least}})};
+    exact.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    const tf::rounded_surface result = tf::round_surface(exact);
+    CHECK(result.surface.points.back() == tf::point3{least, least, least});
+    CHECK(result.max_move > 0.0);
+}
+
 TEST_CASE("round: boxes that floats push into each other become one solid") {
     // As doubles apart by 2^-30; as floats the second begins where the first ends, and a third is
     // thinner than what floats show.
