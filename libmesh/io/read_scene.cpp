@@ -4,6 +4,7 @@
 #include <libmesh/io/detail/scene_depth.hpp>
 #include <libmesh/io/read.hpp>
 
+#include <assimp/BaseImporter.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -183,13 +185,22 @@ constexpr int unwanted = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGEN
     in.fail(plain_reason(reason, in, hint));
 }
 
+/// An importer without the loader of X3D, which does not survive an empty group.
+class scene_importer : public Assimp::Importer {
+  public:
+    scene_importer() {
+        const std::unique_ptr<Assimp::BaseImporter> loader(GetImporter("x3d"));
+        UnregisterLoader(loader.get());
+    }
+};
+
 }  // namespace
 
 bool scene_format(std::string_view extension) {
     // The formats that are read natively are never left to a reader that rounds them.
     constexpr std::array<std::string_view, 4> native{"stl", "obj", "ply", "off"};
     if (std::find(native.begin(), native.end(), extension) != native.end()) return false;
-    const Assimp::Importer importer;
+    const scene_importer importer;
     return importer.IsExtensionSupported('.' + std::string(extension));
 }
 
@@ -197,7 +208,7 @@ mesh_file read_scene(const source& in, const std::filesystem::path& path,
                      std::string_view extension) {
     const std::string hint(extension);
     if (!scene_format(extension)) in.fail("format '" + hint + "' is not read");
-    Assimp::Importer importer;
+    scene_importer importer;
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unwanted);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     if (hint == "glb" || hint == "gltf" || hint == "vrm") refuse_deep_json(in);

@@ -6,7 +6,7 @@
 
 namespace tf::detail {
 
-/// Refuses XML (DAE, X3D, AMF and others), FBX in text or binary, and DirectX in text that nest
+/// Refuses XML (DAE, AMF and others), FBX in text or binary, and DirectX in text that nest
 /// more than a thousand levels deep, by what they hold, whatever their name: the loaders recurse,
 /// and the stack would be exhausted. What is wrong otherwise is left to them.
 ///
