@@ -93,25 +93,33 @@ tf::point3 cross(const tf::point3& u, const tf::point3& v) {
 
 double dot(const tf::point3& u, const tf::point3& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
 
-/// How much of each corner of a triangle there is in a point of it; sums up to 1.
-weights weights_of(const tf::point3& p, const tf::point3& a, const tf::point3& b,
-                   const tf::point3& c) {
+struct shares_of_corners {
+    weights of{1.0, 0.0, 0.0};  ///< sums up to 1
+    double outside = 0.0;       ///< what was left out as it was negative, on the same scale
+};
+
+/// How much of each corner of a triangle there is in a point of it.
+shares_of_corners shares_at(const tf::point3& p, const tf::point3& a, const tf::point3& b,
+                            const tf::point3& c) {
     const tf::point3 normal = cross(difference(b, a), difference(c, a));
     const tf::point3 to_a = difference(a, p), to_b = difference(b, p), to_c = difference(c, p);
     weights w{dot(normal, cross(to_b, to_c)), dot(normal, cross(to_c, to_a)),
               dot(normal, cross(to_a, to_b))};
-    double sum = 0.0;
-    for (double& one : w) sum += one = std::max(one, 0.0);
-    if (!(sum > 0.0) || !std::isfinite(sum)) return {1.0, 0.0, 0.0};
+    double sum = 0.0, outside = 0.0;
+    for (double& one : w) {
+        outside += std::max(-one, 0.0);
+        sum += one = std::max(one, 0.0);
+    }
+    if (!(sum > 0.0) || !std::isfinite(sum) || !std::isfinite(outside)) return {};
     for (double& one : w) one /= sum;
-    return w;
+    return {w, outside / sum};
 }
 
 /// The input points that a point of the result has its values from.
 struct mixture {
     std::uint32_t input = 0;
     tf::face points{};
-    weights shares{1.0, 0.0, 0.0};
+    shares_of_corners shares{};
 };
 
 /// Between the corners of a face of an input.
@@ -121,7 +129,7 @@ mixture mixture_at(const tf::point3& p, std::span<const property_source> inputs,
     const tf::face& corners = mesh.faces[face.index];
     return {
         face.operand, corners,
-        weights_of(p, mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]])};
+        shares_at(p, mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]])};
 }
 
 std::vector<mixture> mixtures_of(std::span<const property_source> inputs, const tf::mesh& surface,
@@ -141,9 +149,13 @@ std::vector<mixture> mixtures_of(std::span<const property_source> inputs, const 
     }
     for (std::size_t f = 0; f < surface.faces.size(); ++f)
         for (const std::uint32_t p : surface.faces[f]) {
-            if (known[p] != 0) continue;
+            // Where rounding was mended, a face can reach beyond its source: then another one may
+            // do. Else the first, for what a corner is given does not hang on the last digits.
+            constexpr double enough = 1e-9;
+            if (known[p] != 0 && all[p].shares.outside <= enough) continue;
             if (made.source_face[f] == tf::operand_element{}) continue;
-            all[p] = mixture_at(surface.points[p], inputs, made.source_face[f]);
+            const mixture m = mixture_at(surface.points[p], inputs, made.source_face[f]);
+            if (known[p] == 0 || m.shares.outside < all[p].shares.outside) all[p] = m;
             known[p] = 1;
         }
     return all;
@@ -154,7 +166,7 @@ double value_of(const property& p, const mixture& m) {
     if (values == nullptr) return std::numeric_limits<double>::quiet_NaN();
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
-        if (m.shares[k] > 0.0) sum += m.shares[k] * tf::number_at(*values, m.points[k]);
+        if (m.shares.of[k] > 0.0) sum += m.shares.of[k] * tf::number_at(*values, m.points[k]);
     return sum;
 }
 
@@ -178,9 +190,10 @@ tf::point3 carried_normal(std::span<const property_source> inputs, const tf::mes
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const tf::column& c = *tf::find_column(*points, std::array{"nx", "ny", "nz"}[axis]);
         for (std::size_t k = 0; k < 3; ++k)
-            if (m.shares[k] > 0.0) normal[axis] += m.shares[k] * tf::number_at(c, m.points[k]);
+            if (m.shares.of[k] > 0.0)
+                normal[axis] += m.shares.of[k] * tf::number_at(c, m.points[k]);
     }
-    if (m.shares[0] < 1.0) normal = with_length_one(normal);
+    if (m.shares.of[0] < 1.0) normal = with_length_one(normal);
     const tf::operand_element source = made.source_face[f];
     if (source.operand != m.input) return normal;
     const tf::mesh& mesh = inputs[m.input].file->mesh;

@@ -134,7 +134,7 @@ const char* const epilogue =
     "certified is not written. --in-place is for repaired meshes only. outer needs a\n"
     "closed surface, however it overlaps; it keeps what the surface winds around.\n"
     "remove is for open sheets and scans: it is local, and keeps no volume. Faces\n"
-    "that meet nothing stay bit for bit.\n"
+    "that meet nothing stay bit for bit, but where rounding next to them was mended.\n"
     "\n"
     "Examples:\n"
     "  tf-selfintersect part.stl --curves where.obj\n"
