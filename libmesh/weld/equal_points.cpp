@@ -154,8 +154,8 @@ class distinct_points {
 /// Puts the first point like it in the place of each point's hash.
 void find_firsts(points_view points, std::span<const std::uint32_t> kind,
                  std::vector<std::uint32_t>& hash_then_first) {
-    constexpr std::size_t ahead = 16;      // entries whose memory is under way
-    constexpr std::size_t per_chunk = 4;   // buckets that share a table
+    constexpr std::size_t ahead = 16;     // entries whose memory is under way
+    constexpr std::size_t per_chunk = 4;  // buckets that share a table
     const buckets parts(hash_then_first);
     for_chunks(parts.count(), per_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         distinct_points distinct(points, kind);
