@@ -108,7 +108,7 @@ void refuse_deep_scene(const source& scene) {
         if (version >= 7500) return refuse_deep_records<std::uint64_t>(scene, all);
         return refuse_deep_records<std::uint32_t>(scene, all);
     }
-    if (all.starts_with("xof ") && all.substr(8, 3) == "txt")
+    if (all.starts_with("xof ") && all.size() > 11 && all.substr(8, 3) == "txt")
         return refuse_deep_braces(scene, all, "#/");
     // In UTF-16 and UTF-32, what matters here is plain characters with zeros between them.
     const std::string_view start = all.substr(0, 512);

@@ -320,6 +320,8 @@ TEST_CASE("hostile: XML, FBX and DirectX that nest without end are refused, wide
     std::string wide = "\xFF\xFE";
     for (const char c : x3d(100'000, "")) wide += {c, '\0'};
     CHECK(deep(wide, "a.dae"));
+    for (const char* little : {"x", "xof ", "xof 030", "xof 0303txt", "<", "<>", "</", ";FBX", "F"})
+        for (const char* name : {"a.dae", "a.x", "a.fbx"}) CHECK(!refusal(little, name).empty());
 
     const std::string fbx = "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n}\n";
     CHECK(deep(fbx + times(100'000, "A: { ; }\n"), "a.fbx"));
