@@ -2,6 +2,7 @@
 #include <libmesh/boolean/detail/mended_operands.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/round/detail/join_near.hpp>
+#include <libmesh/round/detail/reach.hpp>
 #include <libtree/aabb.hpp>
 #include <libtree/search.hpp>
 
@@ -18,16 +19,8 @@ namespace {
 
 constexpr int steps_of_surface = 2;
 
-/// How near is next to each other, in step 0, 1, ...
-double reach_of_step(int step, points_view points, bool to_float) {
-    double largest = 0.0;
-    for (const point3& p : points)
-        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    const int bits = (to_float ? 22 : 48) - 4 * step;
-    return std::max(std::ldexp(1.0, exponent - bits), std::numeric_limits<double>::min());
-}
+/// Of `reach_of_bits`, in step k = 0, 1, ...
+int bits_of_step(int step, bool to_float) { return (to_float ? 22 : 48) - 4 * step; }
 
 /// Operands as joined, each with its own points, and the way back.
 struct near_operands {
@@ -87,7 +80,8 @@ class mending {
 
     template <class Ask>
     solid_result step(int number, const std::vector<aabb<double, 3>>& broken, const Ask& ask) {
-        const double reach = reach_of_step(number, given_.all.points, options_.to_float);
+        const double reach =
+            reach_of_bits(given_.all.points, bits_of_step(number, options_.to_float));
         const joined_near near = join_near(
             given_.all, next_to(broken, given_.all, reach),
             {.reach = reach, .source = source_, .solid = false, .operand = given_.operand_of_face});

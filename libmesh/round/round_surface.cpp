@@ -6,6 +6,7 @@
 #include <libmesh/detail/used_points.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libmesh/round/detail/join_near.hpp>
+#include <libmesh/round/detail/reach.hpp>
 #include <libmesh/round/detail/solid_faces.hpp>
 #include <libmesh/round/detail/surface_faults.hpp>
 #include <libmesh/round/round_surface.hpp>
@@ -46,21 +47,8 @@ double half_unit(const point3& p) {
     return std::max(unit / 2, std::numeric_limits<double>::denorm_min());  // half of which is none
 }
 
-double largest_coordinate(const std::vector<point3>& points) {
-    double largest = 0.0;
-    for (const point3& p : points)
-        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    return largest;
-}
-
-/// How near is next to each other, in step k = 1, 2, ...: a growing share of the largest
-/// coordinate.
-double reach_of_step(int step, double largest, bool to_float) {
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    const int bits = (to_float ? 24 : 50) - 2 * step;
-    return std::max(std::ldexp(1.0, exponent - bits), std::numeric_limits<double>::min());
-}
+/// Of `reach_of_bits`, in step k = 1, 2, ...: a growing share.
+int bits_of_step(int step, bool to_float) { return (to_float ? 24 : 50) - 2 * step; }
 
 /// The surface, exact and as rounded so far. Of the exact one, points of the surface that was
 /// rounded before come first.
@@ -310,11 +298,10 @@ class rounding {
     /// Where that only spreads, nothing is joined.
     detail::joined_near join_what_is_near() {
         const mesh& now = result_.surface;
-        const detail::joint how{
-            .reach =
-                reach_of_step(result_.steps, largest_coordinate(now.points), options_.to_float),
-            .source = result_.face_of,
-            .solid = options_.solid};
+        const detail::joint how{.reach = detail::reach_of_bits(
+                                    now.points, bits_of_step(result_.steps, options_.to_float)),
+                                .source = result_.face_of,
+                                .solid = options_.solid};
         constexpr int most_rounds = 8;
         detail::joined_near near;
         for (int round = 0; round < most_rounds && !only_cut_; ++round) {
