@@ -97,6 +97,7 @@ void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact
     const std::size_t given = exact.given.size();
     std::vector<operand_element> face_of_point;
     if (options.simplify) face_of_point = simplify(exact, face_of, cut, joined, options);
+    result.exact_faces = face_of.size();
     for_chunks(face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
             face_of[f] = cut.covers_of(face_of[f]).front().face;  // of the input from here on
@@ -117,6 +118,8 @@ void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact
     result.meeting_count = r.meeting_count;
     result.rounding_steps = r.steps;
     result.broken = std::move(r.broken);
+    result.lost_parts = r.lost_parts;
+    result.lost_places = std::move(r.lost_places);
     result.source_face.resize(r.face_of.size());
     for_chunks(r.face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)

@@ -107,7 +107,14 @@ struct solid_result {
     std::uint64_t degenerate = 0;  ///< input faces without an area, which bound nothing
     std::uint64_t cells = 0;       ///< parts of space that the operands' surfaces separate; 0 where
                                    ///< they were not looked for
-    std::uint64_t covered = 0;     ///< of `split`, input faces that lie on lower ones altogether
+    /// Of the exact result. Where it has some and `surface` has none, all of it was within what the
+    /// coordinates written tell apart.
+    std::uint64_t exact_faces = 0;
+    /// Components, by points, of which no face is left when rounded. Where operands were mended, of
+    /// what the mended ones make.
+    std::uint64_t lost_parts = 0;
+    std::vector<point3> lost_places{};  ///< a point of each, at most 100
+    std::uint64_t covered = 0;  ///< of `split`, input faces that lie on lower ones altogether
     std::optional<operand_volumes> volumes{};
     bool cancelled = false;
 };

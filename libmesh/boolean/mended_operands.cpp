@@ -134,6 +134,8 @@ void take_surface(solid_result& result, solid_result&& mended) {
     result.certified = mended.certified;
     result.meeting_faces = std::move(mended.meeting_faces);
     result.meeting_count = mended.meeting_count;
+    result.lost_parts = mended.lost_parts;
+    result.lost_places = std::move(mended.lost_places);
 }
 
 }  // namespace

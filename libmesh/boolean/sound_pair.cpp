@@ -304,7 +304,7 @@ std::optional<solid_result> boolean_of_sound_pair(std::span<const mesh_view, 2> 
     // What was left out meets no box of what was cut, and so no piece of it either, rounded or not:
     // rounding to nearest takes no coordinate out of a box of doubles.
     rounded_surface rounded = round_surface(std::move(exact), {.steps = 0});
-    if (!rounded.certified) return std::nullopt;
+    if (!rounded.certified || rounded.lost_parts > 0) return std::nullopt;
     if (!goes_on(0.8)) return result;
     ids source(rounded.face_of.size());
     for_chunks(source.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -315,6 +315,7 @@ std::optional<solid_result> boolean_of_sound_pair(std::span<const mesh_view, 2> 
     result.certified = true;
     result.pairs = arranged.pairs;
     result.cut_faces = arranged.cut_faces;
+    result.exact_faces = result.surface.faces.size() + (chosen.face_of.size() - source.size());
     goes_on(1.0);
     return result;
 }

@@ -21,6 +21,7 @@ repaired_mesh from(solid_result&& made) {
     result.open = std::move(made.open);
     result.open_count = made.open_count;
     result.covered = made.covered;
+    result.exact_faces = made.exact_faces;
     result.cancelled = made.cancelled;
     return result;
 }

@@ -53,7 +53,8 @@ struct repaired_mesh {
     /// Of `split`, faces that lie on lower ones altogether: one piece stands for all, and they are
     /// not counted as removed.
     std::uint64_t covered = 0;
-    std::uint64_t filled = 0;  ///< faces that fill holes
+    std::uint64_t filled = 0;       ///< faces that fill holes
+    std::uint64_t exact_faces = 0;  ///< of `split` and `outer`, as in `solid_result`
     bool cancelled = false;
 };
 

@@ -10,6 +10,7 @@
 #include <libmesh/round/detail/solid_faces.hpp>
 #include <libmesh/round/detail/surface_faults.hpp>
 #include <libmesh/round/round_surface.hpp>
+#include <libmesh/topology.hpp>
 #include <libmesh/weld/equal_points.hpp>
 #include <libtree/parallel.hpp>
 
@@ -26,7 +27,7 @@ namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 12;
 constexpr std::size_t point_grain = std::size_t{1} << 7;  // the constructed ones are the last
-constexpr std::size_t listed_pairs = 100;
+constexpr std::size_t most_listed = 100;
 
 bool is_finite(const point3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -65,6 +66,7 @@ class rounding {
     rounded_surface run() {
         while (settle()) {
             result_.certified = check();
+            if (result_.steps == 0 && (vanished_ || !result_.certified)) remember_parts();
             if (result_.certified || result_.cancelled) break;
             if (result_.steps >= options_.steps && !gets_better()) break;
             if (gets_worse()) break;
@@ -74,6 +76,7 @@ class rounding {
         }
         point_of_.resize(result_.surface.points.size());  // a step may have ended half way
         if (vanished_) drop_unused_points();
+        count_lost_parts();
         result_.point_of = std::move(point_of_);
         return std::move(result_);
     }
@@ -211,6 +214,25 @@ class rounding {
             for (std::uint32_t& corner : f) corner = new_of_old[corner];
     }
 
+    /// Of the exact surface as it was given, while it still is.
+    void remember_parts() {
+        part_of_ = face_components(exact_.given.size() + exact_.constructed.size(), exact_.faces);
+        for (std::size_t f = 0; f < part_of_.size(); ++f)
+            if (part_of_[f] == place_of_part_.size())
+                place_of_part_.push_back(rounded_point(exact_.faces[f][0]));
+    }
+    void count_lost_parts() {
+        std::vector<std::uint8_t> is_left(place_of_part_.size(), 0);
+        if (!is_left.empty())
+            for (const std::uint32_t f : result_.face_of) is_left[part_of_[f]] = 1;
+        for (std::size_t part = 0; part < is_left.size(); ++part) {
+            if (is_left[part] != 0) continue;
+            ++result_.lost_parts;
+            if (result_.lost_places.size() < most_listed)
+                result_.lost_places.push_back(place_of_part_[part]);
+        }
+    }
+
     /// Whether what is known of an exact face holds of it as `rounded`: no corner has moved.
     [[nodiscard]] std::uint8_t stays_sound(std::size_t f, points_view points,
                                            const face& rounded) const {
@@ -253,7 +275,7 @@ class rounding {
     void complain(std::uint32_t f, std::uint32_t g) {
         offending_[f] = offending_[g] = 1;
         ++result_.meeting_count;
-        if (result_.meeting.size() < listed_pairs) result_.meeting.push_back({f, g});
+        if (result_.meeting.size() < most_listed) result_.meeting.push_back({f, g});
     }
 
     /// The rounded surface, with what is next to each other joined, and cut along itself, becomes
@@ -332,6 +354,9 @@ class rounding {
     const round_options& options_;
     exact_surface exact_;
     std::vector<std::uint32_t> point_of_;  ///< by point, of the original surface
+    /// By face of the surface given, from 0 on in the order of their lowest faces; or empty.
+    std::vector<std::uint32_t> part_of_;
+    std::vector<point3> place_of_part_;
     std::vector<std::uint8_t> sound_;      ///< by face, or empty
     std::vector<std::uint8_t> offending_;  ///< by face
     std::size_t most_faces_;

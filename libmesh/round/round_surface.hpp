@@ -59,6 +59,10 @@ struct rounded_surface {
     std::uint64_t meeting_count = 0;                      ///< of all such pairs
     int steps = 0;                                        ///< of mending that were taken
     std::vector<aabb<double, 3>> broken{};  ///< boxes of all faces that met in any step
+    /// Components of the exact surface, by points, no face of which is left: all of each was within
+    /// what the rounded coordinates tell apart.
+    std::uint64_t lost_parts = 0;
+    std::vector<point3> lost_places{};  ///< a point of each, at most 100
     bool cancelled = false;
 };
 

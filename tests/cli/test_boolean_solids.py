@@ -31,11 +31,47 @@ class Solids(BooleanTest):
         self.mesh("none.obj", together((points, faces), (points, [f[::-1] for f in faces])))
         entry = self.made("union", "none.obj")
         self.assertEqual(entry["output"]["faces"], 0)
+        self.assertEqual(entry["output"]["exact_faces"], 0)
         self.assertIn("nothing-left", [w["code"] for w in entry["warnings"]])
 
-    def test_what_a_format_is_too_coarse_for_is_an_empty_result(self):
+    def test_what_a_format_is_too_coarse_for_is_no_empty_result(self):
         self.mesh("tiny.obj", ([tuple(1e-320 * x for x in p) for p in cube()[0]], cube()[1]))
-        self.assertEqual(self.made("union", "tiny.obj", name="out.stl")["output"]["faces"], 0)
+        for operation in ("union", "split"):
+            entry = self.entry(operation, "tiny.obj", "-o", "out.stl", status=1)
+            output = entry["output"]
+            self.assertEqual((output["faces"], output["exact_faces"]), (0, 12))
+            self.assertEqual((output["certified"], output["file"]), (False, None))
+            text, = (w["text"] for w in entry["warnings"] if w["code"] == "vanished")
+            self.assertIn("--precision double, in a format that has it, holds it: 12 faces", text)
+            self.assertNotIn("out.stl", self.listing())
+        self.made("union", "tiny.obj")
+
+    def test_what_doubles_are_too_coarse_for_is_no_empty_result(self):
+        # A tip within the last double below 1: where its sides leave the cube is where it ends.
+        tip = [(1 - 2 ** -53, 0.5, 0.5), (2.0, 0.4, 0.4), (2.0, 0.6, 0.4), (2.0, 0.5, 0.6)]
+        self.mesh("tip.obj", (tip, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]))
+        self.mesh("cube.obj", cube())
+        run = self.run_tool("intersection", "cube.obj", "tip.obj", "-o", "out.obj", status=1)
+        self.assertIn("0 faces are left of the exact result's", run.text)
+        self.assertIn("when rounded to double", run.text)
+        self.assertIn("thinner than double numbers tell apart", run.err)
+        self.assertNotIn("out.obj", self.listing())
+        self.made("union", "cube.obj", "tip.obj")
+
+    def test_what_solids_do_not_share_is_an_empty_result(self):
+        self.mesh("far.obj", box((5, 5, 5), (6, 6, 6)))
+        output = self.made("intersection", "a.obj", "far.obj", name="out.stl")["output"]
+        self.assertEqual((output["faces"], output["exact_faces"]), (0, 0))
+
+    def test_parts_that_a_format_is_too_coarse_for_are_named(self):
+        speck = box((5, 5, 5), (5 + 2 ** -40, 5 + 2 ** -40, 5 + 2 ** -40))
+        self.mesh("both.obj", together(cube(), speck))
+        entry = self.made("union", "both.obj", name="out.stl")
+        self.assertEqual(entry["output"]["lost_parts"], {"count": 1, "list": [[5, 5, 5]]})
+        self.assertIn("1 part of the exact result left out, the first at (5, 5, 5)",
+                      " ".join(w["text"] for w in entry["warnings"]))
+        entry = self.made("union", "both.obj")
+        self.assertEqual(entry["output"]["lost_parts"], {"count": 0, "list": []})
 
     def test_what_is_too_large_to_be_cut_is_bad_input(self):
         self.mesh("huge.obj", ([tuple(1e302 * x for x in p) for p in cube()[0]], cube()[1]))

@@ -15,8 +15,8 @@ INPUT = {"file": str, "format": str, "sha256": str, "precision_in": str, "matrix
 OUTPUT = {"file": (str, NULL), "format": (str, NULL), "precision_out": str, "vertices": int,
           "cut_vertices": int, "faces": int, "components": int, "nonmanifold_edges": int,
           "volume": (*NUMBER, NULL), "closed": bool, "oriented": (bool, NULL),
-          "self_intersections": int, "meeting": list, "certified": bool, "max_move": NUMBER,
-          "step": NUMBER, "rounding_steps": int}
+          "self_intersections": int, "meeting": list, "exact_faces": int, "lost_parts": dict,
+          "certified": bool, "max_move": NUMBER, "step": NUMBER, "rounding_steps": int}
 
 
 class Usage(BooleanTest):

@@ -91,6 +91,14 @@ class Repair(ToolTest):
         self.assertIn("nothing would be left", run.text)
         self.assertEqual(self.listing(), ["part.obj"])
 
+    def test_what_the_numbers_written_cannot_tell_apart_is_no_repair(self):
+        points, faces = TWO_CUBES
+        part = write(self.path("part.obj"), ([tuple(1e-320 * x for x in p) for p in points], faces))
+        for mode in ("outer", "split"):
+            run = self.run_tool(part, f"--repair={mode}", "-o", "out.stl", status=1)
+            self.assertIn("thinner than float32 numbers tell apart", run.text)
+            self.assertNotIn("out.stl", self.listing())
+
     def test_what_is_too_large_to_be_cut_is_bad_input(self):
         points, faces = cube()
         part = write(self.path("part.obj"), ([tuple(1e302 * x for x in p) for p in points], faces))

@@ -116,6 +116,8 @@ TEST_CASE("round: boxes that floats push into each other become one solid") {
     CHECK(test::is_clean_solid(result.surface));
     CHECK(std::abs(tf::signed_volume(result.surface) - 2.0) < 1e-6);
     for (std::size_t f = 0; f < result.surface.faces.size(); ++f) CHECK(result.face_of[f] < 24);
+    CHECK(result.lost_parts == 1);
+    CHECK(result.lost_places == std::vector<tf::point3>{{0, 5, 1}});
 }
 
 TEST_CASE("round: parts that rounding turns inside out vanish, and gaps close") {
@@ -139,6 +141,10 @@ TEST_CASE("round: of a part that vanishes in one point, no point is left") {
     CHECK(result.surface == solid);
     CHECK(result.point_of.size() == solid.points.size());
     CHECK(result.point_of.front() == speck.points.size());
+    CHECK(result.lost_parts == 1);
+    REQUIRE(result.lost_places.size() == 1);
+    CHECK(result.lost_places.front() == tf::point3{5, 5, 5});
+    CHECK(tf::round_surface(exact_of(together(speck, solid))).lost_parts == 0);
 }
 
 TEST_CASE("round: the middle of a piece that was mended lies in the face that it names") {

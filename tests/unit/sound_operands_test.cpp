@@ -50,6 +50,7 @@ void check_both_ways(const operands& pair, quick expected = quick::unless_mended
         CHECK(result.max_move == general.max_move);
         CHECK(result.pairs == general.pairs);
         CHECK(result.cut_faces == general.cut_faces);
+        CHECK(result.exact_faces == general.exact_faces);
         CHECK(test::is_clean_solid(result.surface));
     }
 }

@@ -74,14 +74,15 @@ const char* const epilogue =
     "(with --matrix, as moved in double). Inputs may overlap themselves, touch, and\n"
     "share faces; corners with equal coordinates are one. Only the result is rounded:\n"
     "it is checked in the coordinates that are written, and mended where rounding has\n"
-    "made faces meet. What cannot be certified is not written. Points that were not\n"
-    "cut stay bit for bit, but next to such a place. Meshes and faces are numbered\n"
-    "from 0, faces as in the files. Where parts of the result touch in an edge or\n"
-    "point, each has points of its own there, so that edges have two faces; where\n"
-    "that takes a point more, as in a ring that touches itself, the edge is counted\n"
-    "and warned of. A mesh of no faces is an empty solid. --simplify keeps faces of\n"
-    "different meshes apart if --source is given, and faces with different properties\n"
-    "unless --no-attributes is.\n"
+    "made faces meet. What cannot be certified is not written. Parts thinner than the\n"
+    "numbers written tell apart are left out and named; if that is all of the result,\n"
+    "nothing is written. Points that were not cut stay bit for bit, but next to a\n"
+    "place that was mended. Meshes and faces are numbered from 0, faces as in the\n"
+    "files. Where parts of the result touch in an edge or point, each has points of\n"
+    "its own there, so that edges have two faces; where that takes a point more, as\n"
+    "in a ring that touches itself, the edge is counted and warned of. A mesh of no\n"
+    "faces is an empty solid. --simplify keeps faces of different meshes apart if\n"
+    "--source is given, and faces with different properties unless --no-attributes is.\n"
     "\n"
     "With --accept-open, one input may be an open surface: the first of a difference,\n"
     "any of an intersection, or one that the formula is not true without. What lies\n"
@@ -108,9 +109,9 @@ std::vector<std::uint32_t> groups_of(const tools::job& work, const boolean_setti
     return tools::groups_of_faces(tools::sources_of(solids), of_properties, s.source_given);
 }
 
-tf::solid_result compute(tools::job& work, const boolean_settings& s,
-                         const std::vector<tools::solid>& solids,
-                         const std::optional<std::uint32_t>& sheet, bool to_single) {
+tf::solid_result ask(tools::job& work, const boolean_settings& s,
+                     const std::vector<tools::solid>& solids,
+                     const std::optional<std::uint32_t>& sheet, bool to_single) {
     const auto timing = work.time("cut");
     const std::vector<tf::mesh_view> views = tools::views_of(solids);
     tf::boolean_options options;
@@ -128,16 +129,22 @@ tf::solid_result compute(tools::job& work, const boolean_settings& s,
         result = tf::clip(views, *sheet, tools::formula_of(s, views.size()), options);
     else
         result = tf::boolean(views, tools::formula_of(s, views.size()), options);
-    if (!s.splits() && !sheet && result.certified) tools::separate_parts(work, result);
-    if (result.surface.faces.empty()) {  // what was thinner than its precision leaves points
-        result.surface.points.clear();
-        result.source_point.clear();
-        result.face_of_cut_point.clear();
-    }
     work.out.end_progress();
     work.keeper.check();
     if (result.cancelled) throw tools::failure(tools::stopped, "stopped", work.name + ": stopped");
     return result;
+}
+
+/// What to do where floats do not hold the result: what is nothing in them is tried in doubles.
+std::string remedy_for_floats(tools::job& work, const boolean_settings& s,
+                              const std::vector<tools::solid>& solids,
+                              const std::optional<std::uint32_t>& sheet, bool vanished) {
+    const std::string doubles = "--precision double, in a format that has it, ";
+    if (!vanished) return "; " + doubles + "may do";
+    const tf::solid_result result = ask(work, s, solids, sheet, false);
+    if (!result.certified || tools::vanishes(result)) return "; nor do doubles hold it";
+    return "; " + doubles +
+           "holds it: " + tools::counted(result.surface.faces.size(), "face", "faces");
 }
 
 exit_status check_only(tools::job& work, const std::vector<tools::solid>& solids) {
@@ -187,7 +194,9 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
             return refuse_open(work, solids, open,
                                "an open surface can be cut, but not united with a solid; ");
     }
-    tf::solid_result result = compute(work, s, solids, sheet, to_single);
+    tf::solid_result result = ask(work, s, solids, sheet, to_single);
+    const bool holds = result.certified && !tools::vanishes(result);
+    if (!s.splits() && !sheet && holds) tools::separate_parts(work, result);
     if (!result.open.empty())
         return refuse_open(work, solids, tools::check_solids(work, solids), {});
     if (!sheet)
@@ -199,10 +208,10 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
     tools::write_curves(work, s, solids);
     tools::say_details(work, result);
     tools::warn_of_surprises(work, s, solids, result);
-    if (!result.certified) {
-        work.warn("not-certified",
-                  to_single ? "nothing written; --precision double, in a format that has it, may do"
-                            : "nothing written");
+    if (!holds) {
+        std::string remedy;
+        if (to_single) remedy = remedy_for_floats(work, s, solids, sheet, tools::vanishes(result));
+        tools::warn_of_failure(work, result, remedy);
         return tools::found;
     }
     if (moves_too_far(work, s, solids, result)) return tools::found;

@@ -5,6 +5,7 @@
 #include "tools/common/console.hpp"
 #include "tools/common/curve_file.hpp"
 #include "tools/common/output_file.hpp"
+#include "tools/tf-boolean/words.hpp"
 #include <libmesh/boolean/separate_fans.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libmesh/round/rounding_harm.hpp>
@@ -113,6 +114,8 @@ void enter_result(job& work, const tf::solid_result& result, bool bounds_solid, 
     }
     entry["skipped"] = {{"degenerate", result.degenerate},
                         {"faces_not_cut", triangles - std::min(triangles, result.cut_faces)}};
+    json places = json::array();
+    for (const tf::point3& p : result.lost_places) places.push_back({p.x, p.y, p.z});
     const tf::mesh& surface = result.surface;
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
     const auto cut =
@@ -130,7 +133,9 @@ void enter_result(job& work, const tf::solid_result& result, bool bounds_solid, 
                        {"oriented", bounds_solid ? json(true) : json(nullptr)},
                        {"self_intersections", result.meeting_count},
                        {"meeting", meeting_list(result)},
-                       {"certified", result.certified},
+                       {"exact_faces", result.exact_faces},
+                       {"lost_parts", {{"count", result.lost_parts}, {"list", places}}},
+                       {"certified", result.certified && !vanishes(result)},
                        {"max_move", result.max_move},
                        {"step", tf::coordinate_step(surface.points, to_single)},
                        {"rounding_steps", result.rounding_steps}};

@@ -16,10 +16,6 @@ namespace {
 
 json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
-std::string in_words(const tf::point3& p) {
-    return "(" + shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z) + ")";
-}
-
 /// Leaves out the faces that cannot be computed with.
 void keep_usable(job& work, solid& s) {
     const tf::mesh_defects defects = tf::find_defects(s.file.mesh);
@@ -97,6 +93,10 @@ std::string reason_of(const tf::solid_check& found, const solid& s) {
 }
 
 }  // namespace
+
+std::string in_words(const tf::point3& p) {
+    return "(" + shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z) + ")";
+}
 
 std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
     std::vector<solid> solids;

@@ -29,6 +29,8 @@ struct solid {
     }
 };
 
+[[nodiscard]] std::string in_words(const tf::point3& p);
+
 /// Reads and moves all inputs, and enters them in the report. \throws failure
 [[nodiscard]] std::vector<solid> read_solids(job& work, const boolean_settings& settings);
 

@@ -7,12 +7,22 @@
 #include <cmath>
 
 namespace tools {
+namespace {
+
+std::string numbers_of(const job& work) {
+    return work.entry["output"]["precision_out"] == "float" ? "float32 numbers" : "double numbers";
+}
+
+}  // namespace
 
 std::string verdict(const job& work, const boolean_settings& settings,
                     const tf::solid_result& result) {
     const json& output = work.entry["output"];
     std::string text =
         settings.name() + ": " + counted(result.surface.faces.size(), "face", "faces");
+    if (vanishes(result))
+        return text + " are left of the exact result's " + grouped(result.exact_faces) +
+               " when rounded to " + output["precision_out"].get<std::string>();
     if (result.surface.faces.empty()) return text + ", nothing is left";
     const json& volume = output["volume"];
     if (!volume.is_null() && std::isfinite(volume.get<double>()))
@@ -28,14 +38,21 @@ std::string verdict(const job& work, const boolean_settings& settings,
     return text;
 }
 
+bool vanishes(const tf::solid_result& result) {
+    return result.surface.faces.empty() && result.exact_faces > 0;
+}
+
 void warn_of_surprises(job& work, const boolean_settings& settings,
                        const std::vector<solid>& solids, const tf::solid_result& result) {
     const bool given = std::any_of(solids.begin(), solids.end(),
                                    [](const solid& s) { return !s.file.mesh.faces.empty(); });
-    if (result.surface.faces.empty() && given && settings.name() == "union")
-        work.warn("nothing-left",
-                  "the inputs bound nothing: their faces cancel each other out, or enclose less "
-                  "than the precision holds");
+    if (result.surface.faces.empty() && !vanishes(result) && given && settings.name() == "union")
+        work.warn("nothing-left", "the inputs bound nothing: their faces cancel each other out");
+    if (result.certified && result.lost_parts > 0 && !vanishes(result))
+        work.warn("lost-parts", counted(result.lost_parts, "part", "parts") +
+                                    " of the exact result left out, the first at " +
+                                    in_words(result.lost_places.front()) + ": thinner than " +
+                                    numbers_of(work) + " tell apart there");
     if (result.degenerate > 0)
         work.warn("degenerate", counted(result.degenerate, "face", "faces") +
                                     " without an area left out; nothing changes by that");
@@ -50,6 +67,14 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
         work.warn("simplified", "points that are left out take their properties with them");
     if (!settings.no_attributes && leaves_out_properties(sources_of(solids)))
         work.warn("attributes", "lists and properties of other elements are not carried over");
+}
+
+void warn_of_failure(job& work, const tf::solid_result& result, const std::string& remedy) {
+    if (vanishes(result))
+        work.warn("vanished", "all of the exact result is thinner than " + numbers_of(work) +
+                                  " tell apart there; nothing written" + remedy);
+    else
+        work.warn("not-certified", "nothing written" + remedy);
 }
 
 void say_details(job& work, const tf::solid_result& result) {

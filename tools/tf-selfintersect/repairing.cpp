@@ -89,7 +89,7 @@ void enter_repair(job& work, const findings& result, const repair_settings& sett
 
 /// Why the result cannot be taken; empty when it can.
 std::string objection(const findings& result, const repair_settings& settings,
-                      const tf::repaired_mesh& repaired, double allowed) {
+                      const tf::repaired_mesh& repaired, double allowed, bool to_single) {
     if (repaired.open_count > 0)
         return "it bounds no solid: its surface ends at " +
                counted(repaired.open_count, "edge", "edges") + ", the first at face " +
@@ -102,6 +102,11 @@ std::string objection(const findings& result, const repair_settings& settings,
     if (!repaired.certified)
         return settings.mode == tf::repair_mode::remove ? "a hole could not be closed"
                                                         : "coordinates are too large";
+    if (repaired.surface.faces.empty() && repaired.exact_faces > 0)
+        return "nothing would be left: all of the exact result, " +
+               counted(repaired.exact_faces, "face", "faces") + ", is thinner than " +
+               (to_single ? "float32" : "double") + " numbers tell apart there" +
+               (to_single ? "; --precision double may do" : "");
     if (repaired.surface.faces.empty() && !result.mesh.faces.empty())
         return settings.mode == tf::repair_mode::outer
                    ? "nothing would be left: the faces cancel each other out and bound nothing"
@@ -207,7 +212,8 @@ bool repair_and_write(job& work, const tf::mesh_file& file, const findings& resu
     const double allowed = settings.max_move.used(result.box ? tf::diagonal(*result.box) : 0.0);
     enter_repair(work, result, settings, repaired, allowed, to_single);
     work.entry["repair"]["separated_points"] = separated;
-    if (const std::string why = objection(result, settings, repaired, allowed); !why.empty()) {
+    if (const std::string why = objection(result, settings, repaired, allowed, to_single);
+        !why.empty()) {
         work.out.result(work.name + ": not repaired, nothing written: " + why);
         return false;
     }
