@@ -1,8 +1,9 @@
 #pragma once
 /// \file
 /// What travels with a mesh beside its points and faces: columns of values for vertices, faces and
-/// further elements, names of parts, comments.
+/// further elements, values of corners, names of parts, comments.
 
+#include <libmesh/corner_values.hpp>
 #include <libtree/export.hpp>
 
 #include <cstddef>
@@ -91,8 +92,9 @@ decltype(auto) with_type(scalar_type type, F&& f) {
 }
 
 /// What a column stands for. All but `data` hold no values of their own: they keep the type and
-/// the place among their neighbours of what lives in `mesh::points` and `mesh::faces`.
-enum class column_role : std::uint8_t { data, x, y, z, corners };
+/// the place among their neighbours of what lives in `mesh::points`, `mesh::faces` and, for
+/// `texture`, in `attributes::corners`.
+enum class column_role : std::uint8_t { data, x, y, z, corners, texture };
 
 /// One named property: a value, or a list of values, for each row of its element.
 struct column {
@@ -160,10 +162,14 @@ struct part {
 struct attributes {
     /// In the order of the file. "vertex" has a row a point, "face" a row a face as stored.
     std::vector<element> elements{};
-    std::vector<part> parts{};            ///< by ascending first face; empty when nothing is named
-    std::vector<std::string> comments{};  ///< of PLY, one line each
-    std::vector<std::string> obj_info{};  ///< of PLY, one line each
-    std::string header{};                 ///< the 80 bytes ahead of a binary STL
+    /// By triangles of the mesh, also where faces as stored are polygons: those of one polygon, a
+    /// fan, have the same at the corners that they have in common.
+    corner_values corners{};
+    std::vector<part> parts{};  ///< by ascending first face; empty when nothing is named
+    std::vector<std::string> material_files{};  ///< OBJ `mtllib`, as in the file
+    std::vector<std::string> comments{};        ///< of PLY, one line each
+    std::vector<std::string> obj_info{};        ///< of PLY, one line each
+    std::string header{};                       ///< the 80 bytes ahead of a binary STL
 
     friend bool operator==(const attributes&, const attributes&) = default;
 };

@@ -20,6 +20,9 @@ namespace tf {
 /// Coordinates come back as stored: float32 widened, decimal text rounded once to the nearest
 /// double. NaN and infinity are kept for the caller to report (`validate`).
 ///
+/// `vt` and `vn` of an OBJ, and the list "texcoord" of the faces of a PLY where it has two numbers
+/// a corner or none, are in `attributes::corners`.
+///
 /// In text without a header a heading names the columns of numbers; columns x, y and z may then
 /// stand anywhere. Of a PCD, a field of several values becomes columns "name[0]", "name[1]", ...,
 /// and WIDTH, HEIGHT and VIEWPOINT of an organised cloud lines of `attributes::obj_info`: "num_cols

@@ -1,11 +1,15 @@
 #include <libmesh/io/detail/face_sink.hpp>
+#include <libmesh/io/detail/obj_corners.hpp>
 #include <libmesh/io/detail/readers.hpp>
 #include <libmesh/io/detail/reserve.hpp>
 #include <libmesh/io/detail/text.hpp>
 
+#include <algorithm>
 #include <cstring>
-#include <limits>
+#include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace tf::detail {
 
@@ -13,11 +17,13 @@ namespace {
 
 struct line_counts {
     std::size_t vertices = 0;
+    std::size_t textures = 0;
+    std::size_t normals = 0;
     std::size_t faces = 0;
 };
 
-/// Lines that start with "v " and "f ", so that arrays get their size at once. Only a hint: files
-/// with carriage returns alone, or indented ones, make the arrays grow.
+/// Lines that start with "v ", "vt ", "vn " and "f ", so that arrays get their size at once. Only a
+/// hint: files with carriage returns alone, or indented ones, make the arrays grow.
 line_counts count_lines(const source& in) {
     line_counts counts;
     const char* at = in.begin();
@@ -25,6 +31,9 @@ line_counts count_lines(const source& in) {
         if (at[1] == ' ') {
             counts.vertices += *at == 'v' ? 1U : 0U;
             counts.faces += *at == 'f' ? 1U : 0U;
+        } else if (*at == 'v' && in.end() - at > 2 && at[2] == ' ') {
+            counts.textures += at[1] == 't' ? 1U : 0U;
+            counts.normals += at[1] == 'n' ? 1U : 0U;
         }
         const void* newline = std::memchr(at, '\n', static_cast<std::size_t>(in.end() - at));
         if (newline == nullptr) break;
@@ -35,19 +44,20 @@ line_counts count_lines(const source& in) {
     return counts;
 }
 
-/// One pass over the text. Faces may name vertices that follow; what they may name at most is known
+/// One pass over the text. Faces may name rows that follow; what they may name at most is known
 /// only at the end, so the first pass takes any number, and when one proves too large a second pass
-/// with the right limit finds its line.
+/// with the right limits finds its line.
 class obj_reader {
   public:
-    obj_reader(const source& in, std::uint64_t index_limit)
-        : text_(in), index_limit_(index_limit), faces_(file_) {
+    explicit obj_reader(const source& in, const obj_row_counts& limits = {})
+        : text_(in), vertices_("vertex", limits.vertices), corners_(limits), faces_(file_) {
         file_.format = "obj";
     }
 
     void reserve(const line_counts& counts) {
         reserve_large(file_.mesh.points, counts.vertices);
         reserve_large(file_.mesh.faces, counts.faces);
+        corners_.reserve(counts.textures, counts.normals, counts.faces);
     }
 
     void read() {
@@ -56,18 +66,22 @@ class obj_reader {
             text_.skip_line();
             text_.file.release_before(text_.at);
         }
-        if (file_.mesh.points.size() > std::numeric_limits<std::uint32_t>::max() ||
-            file_.mesh.faces.size() > std::numeric_limits<std::uint32_t>::max())
+        const auto [vertices, textures, normals] = counts();
+        if (std::max({vertices, textures, normals, std::uint64_t{file_.mesh.faces.size()}}) >
+            obj_row_counts::any)
             text_.file.fail("more vertices or triangles than 32-bit numbers can name");
         if (file_.mesh.points.empty() && file_.mesh.faces.empty() && has_other_lines_)
             text_.file.fail("no vertex and no face found: not an OBJ file?");
     }
 
-    /// True when each corner is a vertex.
+    /// True when each row that a corner names is there.
     [[nodiscard]] bool in_range() const {
-        return file_.mesh.faces.empty() || largest_index_ < file_.mesh.points.size();
+        return vertices_.needed() <= file_.mesh.points.size() && corners_.in_range();
     }
-    [[nodiscard]] std::size_t vertex_count() const { return file_.mesh.points.size(); }
+    [[nodiscard]] obj_row_counts counts() const {
+        return {file_.mesh.points.size(), corners_.values().texture.size(),
+                corners_.values().normals.size()};
+    }
 
     [[nodiscard]] mesh_file take() {
         store_colours();
@@ -75,9 +89,7 @@ class obj_reader {
             file_.warnings.push_back(
                 {"skipped-elements",
                  std::to_string(skipped_elements_) + " point and line elements were not read"});
-        if (has_more_indices_)
-            file_.warnings.push_back({"texture-normal-indices",
-                                      "texture coordinates and normals of corners were not read"});
+        file_.attributes.corners = corners_.take();
         file_.stored_as = fits_single(file_.mesh.points) ? precision::single_ : precision::double_;
         return std::move(file_);
     }
@@ -94,20 +106,17 @@ class obj_reader {
         if (first == 'u' && text_.starts_with("usemtl")) return name(first);
         if (first == '\0') text_.fail("a zero byte: binary data, not text");
         has_other_lines_ = true;
+        if (starts_statement("vt")) return corners_.texture(text_);
+        if (starts_statement("vn")) return corners_.normal(text_);
+        if (starts_statement("mtllib")) return material_files();
         // Anything else is left out. Where such a statement is continued, the next line starts with
         // a number and is left out in its turn.
     }
 
-    /// Skips blanks and continued line ends; true at the end of the statement.
-    [[nodiscard]] bool statement_done() {
-        for (;;) {
-            if (text_.line_done()) return true;
-            if (*text_.at != '\\' || text_.end - text_.at < 2 || !is_newline(text_.at[1]))
-                return false;
-            const bool two_bytes =
-                text_.end - text_.at > 2 && text_.at[1] == '\r' && text_.at[2] == '\n';
-            text_.at += two_bytes ? 3 : 2;
-        }
+    [[nodiscard]] bool starts_statement(std::string_view keyword) const {
+        const auto length = static_cast<std::ptrdiff_t>(keyword.size());
+        return text_.starts_with(keyword) && text_.end - text_.at > length &&
+               is_space(text_.at[length]);
     }
 
     void vertex() {
@@ -115,11 +124,11 @@ class obj_reader {
         const double x = coordinate();
         const double y = coordinate();
         const double z = coordinate();
-        if (!statement_done()) rest_of_vertex();
+        if (!statement_done(text_)) rest_of_vertex();
         file_.mesh.points.push_back({x, y, z});
     }
     [[nodiscard]] double coordinate() {
-        (void)statement_done();
+        (void)statement_done(text_);
         return text_.number("a coordinate");
     }
 
@@ -128,7 +137,7 @@ class obj_reader {
     void rest_of_vertex() {
         double more[3] = {};
         std::size_t count = 0;
-        for (; !statement_done(); ++count) {
+        for (; !statement_done(text_); ++count) {
             const double value = text_.number("a number");
             if (count < 3) more[count] = value;
         }
@@ -141,31 +150,46 @@ class obj_reader {
     void face_line() {
         ++text_.at;
         faces_.begin();
-        while (!statement_done()) faces_.add(corner());
+        for (std::size_t i = 0; !statement_done(text_); ++i) corner(i);
         const std::size_t corners = faces_.finish();
         if (corners < 3) text_.fail("face with " + std::to_string(corners) + " corners");
         if (new_part_) start_part();
     }
 
-    /// v, v/vt, v//vn or v/vt/vn; what follows the vertex number is only looked over.
-    [[nodiscard]] std::uint32_t corner() {
-        const parsed<std::int64_t> index = parse_integer(text_.at, text_.end);
-        if (index.end == nullptr)
-            text_.fail(quoted(text_.at, text_.end) + " where a vertex index should stand");
-        const auto count = static_cast<std::int64_t>(file_.mesh.points.size());
-        const std::int64_t vertex = index.value > 0 ? index.value - 1 : count + index.value;
-        if (index.value == 0) text_.fail("vertex index 0 (OBJ counts from 1)");
-        if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= index_limit_)
-            text_.fail("vertex index " + quoted(text_.at, index.end) + " is out of range");
-        largest_index_ = std::max(largest_index_, static_cast<std::uint64_t>(vertex));
-        const char* p = index.end;
-        has_more_indices_ = has_more_indices_ || (p < text_.end && *p == '/');
-        while (p < text_.end && (is_digit(*p) || *p == '/' || *p == '-')) ++p;
-        if ((p != index.end && *index.end != '/') ||
-            (p < text_.end && !is_space(*p) && *p != '#' && *p != '\\'))
-            text_.fail(quoted(text_.at, text_.end) + " where a corner should stand");
-        text_.at = p;
-        return static_cast<std::uint32_t>(vertex);
+    /// v, v/vt, v//vn or v/vt/vn; a slash too many at the end is none.
+    void corner(std::size_t number) {
+        const char* const start = text_.at;
+        const std::size_t triangles = file_.mesh.faces.size();
+        faces_.add(vertices_.read(text_, file_.mesh.points.size()));
+        corners_.add(text_, number, triangles);
+        if (text_.done() || is_space(*text_.at) || *text_.at == '#' || *text_.at == '\\') return;
+        text_.at = start;
+        text_.fail(quoted(start, text_.end) + " where a corner should stand");
+    }
+
+    /// Names of files, between blanks; those within a name can be told only where names end as
+    /// usual.
+    void material_files() {
+        (void)text_.word();
+        std::string_view names = text_.rest_of_line();
+        while (!names.empty()) {
+            const std::size_t end = end_of_name(names);
+            add_material_file(std::string(names.substr(0, end)));
+            names.remove_prefix(end);
+            while (!names.empty() && is_blank(names.front())) names.remove_prefix(1);
+        }
+    }
+    [[nodiscard]] static std::size_t end_of_name(std::string_view names) {
+        constexpr std::string_view ending = ".mtl";
+        for (std::size_t i = 0; i + ending.size() < names.size(); ++i)
+            if (is_blank(names[i + ending.size()]) &&
+                starts_with_word(names.data() + i, names.data() + names.size(), ending))
+                return i + ending.size();
+        return names.size();
+    }
+    void add_material_file(std::string name) {
+        if (known_material_files_.insert(name).second)
+            file_.attributes.material_files.push_back(std::move(name));
     }
 
     void name(char kind) {
@@ -199,14 +223,14 @@ class obj_reader {
     }
 
     text text_;
-    std::uint64_t index_limit_;
+    obj_numbers vertices_;
+    obj_corners corners_;
     mesh_file file_{};
     face_sink faces_;
     part part_{};
+    std::set<std::string> known_material_files_{};
     bool new_part_ = false;
-    std::uint64_t largest_index_ = 0;
     std::size_t skipped_elements_ = 0;
-    bool has_more_indices_ = false;
     bool has_other_lines_ = false;  ///< than comments, vertices, faces, elements and names
     bool has_colours_ = false;
     std::vector<double> colours_{};  ///< [3 * vertices] as long as every vertex has one
@@ -215,10 +239,10 @@ class obj_reader {
 }  // namespace
 
 mesh_file read_obj(const source& in) {
-    obj_reader reader(in, std::numeric_limits<std::uint32_t>::max());
+    obj_reader reader(in);
     reader.reserve(count_lines(in));
     reader.read();
-    if (!reader.in_range()) obj_reader(in, reader.vertex_count()).read();
+    if (!reader.in_range()) obj_reader(in, reader.counts()).read();
     return reader.take();
 }
 

@@ -1,4 +1,5 @@
 #include <libmesh/io/detail/face_sink.hpp>
+#include <libmesh/io/detail/face_texture.hpp>
 #include <libmesh/io/detail/ply_header.hpp>
 #include <libmesh/io/detail/point_rows.hpp>
 #include <libmesh/io/detail/readers.hpp>
@@ -64,6 +65,7 @@ class body_reader {
         look_behind(values_, file_.warnings);
         if (file_.mesh.faces.size() > most_numbers)
             in_.fail("more triangles than 32-bit numbers can name");
+        take_face_texture(file_);
     }
 
   private:

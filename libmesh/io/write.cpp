@@ -66,6 +66,11 @@ std::vector<const column*> colour_columns(const mesh_file& file, std::string_vie
 
 namespace {
 
+/// Whether triangle `f` and the one before it have their common corners where a fan has them.
+bool continues_fan(const std::vector<face>& faces, std::size_t f) {
+    return faces.empty() || (faces[f][0] == faces[f - 1][0] && faces[f][1] == faces[f - 1][2]);
+}
+
 void check_faces(const mesh_file& file) {
     const auto& faces = file.mesh.faces;
     for (std::size_t f = 0; f < faces.size(); ++f)
@@ -73,12 +78,16 @@ void check_faces(const mesh_file& file) {
             if (corner >= file.mesh.points.size())
                 refuse("a corner of face " + std::to_string(f) + " is no point");
     const auto& stored = file.stored_face;
+    if (const auto fault = fault_of(file.attributes.corners, faces.size()); !fault.empty())
+        refuse(fault);
     if (stored.empty()) return;
     if (stored.size() != faces.size()) refuse("stored_face has another size than faces");
     if (stored[0] != 0) refuse("stored_face does not start with face 0");
     for (std::size_t f = 1; f < faces.size(); ++f) {
         if (stored[f] == stored[f - 1]) {
-            if (faces[f][0] != faces[f - 1][0] || faces[f][1] != faces[f - 1][2])
+            const corner_values& corners = file.attributes.corners;
+            if (!continues_fan(faces, f) || !continues_fan(corners.texture_of_corner, f) ||
+                !continues_fan(corners.normal_of_corner, f))
                 refuse("the triangles of stored face " + std::to_string(stored[f]) + " are no fan");
         } else if (stored[f] != stored[f - 1] + 1) {
             refuse("stored_face skips a face before triangle " + std::to_string(f));
@@ -147,11 +156,26 @@ class writing {
 
     write_result run(detail::sink& out) {
         writer_({.file = file_, .options = options_, .result = result_, .out = out});
+        warn_of_corner_values();
         out.flush();
         return std::move(result_);
     }
 
   private:
+    void warn_of_corner_values() {
+        const corner_values& corners = file_.attributes.corners;
+        const bool loses_normals = !corners.normal_of_corner.empty() && format_.extension != "obj";
+        const bool loses_texture = !corners.texture_of_corner.empty() &&
+                                   format_.extension != "obj" && format_.extension != "ply";
+        if (!loses_normals && !loses_texture) return;
+        const char* const what = !loses_texture   ? "normals"
+                                 : !loses_normals ? "texture coordinates"
+                                                  : "texture coordinates and normals";
+        result_.warnings.push_back({"corner-values", std::string(what) + " of corners left out: " +
+                                                         std::string(format_.extension) +
+                                                         " does not hold them"});
+    }
+
     const mesh_file& file_;
     const write_options& options_;
     std::string name_;

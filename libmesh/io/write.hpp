@@ -35,8 +35,11 @@ struct write_result {
 ///
 /// A file appears whole or not at all: it is written beside its place and then renamed. Numbers in
 /// text are the shortest that read back as the same double, also when that is a float32 value.
-/// What the format can hold of `file.attributes` is written too: PLY takes all of it in its order,
-/// OFF normals, colours and texture coordinates, OBJ parts and vertex colours, STL its header, the
+/// What the format can hold of `file.attributes` is written too: PLY takes all elements in their
+/// order, and texture coordinates of corners as the list "texcoord" of faces, two numbers a corner
+/// in float32 (NaN where it has none); OFF normals, colours and texture coordinates of points; OBJ
+/// parts, material files, texture coordinates and normals of corners, vertex colours; STL its
+/// header, the
 /// names of solids and the column "stl_attribute", XYZ and CSV further columns, PCD these and the
 /// lines "num_cols", "num_rows" and "viewpoint" of `obj_info`, GLB one primitive for each
 /// colour of faces (columns red, green, blue and alpha, if any, of the element "face"), and of the
@@ -47,7 +50,8 @@ struct write_result {
 ///
 /// \throws io_error when the format cannot hold the file or the file cannot be written
 /// \throws std::invalid_argument when a corner is no point, or an element "vertex" or "face" has
-///         another number of rows than there are points or stored faces
+///         another number of rows than there are points or stored faces, or a number of a corner
+///         in `attributes::corners` is none of a row
 /// \same   bytes for the same file and options
 TREEFORM_API write_result write_mesh(const std::filesystem::path& path, const mesh_file& file,
                                      const write_options& options = {});

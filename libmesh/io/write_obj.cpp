@@ -1,5 +1,7 @@
 #include <libmesh/io/detail/writers.hpp>
 
+#include <string_view>
+
 namespace tf::detail {
 
 namespace {
@@ -19,6 +21,38 @@ void put_vertices(const write_job& job) {
     }
 }
 
+void put_row(sink& out, std::string_view keyword, std::span<const double> values) {
+    out.put(keyword);
+    for (const double value : values) {
+        out.put(' ');
+        out.number(value);
+    }
+    out.put('\n');
+}
+
+void put_corner_values(sink& out, const corner_values& corners) {
+    for (const auto& row : corners.texture)
+        put_row(out, "vt", std::span(row).first(corners.has_w ? 3 : 2));
+    for (const point3& n : corners.normals) put_row(out, "vn", std::array{n.x, n.y, n.z});
+}
+
+/// The numbers that corners have for one kind of value.
+class row_numbers {
+  public:
+    explicit row_numbers(const std::vector<face>& fans) : fans_(fans) {}
+
+    /// Of corner `corner` of the face whose first triangle is `first`, from 1; 0 where it has none.
+    [[nodiscard]] std::uint64_t of(std::size_t first, std::size_t corner) const {
+        if (fans_.empty()) return 0;
+        const auto [triangle, place] = place_in_fan(corner);
+        const std::uint32_t row = fans_[first + triangle][place];
+        return row == corner_values::none ? 0 : std::uint64_t{row} + 1;
+    }
+
+  private:
+    const std::vector<face>& fans_;
+};
+
 /// The names that differ from those in force.
 void put_names(sink& out, const part& now, const part& before) {
     if (now.object != before.object) out.put("o " + now.object + '\n');
@@ -33,7 +67,13 @@ void put_names(sink& out, const part& now, const part& before) {
 void write_obj(const write_job& job) {
     // A file of no bytes would be taken for one that was cut off.
     if (job.file.mesh.points.empty()) job.out.put("# no vertices\n");
+    for (const std::string& name : job.file.attributes.material_files)
+        job.out.put("mtllib " + name + '\n');
     put_vertices(job);
+    const corner_values& values = job.file.attributes.corners;
+    put_corner_values(job.out, values);
+    const row_numbers textures(values.texture_of_corner);
+    const row_numbers normals(values.normal_of_corner);
     const auto& parts = job.file.attributes.parts;
     std::size_t part_index = 0;
     part current;
@@ -45,9 +85,16 @@ void write_obj(const write_job& job) {
             current = parts[part_index];
         }
         job.out.put('f');
-        for (const std::uint32_t corner : corners) {
+        for (std::size_t i = 0; i < corners.size(); ++i) {
             job.out.put(' ');
-            job.out.number(std::uint64_t{corner} + 1);
+            job.out.number(std::uint64_t{corners[i]} + 1);
+            const std::uint64_t texture = textures.of(first, i);
+            const std::uint64_t normal = normals.of(first, i);
+            if (texture + normal > 0) job.out.put('/');
+            if (texture > 0) job.out.number(texture);
+            if (normal == 0) continue;
+            job.out.put('/');
+            job.out.number(normal);
         }
         job.out.put('\n');
     });

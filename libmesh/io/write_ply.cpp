@@ -1,4 +1,5 @@
 #include <libmesh/io/detail/declared_vertices.hpp>
+#include <libmesh/io/detail/face_texture.hpp>
 #include <libmesh/io/detail/number.hpp>
 #include <libmesh/io/detail/ply_header.hpp>
 #include <libmesh/io/detail/vertex_columns.hpp>
@@ -43,7 +44,7 @@ class ply_writer {
         for (const element& e : names_) {
             const element* source = find_element(job_.file.attributes, e.name);
             if (e.name == "face")
-                put_faces(e, source);
+                put_faces(e);
             else
                 put_rows(e, source, e.rows, job_.file.mesh.points);
         }
@@ -96,20 +97,47 @@ class ply_writer {
                                      [](const element& e) { return e.name == "face"; });
         if (at == names_.end() && count == 0) return;
         element& e = declared("face", count, at == names_.end() ? 1 : 0);
-        if (with_role(e, column_role::corners) == nullptr)
-            e.columns.insert(e.columns.begin(), {.name = "vertex_indices",
-                                                 .type = scalar_type::int32,
-                                                 .list_length = scalar_type::uint8,
-                                                 .role = column_role::corners});
+        declare_face_columns(e);
         std::size_t most = 0;
         for_each_stored_face(job_.file, [&](std::size_t, std::span<const std::uint32_t> corners) {
             most = std::max(most, corners.size());
         });
         for (column& c : e.columns) {
+            if (c.role == column_role::texture && !holds(*c.list_length, 2 * most))
+                c.list_length = scalar_type::uint32;
             if (c.role != column_role::corners) continue;
             if (!holds(*c.list_length, most)) c.list_length = scalar_type::uint32;
             if (!holds(c.type, job_.file.mesh.points.size())) c.type = scalar_type::uint32;
         }
+    }
+
+    /// Those of the element in their order, with corners and their texture coordinates, which the
+    /// file may have had in its formats or not.
+    void declare_face_columns(element& e) {
+        const element* source = find_element(job_.file.attributes, e.name);
+        const bool has_texture = !job_.file.attributes.corners.texture_of_corner.empty();
+        e.columns.clear();
+        for (std::size_t i = 0; source != nullptr && i < source->columns.size(); ++i) {
+            const column& c = source->columns[i];
+            if (c.role == column_role::texture && !has_texture) continue;
+            e.columns.push_back(declaration(c));
+            face_values_.push_back(&c);
+        }
+        const auto add = [&](std::size_t place, column c) {
+            const auto at = static_cast<std::ptrdiff_t>(place);
+            face_values_.insert(face_values_.begin() + at, nullptr);
+            e.columns.insert(e.columns.begin() + at, std::move(c));
+        };
+        if (with_role(e, column_role::corners) == nullptr)
+            add(0, {.name = "vertex_indices",
+                    .type = scalar_type::int32,
+                    .list_length = scalar_type::uint8,
+                    .role = column_role::corners});
+        if (has_texture && find_column(e, face_texture_name) == nullptr)
+            add(e.columns.size(), {.name = std::string(face_texture_name),
+                                   .type = scalar_type::float32,
+                                   .list_length = scalar_type::uint8,
+                                   .role = column_role::texture});
     }
 
     [[nodiscard]] static bool holds(scalar_type type, std::size_t number) {
@@ -212,27 +240,50 @@ class ply_writer {
         }
     }
 
-    void put_faces(const element& e, const element* source) {
+    void put_faces(const element& e) {
         std::size_t row = 0;
-        for_each_stored_face(job_.file, [&](std::size_t, std::span<const std::uint32_t> corners) {
-            for (std::size_t i = 0; i < e.columns.size(); ++i) {
-                const column& c = e.columns[i];
-                if (c.role == column_role::data) {
-                    put_data(with_values(e, source, i), row);
-                    continue;
-                }
-                put_as(*c.list_length, corners.size());
-                for (const std::uint32_t corner : corners) put_as(c.type, corner);
-            }
-            end_row();
-            ++row;
-        });
+        for_each_stored_face(job_.file,
+                             [&](std::size_t first, std::span<const std::uint32_t> corners) {
+                                 for (std::size_t i = 0; i < e.columns.size(); ++i) {
+                                     const column& c = e.columns[i];
+                                     if (c.role == column_role::data) {
+                                         put_data(*face_values_[i], row);
+                                     } else if (c.role == column_role::texture) {
+                                         put_texture(c, first, corners.size());
+                                     } else {
+                                         put_as(*c.list_length, corners.size());
+                                         for (const std::uint32_t corner : corners)
+                                             put_as(c.type, corner);
+                                     }
+                                 }
+                                 end_row();
+                                 ++row;
+                             });
+    }
+
+    /// An empty list where no corner has any.
+    void put_texture(const column& c, std::size_t first, std::size_t corners) {
+        const corner_values& values = job_.file.attributes.corners;
+        const auto row_of = [&](std::size_t corner) {
+            const auto [triangle, place] = place_in_fan(corner);
+            return values.texture_of_corner[first + triangle][place];
+        };
+        bool any = false;
+        for (std::size_t i = 0; i < corners; ++i) any |= row_of(i) != corner_values::none;
+        put_as(*c.list_length, any ? 2 * corners : std::size_t{0});
+        for (std::size_t i = 0; i < corners && any; ++i) {
+            constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+            const std::uint32_t row = row_of(i);
+            for (std::size_t k = 0; k < 2; ++k)
+                put_as(c.type, row == corner_values::none ? nan : values.texture[row][k]);
+        }
     }
 
     write_job job_;
     ply_encoding encoding_;
     std::uint64_t count_;
-    std::vector<element> names_{};  ///< what the header declares; without values
+    std::vector<element> names_{};              ///< what the header declares; without values
+    std::vector<const column*> face_values_{};  ///< of the columns of faces
     bool row_started_ = false;
 };
 

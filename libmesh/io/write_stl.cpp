@@ -54,6 +54,10 @@ void text_facet(const write_job& job, const face& f) {
     out.put(" endloop\nendfacet\n");
 }
 
+[[nodiscard]] bool differ_in_material_alone(const part& a, const part& b) {
+    return a.object == b.object && a.group == b.group && a.material != b.material;
+}
+
 }  // namespace
 
 void write_stl_binary(const write_job& job) {
@@ -95,6 +99,10 @@ void write_stl_text(const write_job& job) {
     open();
     for (std::size_t f = 0; f < file.mesh.faces.size(); ++f) {
         while (next_part < parts.size() && parts[next_part].first_face <= face_row(file, f)) {
+            if (next_part > 0 && differ_in_material_alone(parts[next_part - 1], parts[next_part])) {
+                ++next_part;
+                continue;
+            }
             close();
             open();
         }

@@ -91,10 +91,13 @@ void check_rows(const attributes& properties, std::size_t point_count, std::size
                    std::to_string(face_count) + " faces");
         for (const column& c : e.columns) check_column(e, c);
     }
+    if (const auto fault = fault_of(properties.corners, face_count); !fault.empty()) refuse(fault);
 }
 
 attributes carry_rows(const attributes& properties, const mesh_weld_result& welded) {
-    attributes result{.parts = properties.parts,
+    attributes result{.corners = gather(properties.corners, welded.face_of_new),
+                      .parts = properties.parts,
+                      .material_files = properties.material_files,
                       .comments = properties.comments,
                       .obj_info = properties.obj_info,
                       .header = properties.header};

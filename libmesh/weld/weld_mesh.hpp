@@ -48,7 +48,7 @@ struct mesh_weld_options {
 
 struct mesh_weld_result {
     tf::mesh mesh{};
-    tf::attributes attributes{};  ///< rows of "vertex" and "face" follow points and faces
+    tf::attributes attributes{};  ///< rows of "vertex", "face" and corners follow points and faces
     point_groups groups{};        ///< of the points given; group numbers are points of `mesh`
     std::vector<std::uint32_t> point_of_group{};  ///< [G] the point that gave its properties
     std::vector<std::uint32_t> face_of_new{};     ///< [F'] the face given that each face was
@@ -90,14 +90,15 @@ struct mesh_weld_result {
 /// point in it. Points of one group may thus stay within the tolerance of each other, and with the
 /// rule `first` a point may move by twice the tolerance.
 ///
-/// The rows of other elements are kept; those of integer columns named vertex1, vertex2,
+/// Corners keep the texture coordinates and normals of their own, also where their points become
+/// one. The rows of other elements are kept; those of integer columns named vertex1, vertex2,
 /// vertex_index and vertex_indices that number a point are renumbered. Parts keep their faces, also
 /// when none is left. When `options.points.progress` stops the search, `groups.stopped` is set and
 /// the rest is empty.
 ///
 /// \throws std::invalid_argument as `weld_points`, for a corner that is no point, a property that
 ///         is not there or is a list, a tolerance of a condition that is negative or not finite,
-///         rows that are not one a point and one a face, columns that do not fit their rows, or
+///         rows that are not one a point and one a face, columns and corners that do not fit, or
 ///         more than 2^32 / 3 faces with `keep_manifold`
 /// \cost   as `weld_points`, and O(F log F); about 24 bytes a face and 8 a point besides
 ///         the result, 100 a face with `keep_manifold`, 8 a point and property for conditions

@@ -39,7 +39,8 @@ std::vector<sample> samples() {
     std::vector<sample> all{
         {"a.ply", ply},
         {"a.obj",
-         "# c\no a\nv 0 0 0 1 1 1\nv 1e0 +0 0 1 1 1\nv 0 1. 0 1 1 1\nvt 0 0\nvn 0 0 1\n"
+         "mtllib m.mtl\n# c\no a\nv 0 0 0 1 1 1\nv 1e0 +0 0 1 1 1\nv 0 1. 0 1 1 1\nvt 0 0\nvn 0 0 "
+         "1\n"
          "g b\nusemtl c\nf 1/1/1 2//1 \\\n3\nf -1 -2 -3 1\nl 1 2\n"},
         {"a.xyz", "3\n1,2,3\n4, 5, 6\n7,8,nan\n"},
         {"b.xyz", "x y z\n1 2 3 4\n5 6 7 8\n"},

@@ -44,12 +44,13 @@ std::string with_triangle(std::string_view text) {
 }  // namespace
 
 TEST_CASE("obj: corners may be v, v/vt, v//vn, v/vt/vn, and count from the end when negative") {
+    const std::string rows = "vt 0 0\nvt 1 0\nvt 0 1\nvn 1 0 0\nvn 0 1 0\nvn 0 0 1\n";
     for (const char* const face :
          {"f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/1/1 2/2/2 3/3/3", "f -3 -2 -1",
           "f -3/-3/-3 -2/-2/-2 -1/-1/-1", "f\t1\t2\t3 # end", "  f 1 2 3  ", "f 1 2 \\\n3",
           "f 1 2 \\\r\n 3", "f 1 2 3\\\n\n"}) {
         CAPTURE(face);
-        const tf::mesh_file file = read(with_triangle(face), "a.obj");
+        const tf::mesh_file file = read(with_triangle(rows + face), "a.obj");
         CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}});
         CHECK(file.stored_face.empty());
     }
@@ -91,12 +92,6 @@ TEST_CASE("obj: numbers end at blanks, and a comma is no decimal mark") {
     CHECK(std::isnan(file.mesh.points[0].x));
     CHECK(file.mesh.points[0].y == -INFINITY);
     CHECK(file.mesh.points[0].z == INFINITY);
-}
-
-TEST_CASE("obj: what corners say of texture and normals is left out with a warning") {
-    CHECK(read(with_triangle("vt 0 0\nf 1/1 2/1 3/1\n"), "a.obj").warnings.at(0).code ==
-          "texture-normal-indices");
-    CHECK(read(with_triangle("vt 0 0\nf 1 2 3\n"), "a.obj").warnings.empty());
 }
 
 TEST_CASE("obj: names make parts, vertex colours a column each") {

@@ -14,6 +14,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tf::detail {
@@ -94,6 +95,11 @@ void for_each_stored_face(const mesh_file& file, F&& f) {
         f(first, std::span<const std::uint32_t>(corners));
         first = next;
     }
+}
+
+/// Where corner `corner` of a polygon is in its fan: which triangle, which of its corners.
+[[nodiscard]] constexpr std::pair<std::size_t, std::size_t> place_in_fan(std::size_t corner) {
+    return corner < 2 ? std::pair(std::size_t{0}, corner) : std::pair(corner - 2, std::size_t{2});
 }
 
 /// Faces as stored.

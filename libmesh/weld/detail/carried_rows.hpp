@@ -8,7 +8,7 @@
 namespace tf::detail {
 
 /// \throws std::invalid_argument for rows of "vertex" that are not one a point, rows of "face" that
-///         are not one a face, and columns that do not fit their rows
+///         are not one a face, columns that do not fit their rows, and corners likewise
 void check_rows(const attributes& properties, std::size_t point_count, std::size_t face_count);
 
 /// What `weld_mesh` returns of `properties`, given the other parts of its result but means.

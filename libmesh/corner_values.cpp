@@ -1,0 +1,46 @@
+#include <libmesh/corner_values.hpp>
+
+namespace tf {
+namespace {
+
+std::vector<face> gather(const std::vector<face>& numbers,
+                         std::span<const std::uint32_t> triangles) {
+    std::vector<face> rows;
+    if (numbers.empty()) return rows;
+    rows.reserve(triangles.size());
+    for (const std::uint32_t t : triangles) rows.push_back(numbers[t]);
+    return rows;
+}
+
+std::string fault_of(const std::vector<face>& numbers, std::size_t rows, std::size_t triangles,
+                     const std::string& what) {
+    if (numbers.empty()) return {};
+    if (numbers.size() != triangles)
+        return what + " numbers of " + std::to_string(numbers.size()) + " triangles for " +
+               std::to_string(triangles);
+    for (std::size_t f = 0; f < numbers.size(); ++f)
+        for (const std::uint32_t row : numbers[f])
+            if (row >= rows && row != corner_values::none)
+                return "a corner of triangle " + std::to_string(f) + " has a " + what +
+                       " that is not there";
+    return {};
+}
+
+}  // namespace
+
+corner_values gather(const corner_values& c, std::span<const std::uint32_t> triangles) {
+    return {.texture = c.texture,
+            .has_w = c.has_w,
+            .normals = c.normals,
+            .texture_of_corner = gather(c.texture_of_corner, triangles),
+            .normal_of_corner = gather(c.normal_of_corner, triangles)};
+}
+
+std::string fault_of(const corner_values& c, std::size_t triangles) {
+    std::string fault =
+        fault_of(c.texture_of_corner, c.texture.size(), triangles, "texture coordinate");
+    if (fault.empty()) fault = fault_of(c.normal_of_corner, c.normals.size(), triangles, "normal");
+    return fault;
+}
+
+}  // namespace tf
