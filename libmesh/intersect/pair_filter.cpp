@@ -62,18 +62,22 @@ unsigned sharing_code(const numbered_face& a, const numbered_face& b) {
     unsigned code = 0;
     for (unsigned r = 0; r < 3; ++r)
         for (unsigned i = 0; i < 3; ++i)
-            code |= static_cast<unsigned>(a[i] == b[r + i]) << (3 * r + i);
+            code |= static_cast<unsigned>(a[i] == b[(r + i) % 3]) << (3 * r + i);
     return code;
 #else
     const hn::FixedTag<std::uint32_t, 4> d;
+    constexpr std::int32_t turned_once[] = {1, 2, 0, 3};
+    constexpr std::int32_t turned_twice[] = {2, 0, 1, 3};
     const auto corners = hn::LoadU(d, a.data());
-    unsigned code = 0;
-    for (unsigned r = 0; r < 3; ++r) {
+    const auto others = hn::LoadU(d, b.data());
+    const auto equal_bits = [&](auto turned) {
         std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(d, hn::Eq(corners, hn::LoadU(d, b.data() + r)), bits);
-        code |= (bits[0] & 7U) << (3 * r);
-    }
-    return code;
+        hn::StoreMaskBits(d, hn::Eq(corners, turned), bits);
+        return bits[0] & 7U;
+    };
+    return equal_bits(others) |
+           equal_bits(hn::TableLookupLanes(others, hn::SetTableIndices(d, turned_once))) << 3 |
+           equal_bits(hn::TableLookupLanes(others, hn::SetTableIndices(d, turned_twice))) << 6;
 #endif
 }
 

@@ -12,13 +12,13 @@ constexpr std::size_t vector_pairs = 8;  // at most in a vector of the filter
 // The corners of a pair in the order of each filter. Lambdas, so that the loops inline them.
 constexpr auto edge_corners = [](const numbered_face& a, const numbered_face& b,
                                  const candidate& pair) {
-    return std::array{a[pair.corner_a() + 1U], a[pair.corner_a() + 2U], a[pair.corner_a()],
-                      b[pair.corner_b()]};
+    return std::array{a[pair.corner_a<1>()], a[pair.corner_a<2>()], a[pair.corner_a<0>()],
+                      b[pair.corner_b<0>()]};
 };
 constexpr auto corner_corners = [](const numbered_face& a, const numbered_face& b,
                                    const candidate& pair) {
-    return std::array{a[pair.corner_a()], a[pair.corner_a() + 1U], a[pair.corner_a() + 2U],
-                      b[pair.corner_b() + 1U], b[pair.corner_b() + 2U]};
+    return std::array{a[pair.corner_a<0>()], a[pair.corner_a<1>()], a[pair.corner_a<2>()],
+                      b[pair.corner_b<1>()], b[pair.corner_b<2>()]};
 };
 constexpr auto separate_corners = [](const numbered_face& a, const numbered_face& b,
                                      const candidate&) {

@@ -54,7 +54,7 @@ detail::buffer<detail::numbered_face> leaf_order(mesh_view mesh, const tree<3>& 
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t id = tree.ids()[i];
             const face& f = mesh.faces[id];
-            faces[i] = {f[0], f[1], f[2], f[0], f[1], id};
+            faces[i] = {f[0], f[1], f[2], id};
         }
     });
     return faces;

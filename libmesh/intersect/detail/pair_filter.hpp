@@ -13,8 +13,8 @@
 
 namespace tf::detail {
 
-/// Corners 0 1 2 0 1 of a face, so that three of them in a row start at each, and its number.
-using numbered_face = std::array<std::uint32_t, 6>;
+/// The corners of a face, and its number.
+using numbered_face = std::array<std::uint32_t, 4>;
 
 /// A candidate of a block: its number there, and for each face the corner that matters; see
 /// `candidate_classes`. One word, since a store of four fields together costs more than the rest.
@@ -24,13 +24,24 @@ class candidate {
     constexpr candidate(std::uint32_t index, std::uint32_t corners) : bits_(index | corners) {}
     /// The second argument of the constructor.
     static constexpr std::uint32_t corners(std::uint32_t of_a, std::uint32_t of_b) {
-        return of_a << 16 | of_b << 24;
+        return turns_from(of_a) << 16 | turns_from(of_b) << 24;
     }
     [[nodiscard]] std::uint32_t index() const { return bits_ & 0xFFFFU; }
-    [[nodiscard]] std::uint32_t corner_a() const { return bits_ >> 16 & 0xFFU; }
-    [[nodiscard]] std::uint32_t corner_b() const { return bits_ >> 24; }
+    /// The corner that matters, or the first or second one after it.
+    template <unsigned Steps>
+    [[nodiscard]] std::uint32_t corner_a() const {
+        return bits_ >> (16 + 2 * Steps) & 3U;
+    }
+    template <unsigned Steps>
+    [[nodiscard]] std::uint32_t corner_b() const {
+        return bits_ >> (24 + 2 * Steps) & 3U;
+    }
 
   private:
+    static constexpr std::uint32_t turns_from(std::uint32_t corner) {
+        return corner | (corner + 1) % 3 << 2 | (corner + 2) % 3 << 4;
+    }
+
     std::uint32_t bits_;
 };
 static_assert(max_candidates <= 0x10000);
