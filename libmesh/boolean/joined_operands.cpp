@@ -1,7 +1,7 @@
 #include <libmesh/boolean/detail/joined_operands.hpp>
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/detail/used_points.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <libmesh/weld/detail/few_equal_points.hpp>
 #include <libtree/parallel.hpp>
 
 #include <algorithm>
@@ -81,16 +81,16 @@ void keep_used(joined_operands& joined) {
 
 void join_equal(joined_operands& joined) {
     mesh& all = joined.all;
-    const equal_points equal = find_equal_points(all.points);
-    const std::size_t count = equal.first_of_new.size();
-    if (count == all.points.size()) return;
+    const auto equal = few_equal_points(all.points);
+    if (!equal) return;
+    const std::size_t count = equal->first_of_new.size();
     for (std::size_t i = 0; i < count; ++i) {
-        all.points[i] = all.points[equal.first_of_new[i]];
-        joined.number_of_point[i] = joined.number_of_point[equal.first_of_new[i]];
+        all.points[i] = all.points[equal->first_of_new[i]];
+        joined.number_of_point[i] = joined.number_of_point[equal->first_of_new[i]];
     }
     all.points.resize(count);
     joined.number_of_point.resize(count);
-    renumber(all.faces, equal.new_of_old);
+    renumber(all.faces, equal->new_of_old);
 }
 
 }  // namespace

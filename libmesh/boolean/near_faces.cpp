@@ -1,7 +1,7 @@
 #include <libmesh/boolean/detail/near_faces.hpp>
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/detail/compact.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <libmesh/weld/detail/few_equal_points.hpp>
 #include <libtree/detail/buffer.hpp>
 #include <libtree/parallel.hpp>
 
@@ -174,12 +174,12 @@ bool join_equal(const box& common, std::uint32_t points_of_a, near_faces& near) 
             inside[place] = static_cast<std::uint32_t>(p);
             at[place] = local.points[p];
         });
-    const equal_points equal = find_equal_points(at);
-    if (equal.first_of_new.size() == at.size()) return true;
+    const auto equal = few_equal_points(at);
+    if (!equal) return true;
     ids same(local.points.size());
     for (std::uint32_t p = 0; p < same.size(); ++p) same[p] = p;
     for (std::size_t i = 0; i < at.size(); ++i) {
-        const std::uint32_t first = inside[equal.first_of_new[equal.new_of_old[i]]];
+        const std::uint32_t first = inside[equal->first_of_new[equal->new_of_old[i]]];
         if (first == inside[i]) continue;
         if (near.point_of[first] >= points_of_a || near.point_of[inside[i]] < points_of_a)
             return false;

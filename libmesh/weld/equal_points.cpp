@@ -1,6 +1,7 @@
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/weld/detail/equal_firsts.hpp>
 #include <libmesh/weld/detail/number_groups.hpp>
+#include <libmesh/weld/detail/point_hash.hpp>
 #include <libmesh/weld/equal_points.hpp>
 #include <libtree/detail/buffer.hpp>
 #include <libtree/parallel.hpp>
@@ -17,12 +18,7 @@ namespace {
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t grain = std::size_t{1} << 14;
 
-/// Equal coordinates have equal bits once -0 is made +0, on which no processor mode has a say: one
-/// that flushes denormals would take distinct ones for equal.
-std::uint64_t bits_of(double x) {
-    const auto bits = std::bit_cast<std::uint64_t>(x);
-    return bits << 1 == 0 ? 0 : bits;
-}
+using detail::bits_of;
 
 bool same(const point3& a, const point3& b) {
     return bits_of(a.x) == bits_of(b.x) && bits_of(a.y) == bits_of(b.y) &&
@@ -30,17 +26,6 @@ bool same(const point3& a, const point3& b) {
 }
 
 bool has_nan(const point3& p) { return p.x != p.x || p.y != p.y || p.z != p.z; }
-
-/// A product by an odd number carries low bits up, the shift carries high ones down: coordinates
-/// that were floats differ in their high bits only. Each step is a bijection of what came before.
-std::uint32_t hash_of(const point3& p, std::uint32_t kind) {
-    std::uint64_t h = 0x243f6a8885a308d3 + kind;
-    for (const double x : {p.x, p.y, p.z}) {
-        h = (h + bits_of(x)) * 0x9e3779b97f4a7c15;
-        h ^= h >> 32;
-    }
-    return static_cast<std::uint32_t>((h * 0xd1342543de82ef95) >> 32);
-}
 
 struct entry {
     std::uint32_t hash;

@@ -1,3 +1,4 @@
+#include <libmesh/weld/detail/few_equal_points.hpp>
 #include <libmesh/weld/equal_points.hpp>
 #include <libtree/parallel.hpp>
 
@@ -45,6 +46,11 @@ void check(const points& list) {
         const tf::equal_points found = tf::find_equal_points(list);
         CHECK((found.new_of_old == expected.new_of_old));
         CHECK((found.first_of_new == expected.first_of_new));
+        const auto few = tf::detail::few_equal_points(list);
+        REQUIRE(few.has_value() == (expected.first_of_new.size() < list.size()));
+        if (!few) continue;
+        CHECK((few->new_of_old == expected.new_of_old));
+        CHECK((few->first_of_new == expected.first_of_new));
     }
 }
 

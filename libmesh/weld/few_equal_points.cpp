@@ -1,0 +1,97 @@
+#include <libmesh/weld/detail/equal_firsts.hpp>
+#include <libmesh/weld/detail/few_equal_points.hpp>
+#include <libmesh/weld/detail/number_groups.hpp>
+#include <libmesh/weld/detail/point_hash.hpp>
+#include <libtree/parallel.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+namespace tf::detail {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 14;
+
+/// Marks of hashes, 8 to 16 for each point that there is.
+class hash_marks {
+  public:
+    explicit hash_marks(std::size_t points)
+        : shift_(32 - std::clamp(static_cast<int>(std::bit_width(points)) + 3, 6, 32)),
+          seen_(std::size_t{1} << (32 - shift_ - 6)),
+          again_(seen_.size()) {}
+
+    /// Any number of threads may do so at the same time.
+    void set(std::uint32_t hash) {
+        if (add(seen_, hash)) add(again_, hash);
+    }
+    /// Whether the mark was set more than once.
+    [[nodiscard]] bool is_shared(std::uint32_t hash) const {
+        return (again_[word_of(hash)] & bit_of(hash)) != 0;
+    }
+
+  private:
+    using words = std::vector<std::uint64_t>;
+
+    [[nodiscard]] std::size_t word_of(std::uint32_t hash) const { return hash >> shift_ >> 6; }
+    [[nodiscard]] std::uint64_t bit_of(std::uint32_t hash) const {
+        return std::uint64_t{1} << (hash >> shift_ & 63U);
+    }
+    /// Whether the mark was there.
+    bool add(words& marks, std::uint32_t hash) const {
+        const std::uint64_t bit = bit_of(hash);
+        return (std::atomic_ref(marks[word_of(hash)]).fetch_or(bit, std::memory_order_relaxed) &
+                bit) != 0;
+    }
+
+    int shift_;
+    words seen_;
+    words again_;
+};
+
+/// The points whose marks are shared, ascending: all that equal another are among them.
+std::vector<std::uint32_t> points_in_doubt(points_view points) {
+    hash_marks marks(points.size());
+    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) marks.set(hash_of(points[i]));
+    });
+    std::vector<std::vector<std::uint32_t>> found(chunk_count(points.size(), grain));
+    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (marks.is_shared(hash_of(points[i])))
+                found[c].push_back(static_cast<std::uint32_t>(i));
+    });
+    std::vector<std::uint32_t> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+}  // namespace
+
+std::optional<equal_points> few_equal_points(points_view points) {
+    if (points.size() > std::numeric_limits<std::uint32_t>::max())
+        throw std::invalid_argument("tf::find_equal_points: more than 2^32 - 1 points");
+    const std::vector<std::uint32_t> doubted = points_in_doubt(points);
+    std::vector<point3> at;
+    at.reserve(doubted.size());
+    for (const std::uint32_t p : doubted) at.push_back(points[p]);
+    const std::vector<std::uint32_t> first = equal_firsts(at, {});
+    bool differ = true;
+    for (std::size_t i = 0; i < first.size(); ++i) differ = differ && first[i] == i;
+    if (differ) return std::nullopt;
+    equal_points result;
+    result.new_of_old.resize(points.size());
+    std::iota(result.new_of_old.begin(), result.new_of_old.end(), 0U);
+    for (std::size_t i = 0; i < first.size(); ++i)
+        result.new_of_old[doubted[i]] = doubted[first[i]];
+    result.first_of_new = number_groups(result.new_of_old);
+    return result;
+}
+
+}  // namespace tf::detail
