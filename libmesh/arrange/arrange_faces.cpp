@@ -41,35 +41,32 @@ bool is_degenerate(mesh_view mesh, const face& f) {
     return collinear(mesh.points[a], mesh.points[b], mesh.points[c]);
 }
 
-std::vector<std::uint32_t> degenerate_faces(mesh_view mesh) {
-    std::vector<std::vector<std::uint32_t>> found(chunk_count(mesh.faces.size(), grain));
-    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t f = begin; f < end; ++f)
-            if (is_degenerate(mesh, mesh.faces[f]))
-                found[c].push_back(static_cast<std::uint32_t>(f));
-    });
-    std::vector<std::uint32_t> all;
-    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-    return all;
-}
-
 bool can_be_used(const point3& p) {
     return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate &&
            std::abs(p.z) <= largest_coordinate;
 }
 
-void check_points(mesh_view mesh) {
+/// \throws std::invalid_argument naming a corner that cannot be used
+std::vector<std::uint32_t> degenerate_faces(mesh_view mesh) {
     std::vector<std::uint32_t> bad(chunk_count(mesh.faces.size(), grain), none);
-    for_chunks(mesh.faces.size(), grain,
-               [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                   for (std::size_t f = begin; f < end && bad[chunk] == none; ++f)
-                       for (const std::uint32_t c : mesh.faces[f])
-                           if (bad[chunk] == none && !can_be_used(mesh.points[c])) bad[chunk] = c;
-               });
-    for (const std::uint32_t c : bad)
-        if (c != none)
-            throw std::invalid_argument("tf::arrange_faces: point " + std::to_string(c) +
+    std::vector<std::vector<std::uint32_t>> found(bad.size());
+    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::uint32_t unfit = none;
+        for (std::size_t f = begin; f < end && unfit == none; ++f) {
+            for (const std::uint32_t corner : mesh.faces[f])
+                if (unfit == none && !can_be_used(mesh.points[corner])) unfit = corner;
+            if (unfit == none && is_degenerate(mesh, mesh.faces[f]))
+                found[c].push_back(static_cast<std::uint32_t>(f));
+        }
+        bad[c] = unfit;
+    });
+    for (const std::uint32_t corner : bad)
+        if (corner != none)
+            throw std::invalid_argument("tf::arrange_faces: point " + std::to_string(corner) +
                                         " is not finite or beyond 2^1000");
+    std::vector<std::uint32_t> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
 }
 
 /// Faces to be cut, those that overlap in one plane together.
@@ -304,11 +301,10 @@ class emitter {
     std::vector<place> begin_;  ///< [chunks + 1]
 };
 
-}  // namespace
-
-arrange_faces_result detail::arrange_pairs(mesh_view mesh, std::span<const face_pair> pairs,
-                                           std::vector<std::uint32_t> degenerate,
-                                           const progress_callback& progress) {
+/// `arrange_pairs` without the given points.
+arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pairs,
+                                   std::vector<std::uint32_t> degenerate,
+                                   const progress_callback& progress) {
     arrange_faces_result result;
     const std::size_t count = mesh.faces.size();
     result.pairs = pairs.size();
@@ -339,16 +335,29 @@ arrange_faces_result detail::arrange_pairs(mesh_view mesh, std::span<const face_
     for (const std::uint32_t f : groups.members) is_not_whole[f] = 1;
     for (const std::uint32_t f : degenerate) is_not_whole[f] = 1;
     emitter(mesh, is_not_whole, cuts, numbers).write(result.cut);
-    result.cut.given_points.assign(mesh.points.begin(), mesh.points.end());
     result.cut.constructed = std::move(numbers.constructed);
     result.degenerate = std::move(degenerate);
     if (progress) progress(1.0);
     return result;
 }
 
-arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {
-    detail::check_faces("tf::arrange_faces", mesh.points.size(), mesh.faces);
-    check_points(mesh);
+void copy_points(mesh_view mesh, arrange_faces_result& result) {
+    if (!result.cancelled) result.cut.given_points.assign(mesh.points.begin(), mesh.points.end());
+}
+
+}  // namespace
+
+arrange_faces_result detail::arrange_pairs(mesh_view mesh, std::span<const face_pair> pairs,
+                                           std::vector<std::uint32_t> degenerate,
+                                           const progress_callback& progress) {
+    arrange_faces_result result = arrange_known(mesh, pairs, std::move(degenerate), progress);
+    copy_points(mesh, result);
+    return result;
+}
+
+arrange_faces_result detail::arrange_without_points(mesh_view mesh,
+                                                    const arrange_faces_options& options) {
+    check_faces("arrange_faces", mesh.points.size(), mesh.faces);
     std::vector<std::uint32_t> degenerate = degenerate_faces(mesh);
     // Degenerate faces are shut out by hiding them: pairs are looked for among the others only.
     std::vector<face> kept;
@@ -382,7 +391,13 @@ arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& 
         }
     progress_callback rest;
     if (progress) rest = [&](double done) { return progress(0.5 + 0.5 * done); };
-    return detail::arrange_pairs(mesh, found.pairs, std::move(degenerate), rest);
+    return arrange_known(mesh, found.pairs, std::move(degenerate), rest);
+}
+
+arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {
+    arrange_faces_result result = detail::arrange_without_points(mesh, options);
+    copy_points(mesh, result);
+    return result;
 }
 
 }  // namespace tf

@@ -90,8 +90,9 @@ class regions {
     void join(face_side s, face_side t) { sets_.join(element(s), element(t)); }
     void join_infinity(face_side s) { sets_.join(0, element(s)); }
 
-    /// Cells, 0 being that of infinity, then in the order of the lowest sides.
-    [[nodiscard]] numbered_sets number() { return detail::number_sets(sets_); }
+    /// Cells, 0 being that of infinity, then in the order of the lowest sides. The last to be
+    /// asked.
+    [[nodiscard]] numbered_sets number() { return detail::number_sets(std::move(sets_)); }
 
   private:
     [[nodiscard]] std::uint32_t element(face_side s) const { return patches_.patch_side(s) + 1; }
@@ -134,7 +135,7 @@ numbered_sets find_parts(const surface_patches& patches) {
                 linked.join(patches.patch[detail::face_of(sides[0])],
                             patches.patch[detail::face_of(side)]);
         }
-    return detail::number_sets(linked);
+    return detail::number_sets(std::move(linked));
 }
 
 /// The cells on both sides of each patch, and windings that spread from cell to cell.

@@ -121,18 +121,19 @@ std::vector<part_extent> find_extents(const mesh_arrangement& cut, const surface
                                       const numbered_sets& parts) {
     struct extent {
         std::uint32_t part = 0;
+        std::size_t begin = 0;  ///< its first face
         std::uint32_t top = no_point;
         aabb<double, 3> box;
     };
     const std::size_t given = cut.given_points.size();
     std::vector<std::vector<extent>> runs(chunk_count(cut.faces.size(), grain));
     for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        extent run{parts[patches.patch[begin]], no_point, {}};
+        extent run{parts[patches.patch[begin]], begin, no_point, {}};
         for (std::size_t f = begin; f < end; ++f) {
             const std::uint32_t part = parts[patches.patch[f]];
             if (run.part != part) {
                 runs[c].push_back(run);
-                run = {part, no_point, {}};
+                run = {part, f, no_point, {}};
             }
             for (const std::uint32_t p : cut.faces[f]) {
                 if (p >= given) continue;
@@ -150,13 +151,14 @@ std::vector<part_extent> find_extents(const mesh_arrangement& cut, const surface
         }
 
     std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> at_top(runs.size());
-    for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t f = begin; f < end; ++f) {
-            const auto id = static_cast<std::uint32_t>(f);
-            const std::uint32_t part = parts[patches.patch[f]];
-            const std::uint32_t top = result[part].top;
-            if (std::ranges::find(cut.faces[f], top) != cut.faces[f].end())
-                at_top[c].emplace_back(part, id);
+    for_chunks(cut.faces.size(), grain, [&](std::size_t, std::size_t end, std::size_t c) {
+        for (std::size_t i = 0; i < runs[c].size(); ++i) {
+            const auto& [part, first, top, box] = runs[c][i];
+            if (top != result[part].top) continue;  // nearly all
+            const std::size_t last = i + 1 < runs[c].size() ? runs[c][i + 1].begin : end;
+            for (std::size_t f = first; f < last; ++f)
+                if (std::ranges::find(cut.faces[f], top) != cut.faces[f].end())
+                    at_top[c].emplace_back(part, static_cast<std::uint32_t>(f));
         }
     });
     for (const auto& chunk : at_top)

@@ -1,6 +1,6 @@
+#include <libmesh/arrange/detail/edge_stars.hpp>
 #include <libmesh/arrange/detail/operand_sums.hpp>
 #include <libmesh/arrange/detail/patches.hpp>
-#include <libmesh/detail/stars.hpp>
 #include <libmesh/detail/union_find.hpp>
 #include <libtree/detail/buffer.hpp>
 #include <libtree/parallel.hpp>
@@ -17,16 +17,20 @@ constexpr std::size_t face_grain = std::size_t{1} << 14;
 constexpr std::size_t ahead = 4;          // stars whose memory is under way
 constexpr std::size_t most_listed = 100;  // open edges
 
-constexpr auto several = std::numeric_limits<std::uint32_t>::max();
+/// Operands that a byte can tell; of others, and of faces with several covers, those are looked up.
+using short_operand = std::uint8_t;
+constexpr auto not_told = std::numeric_limits<short_operand>::max();
 
-/// [F'] the operand of the one input face that covers each face, or `several`.
-buffer<std::uint32_t> sole_operands(const mesh_arrangement& cut,
+/// [F'] the operand of the one input face that covers each face, or `not_told`.
+buffer<short_operand> sole_operands(const mesh_arrangement& cut,
                                     std::span<const std::uint32_t> operand_of_face) {
-    buffer<std::uint32_t> sole(cut.faces.size());
+    buffer<short_operand> sole(cut.faces.size());
     for_chunks(cut.faces.size(), face_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
             const auto covers = cut.covers_of(f);
-            sole[f] = covers.size() == 1 ? operand_of_face[covers[0].face] : several;
+            const std::uint32_t operand =
+                covers.size() == 1 ? operand_of_face[covers[0].face] : not_told;
+            sole[f] = static_cast<short_operand>(std::min<std::uint32_t>(operand, not_told));
         }
     });
     return sole;
@@ -43,7 +47,7 @@ struct chunk_edges {
 class edge_reader {
   public:
     edge_reader(const mesh_arrangement& cut, std::span<const std::uint32_t> operand_of_face,
-                const buffer<std::uint32_t>& sole, union_find& patches, chunk_edges& found)
+                const buffer<short_operand>& sole, union_find& patches, chunk_edges& found)
         : cut_(cut),
           operand_of_face_(operand_of_face),
           sole_(sole),
@@ -89,7 +93,7 @@ class edge_reader {
             const std::uint32_t f = face_of(sides_[0]);
             const std::uint32_t g = face_of(sides_[1]);
             patches_.join(f, g);
-            if (sole_[f] == sole_[g] && sole_[f] != several) return;  // by far the most
+            if (sole_[f] == sole_[g] && sole_[f] != not_told) return;  // by far the most
         } else {
             found_.junctions.edges.push_back({{a, b}, found_.junctions.sides.size()});
             found_.junctions.sides.insert(found_.junctions.sides.end(), sides_.begin(),
@@ -104,7 +108,7 @@ class edge_reader {
         counted_.clear();
         for (const face_side side : sides_) {
             const std::uint32_t operand = sole_[face_of(side)];
-            if (operand == several) return false;
+            if (operand == not_told) return false;
             counted_.push_back({operand, 0, is_behind(side) ? -1 : 1});
         }
         return cancel_out(counted_);
@@ -127,7 +131,7 @@ class edge_reader {
 
     const mesh_arrangement& cut_;
     std::span<const std::uint32_t> operand_of_face_;
-    const buffer<std::uint32_t>& sole_;
+    const buffer<short_operand>& sole_;
     union_find& patches_;
     chunk_edges& found_;
     std::vector<std::uint64_t> uses_;
@@ -139,8 +143,8 @@ class edge_reader {
 
 surface_patches find_patches(const mesh_arrangement& cut,
                              std::span<const std::uint32_t> operand_of_face) {
+    const edge_stars stars(cut.given_points.size() + cut.constructed.size(), cut.faces);
     const auto sole = sole_operands(cut, operand_of_face);
-    const stars stars(cut.given_points.size() + cut.constructed.size(), cut.faces);
     union_find patches(cut.faces.size());
     std::vector<chunk_edges> found(chunk_count(stars.size(), star_grain));
     for_chunks(stars.size(), star_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
@@ -154,7 +158,7 @@ surface_patches find_patches(const mesh_arrangement& cut,
     });
 
     surface_patches result;
-    result.patch = number_sets(patches);
+    result.patch = number_sets(std::move(patches));
     for (chunk_edges& part : found) {
         result.junctions.push_back(std::move(part.junctions));
         result.open_count += part.open_count;

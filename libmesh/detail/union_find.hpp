@@ -59,6 +59,17 @@ class union_find {
         }
     }
 
+    /// The root of each number. \post nothing can be asked any more
+    [[nodiscard]] buffer<std::uint32_t> take_roots() {
+        for_chunks(size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto number = static_cast<std::uint32_t>(i);
+                at(number).store(root(number), std::memory_order_relaxed);
+            }
+        });
+        return std::move(parent_);
+    }
+
     /// Asks memory for what the next `root(i)` reads first.
     void prefetch(std::uint32_t i) const { __builtin_prefetch(&parent_[i]); }
 

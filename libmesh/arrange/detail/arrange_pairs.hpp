@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The arrangement of faces of which it is known how they meet.
+/// The arrangement of faces of which something is known.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
@@ -17,5 +17,9 @@ namespace tf::detail {
 [[nodiscard]] arrange_faces_result arrange_pairs(mesh_view mesh, std::span<const face_pair> pairs,
                                                  std::vector<std::uint32_t> degenerate,
                                                  const progress_callback& progress);
+
+/// As `arrange_faces`, but without the `given_points`: for those who can move theirs there.
+[[nodiscard]] arrange_faces_result arrange_without_points(mesh_view mesh,
+                                                          const arrange_faces_options& options);
 
 }  // namespace tf::detail

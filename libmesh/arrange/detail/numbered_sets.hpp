@@ -4,7 +4,6 @@
 
 #include <libmesh/detail/union_find.hpp>
 #include <libtree/detail/buffer.hpp>
-#include <libtree/parallel.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -20,17 +19,12 @@ struct numbered_sets {
     [[nodiscard]] std::size_t count() const { return lowest.size(); }
 };
 
-/// The sets, numbered in the order of their lowest elements.
+/// The sets, numbered in the order of their lowest elements, in the memory of `sets`.
 /// \same on any number of threads
-[[nodiscard]] inline numbered_sets number_sets(union_find& sets) {
-    constexpr std::size_t grain = std::size_t{1} << 14;
-    numbered_sets result{buffer<std::uint32_t>(sets.size()), {}};
+[[nodiscard]] inline numbered_sets number_sets(union_find sets) {
+    numbered_sets result{sets.take_roots(), {}};
     buffer<std::uint32_t>& set_of = result.set_of;
-    for_chunks(sets.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            set_of[i] = sets.root(static_cast<std::uint32_t>(i));
-    });
-    for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (std::size_t i = 0; i < set_of.size(); ++i) {
         if (set_of[i] != i) {
             set_of[i] = set_of[set_of[i]];  // the root came before and has its number
         } else {
