@@ -1,5 +1,9 @@
 #include "tools/common/carried_properties.hpp"
 
+#include "tools/common/carried_corners.hpp"
+#include "tools/common/carried_materials.hpp"
+#include "tools/common/face_kinds.hpp"
+#include "tools/common/face_shares.hpp"
 #include <libmesh/attributes.hpp>
 
 #include <algorithm>
@@ -15,8 +19,6 @@
 
 namespace tools {
 namespace {
-
-using weights = std::array<double, 3>;
 
 bool is_normal(const std::string& name) { return name == "nx" || name == "ny" || name == "nz"; }
 
@@ -83,38 +85,6 @@ tf::column make_values(const property& p, std::size_t rows, ValueOf value_of) {
     });
 }
 
-tf::point3 difference(const tf::point3& p, const tf::point3& q) {
-    return {p.x - q.x, p.y - q.y, p.z - q.z};
-}
-
-tf::point3 cross(const tf::point3& u, const tf::point3& v) {
-    return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-}
-
-double dot(const tf::point3& u, const tf::point3& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
-
-struct shares_of_corners {
-    weights of{1.0, 0.0, 0.0};  ///< sums up to 1
-    double outside = 0.0;       ///< what was left out as it was negative, on the same scale
-};
-
-/// How much of each corner of a triangle there is in a point of it.
-shares_of_corners shares_at(const tf::point3& p, const tf::point3& a, const tf::point3& b,
-                            const tf::point3& c) {
-    const tf::point3 normal = cross(difference(b, a), difference(c, a));
-    const tf::point3 to_a = difference(a, p), to_b = difference(b, p), to_c = difference(c, p);
-    weights w{dot(normal, cross(to_b, to_c)), dot(normal, cross(to_c, to_a)),
-              dot(normal, cross(to_a, to_b))};
-    double sum = 0.0, outside = 0.0;
-    for (double& one : w) {
-        outside += std::max(-one, 0.0);
-        sum += one = std::max(one, 0.0);
-    }
-    if (!(sum > 0.0) || !std::isfinite(sum) || !std::isfinite(outside)) return {};
-    for (double& one : w) one /= sum;
-    return {w, outside / sum};
-}
-
 /// The input points that a point of the result has its values from.
 struct mixture {
     std::uint32_t input = 0;
@@ -170,16 +140,6 @@ double value_of(const property& p, const mixture& m) {
     return sum;
 }
 
-tf::point3 normal_of(const tf::mesh& mesh, const tf::face& f) {
-    const tf::point3 &a = mesh.points[f[0]], &b = mesh.points[f[1]], &c = mesh.points[f[2]];
-    return cross(difference(b, a), difference(c, a));
-}
-
-tf::point3 with_length_one(const tf::point3& v) {
-    const double length = std::sqrt(dot(v, v));
-    return length > 0.0 ? tf::point3{v.x / length, v.y / length, v.z / length} : v;
-}
-
 /// The normal of a point where face `f` of the surface has it.
 tf::point3 carried_normal(std::span<const property_source> inputs, const tf::mesh& surface,
                           const carried_to& made, const mixture& m, std::uint32_t f) {
@@ -197,7 +157,7 @@ tf::point3 carried_normal(std::span<const property_source> inputs, const tf::mes
     const tf::operand_element source = made.source_face[f];
     if (source.operand != m.input) return normal;
     const tf::mesh& mesh = inputs[m.input].file->mesh;
-    const bool turned = dot(flat, normal_of(mesh, mesh.faces[source.index])) < 0.0;
+    const bool turned = is_turned(flat, normal_of(mesh, mesh.faces[source.index]));
     return turned ? tf::point3{-normal.x, -normal.y, -normal.z} : normal;
 }
 
@@ -260,13 +220,16 @@ void carry_properties(tf::mesh_file& file, std::span<const property_source> inpu
                            : tf::number_at(*values, inputs[operand].stored_face(index));
             }));
     }
+    carry_corners(file, inputs, made);
+    carry_materials(file, inputs, made);
 }
 
 std::vector<std::uint32_t> groups_of_faces(std::span<const property_source> inputs, bool by_values,
                                            bool by_input) {
     std::vector<property> properties;
     if (by_values) properties = properties_of(inputs, "face");
-    if (properties.empty() && !by_input) return {};
+    const face_kinds kinds(by_values ? inputs : inputs.first(0));
+    if (properties.empty() && kinds.empty() && !by_input) return {};
     constexpr double nothing = -std::numeric_limits<double>::infinity();
     std::map<std::vector<double>, std::uint32_t> numbers;
     std::vector<std::uint32_t> groups;
@@ -279,6 +242,7 @@ std::vector<std::uint32_t> groups_of_faces(std::span<const property_source> inpu
                     column ? tf::number_at(*column, inputs[k].stored_face(f)) : nothing;
                 values.push_back(std::isnan(value) ? nothing : value);
             }
+            kinds.append(k, f, values);
             const auto next = static_cast<std::uint32_t>(numbers.size());
             groups.push_back(numbers.try_emplace(std::move(values), next).first->second);
         }

@@ -17,9 +17,13 @@ struct property_source {
     const tf::mesh_file* file = nullptr;
     const std::vector<std::uint32_t>* triangle_of_face = nullptr;  ///< empty: the same
 
+    /// The triangle of the file.
+    [[nodiscard]] std::uint32_t triangle(std::uint32_t face) const {
+        return triangle_of_face->empty() ? face : (*triangle_of_face)[face];
+    }
     /// The number in the file.
     [[nodiscard]] std::uint32_t stored_face(std::uint32_t face) const {
-        const std::uint32_t t = triangle_of_face->empty() ? face : (*triangle_of_face)[face];
+        const std::uint32_t t = triangle(face);
         return file->stored_face.empty() ? t : file->stored_face[t];
     }
 };
@@ -42,12 +46,16 @@ struct carried_to {
 /// Normals of points (columns nx, ny and nz) are turned around where the surface is, and have
 /// length 1 again at points that were cut, where there are several the one of the lowest face;
 /// where an input has none, that of the face stands.
+///
+/// What corners have, and materials, is carried as `carry_corners` and `carry_materials` say.
 void carry_properties(tf::mesh_file& file, std::span<const property_source> inputs,
                       const carried_to& made);
 
 /// [faces of all inputs, one input after the other] Numbers that are equal for faces with equal
-/// values in all columns that are carried, if `by_values`, and of one input, if `by_input`. Empty
-/// when that tells no faces apart.
+/// values in all columns that are carried and of one material, if `by_values`, and of one input, if
+/// `by_input`. With `by_values`, a face whose corners differ in texture coordinates or normals is
+/// like no other: what lies between them is told by the face alone. Empty when that tells no faces
+/// apart.
 [[nodiscard]] std::vector<std::uint32_t> groups_of_faces(std::span<const property_source> inputs,
                                                          bool by_values, bool by_input);
 

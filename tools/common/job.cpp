@@ -1,3 +1,4 @@
+#include "tools/common/material_names.hpp"
 #include "tools/common/run.hpp"
 #include "tools/common/sha256.hpp"
 #include <libmesh/io/read.hpp>
@@ -7,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 namespace tools {
 namespace {
@@ -79,6 +81,10 @@ tf::mesh_file job::read(const std::string& input, json& about) {
             throw failure(bad_input, "read", input + ": is a folder");
         if (options.detailed()) digest = sha256_of_file(input);
         file = tf::read_mesh(input, options.format);
+    }
+    if (const auto output = mesh_output(options, input)) {
+        auto& names = file.attributes.material_files;
+        names = seen_from_output(std::move(names), input, *output);
     }
     about["format"] = file.format;
     about["sha256"] = digest.empty() ? json(nullptr) : json(digest);

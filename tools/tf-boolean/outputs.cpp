@@ -1,5 +1,6 @@
 #include "tools/tf-boolean/outputs.hpp"
 
+#include "tools/common/carried_materials.hpp"
 #include "tools/common/carried_properties.hpp"
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
@@ -50,6 +51,15 @@ void add_sources(tf::mesh_file& file, const boolean_settings& settings,
         if (printable(solids[i].path))
             file.attributes.comments.push_back(settings.source + "_mesh " + std::to_string(i) +
                                                " " + solids[i].path);
+}
+
+void warn_of_materials(job& work, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    work.warn("materials", "inputs with different material files name " +
+                               (names.size() == 1 ? "material " + names.front()
+                                                  : counted(names.size(), "material", "materials") +
+                                                        ", such as " + names.front() + ",") +
+                               " alike; an OBJ has one of a name");
 }
 
 /// All inputs together give one result, so that none is replaced.
@@ -154,6 +164,8 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     if (!settings.no_attributes)
         carry_properties(file, sources_of(solids),
                          {result.source_face, result.source_point, result.face_of_cut_point});
+    if (!settings.no_attributes && form.format == "obj")
+        warn_of_materials(work, ambiguous_materials(sources_of(solids)));
     if (holds_sources(form.format)) add_sources(file, settings, solids, result);
     const tf::write_result written = write_certified(work, file, form, o.output);
     work.entry["output"]["file"] = o.output.string();

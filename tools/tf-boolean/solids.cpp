@@ -3,6 +3,7 @@
 #include "tools/common/arrangeable.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/matrix_file.hpp"
+#include "tools/common/turned_normals.hpp"
 #include <libmesh/bounding_box.hpp>
 #include <libmesh/validate.hpp>
 #include <libmesh/volume.hpp>
@@ -64,6 +65,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     if (!matrix_file.empty()) {
         const tf::transform<3> matrix = read_matrix(matrix_file);
         for (tf::point3& p : s.file.mesh.points) p = matrix(p);
+        turn_normals(s.file, matrix);
         about["matrix"] = matrix_file.string();
     }
     keep_usable(work, s);

@@ -10,9 +10,7 @@
 #include <libmesh/weld/equal_points.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <numeric>
 #include <utility>
@@ -27,33 +25,6 @@ bool finite(const tf::point3& p) {
 tf::point3 rounded(const tf::point3& p) {
     using tf::detail::nearest_float;
     return {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
-}
-
-/// The cofactors of the linear part, which is how normals go.
-tf::transform<3> of_normals(const tf::transform<3>& m) {
-    tf::transform<3> result;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-            const auto& r = m.rows[(i + 1) % 3];
-            const auto& s = m.rows[(i + 2) % 3];
-            result.rows[i][j] = r[(j + 1) % 3] * s[(j + 2) % 3] - r[(j + 2) % 3] * s[(j + 1) % 3];
-        }
-    return result;
-}
-
-bool holds_numbers(const tf::column& c) {
-    return !c.list_length && c.role == tf::column_role::data &&
-           (c.type == tf::scalar_type::float32 || c.type == tf::scalar_type::float64);
-}
-
-void set_number(tf::column& c, std::size_t row, double value) {
-    const auto put = [&](auto one) {
-        std::memcpy(c.values.data() + row * sizeof(one), &one, sizeof(one));
-    };
-    if (c.type == tf::scalar_type::float32)
-        put(static_cast<float>(value));
-    else
-        put(value);
 }
 
 /// The numbers of the faces that can be computed with.
@@ -182,28 +153,6 @@ double round_to_single(tf::mesh_file& file) {
             largest = std::max(largest, std::abs(p[k] - before[k]));
     }
     return largest;
-}
-
-void turn_normals(tf::mesh_file& file, const tf::transform<3>& matrix) {
-    const tf::transform<3> turn = of_normals(matrix);
-    for (tf::element& e : file.attributes.elements) {
-        std::array<tf::column*, 3> axes{};
-        constexpr std::array<const char*, 3> names{"nx", "ny", "nz"};
-        for (tf::column& c : e.columns)
-            for (std::size_t k = 0; k < 3; ++k)
-                if (c.name == names[k] && holds_numbers(c)) axes[k] = &c;
-        if (!axes[0] || !axes[1] || !axes[2]) continue;
-        for (std::size_t row = 0; row < e.rows; ++row) {
-            tf::point3 n;
-            for (std::size_t k = 0; k < 3; ++k) n[k] = tf::number_at(*axes[k], row);
-            const tf::point3 turned = turn(n);
-            const double before = std::hypot(n.x, n.y, n.z);
-            const double after = std::hypot(turned.x, turned.y, turned.z);
-            if (!(after > 0.0)) continue;
-            for (std::size_t k = 0; k < 3; ++k)
-                set_number(*axes[k], row, turned[k] / after * before);
-        }
-    }
 }
 
 }  // namespace tools

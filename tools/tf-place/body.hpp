@@ -70,9 +70,6 @@ struct body {
 void take_places(body& b, const std::vector<tf::point3>& placed, const tf::transform<3>& matrix,
                  bool to_single);
 
-/// Turns the columns nx, ny, nz of the file's points and faces as `matrix` turns normals.
-void turn_normals(tf::mesh_file& file, const tf::transform<3>& matrix);
-
 /// Rounds every point of the file to float32; how far a coordinate has moved at most.
 double round_to_single(tf::mesh_file& file);
 

@@ -2,6 +2,7 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
+#include "tools/common/turned_normals.hpp"
 #include "tools/common/written_form.hpp"
 #include "tools/tf-place/marks.hpp"
 #include "tools/tf-place/rounding.hpp"

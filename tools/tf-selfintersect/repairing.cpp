@@ -172,8 +172,11 @@ void write_repaired(job& work, const tf::mesh_file& input, const findings& resul
     if (same_points)
         carry_properties(file, {&source, 1},
                          {of_input(repaired.face_of), of_input(repaired.point_of)});
-    if ((!same_points && !input.attributes.elements.empty() && input.indexed) ||
-        leaves_out_properties({&source, 1}))
+    const tf::corner_values& corners = input.attributes.corners;
+    const bool has_properties = !input.attributes.elements.empty() ||
+                                !corners.texture_of_corner.empty() ||
+                                !corners.normal_of_corner.empty();
+    if ((!same_points && has_properties && input.indexed) || leaves_out_properties({&source, 1}))
         work.warn("attributes", "not all properties of the input are carried over");
     add_source_faces(file, result, repaired.face_of);
     const tf::write_result written = write_certified(work, file, form, output);

@@ -92,6 +92,7 @@ class joiner {
         leave_out_elements();
         for (tf::mesh_file& file : files_) {
             join_parts(file);
+            join_corners(file);
             join_faces(file);
             file = {};
         }
@@ -106,12 +107,15 @@ class joiner {
     void check_sizes() const {
         std::uint64_t points = 0;
         std::uint64_t triangles = 0;
+        std::uint64_t values = 0;
         for (const tf::mesh_file& file : files_) {
             points += file.mesh.points.size();
             triangles += file.mesh.faces.size();
+            const tf::corner_values& corners = file.attributes.corners;
+            values += std::max(corners.texture.size(), corners.normals.size());
         }
         constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - 1;
-        if (points > most || triangles > most)
+        if (points > most || triangles > most || values > most)
             throw failure(bad_input, "size",
                           "all inputs together have more points or triangles than 32-bit numbers "
                           "can name");
@@ -130,6 +134,7 @@ class joiner {
             for (const tf::io_warning& w : file.warnings) warn(w.code, names_[i] + ": " + w.text);
             append_new(all_.attributes.comments, file.attributes.comments);
             append_new(all_.attributes.obj_info, file.attributes.obj_info);
+            append_new(all_.attributes.material_files, file.attributes.material_files);
         }
     }
 
@@ -224,6 +229,35 @@ class joiner {
             part.first_face += offset;
             all_.attributes.parts.push_back(std::move(part));
         }
+    }
+
+    /// \pre faces of the file have not been joined yet
+    void join_corners(const tf::mesh_file& file) {
+        tf::corner_values& to = all_.attributes.corners;
+        const tf::corner_values& from = file.attributes.corners;
+        const std::size_t before = all_.mesh.faces.size();
+        const std::size_t after = before + file.mesh.faces.size();
+        append_numbers(to.texture_of_corner, from.texture_of_corner, to.texture.size(), before,
+                       after);
+        append_numbers(to.normal_of_corner, from.normal_of_corner, to.normals.size(), before,
+                       after);
+        to.texture.insert(to.texture.end(), from.texture.begin(), from.texture.end());
+        to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
+        to.has_w = to.has_w || from.has_w;
+    }
+
+    /// Numbers of rows behind which there are `rows` of earlier files.
+    static void append_numbers(std::vector<tf::face>& to, const std::vector<tf::face>& from,
+                               std::size_t rows, std::size_t before, std::size_t after) {
+        constexpr std::uint32_t none = tf::corner_values::none;
+        if (to.empty() && from.empty()) return;
+        to.resize(before, {none, none, none});
+        for (tf::face numbers : from) {
+            for (std::uint32_t& row : numbers)
+                if (row != none) row += static_cast<std::uint32_t>(rows);
+            to.push_back(numbers);
+        }
+        to.resize(after, {none, none, none});
     }
 
     void join_faces(const tf::mesh_file& file) {

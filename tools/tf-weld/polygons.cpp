@@ -41,10 +41,15 @@ class rejoiner {
 
     [[nodiscard]] bool continues(std::uint32_t f) const {
         if (f == 0 || polygon_[f] != polygon_[f - 1]) return false;
-        const tf::face& before = file_.mesh.faces[f - 1];
-        const tf::face& now = file_.mesh.faces[f];
-        return now[0] == before[0] && now[1] == before[2] &&
-               !(unlike_corners_ && last_face_[now[2]] == face());
+        const tf::corner_values& corners = file_.attributes.corners;
+        return continues(file_.mesh.faces, f) && continues(corners.texture_of_corner, f) &&
+               continues(corners.normal_of_corner, f) &&
+               !(unlike_corners_ && last_face_[file_.mesh.faces[f][2]] == face());
+    }
+
+    /// Corners that became one point may still have values that differ.
+    [[nodiscard]] static bool continues(const std::vector<tf::face>& faces, std::uint32_t f) {
+        return faces.empty() || (faces[f][0] == faces[f - 1][0] && faces[f][1] == faces[f - 1][2]);
     }
 
     void begin_face(std::uint32_t f) {

@@ -1,0 +1,181 @@
+#include "tools/common/carried_corners.hpp"
+
+#include "tools/common/face_shares.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <type_traits>
+
+namespace tools {
+namespace {
+
+constexpr std::uint32_t none = tf::corner_values::none;
+
+using texture_point = std::array<double, 3>;
+
+/// The values of one kind that an input has.
+template <class Row>
+struct row_source {
+    const std::vector<Row>& rows;
+    const std::vector<tf::face>& of_corner;
+};
+
+template <class Row>
+row_source<Row> source_of(const property_source& input) {
+    const tf::corner_values& corners = input.file->attributes.corners;
+    if constexpr (std::is_same_v<Row, tf::point3>)
+        return {corners.normals, corners.normal_of_corner};
+    else
+        return {corners.texture, corners.texture_of_corner};
+}
+
+texture_point seen(const texture_point& row, bool) { return row; }
+tf::point3 seen(const tf::point3& n, bool turned) {
+    return turned ? tf::point3{0.0 - n.x, 0.0 - n.y, 0.0 - n.z} : n;  // no -0
+}
+
+texture_point between(const texture_point& sum) { return sum; }
+tf::point3 between(const tf::point3& sum) { return with_length_one(sum); }
+
+/// Where a corner of the result is in the face of an input that it comes from.
+struct place_in_face {
+    std::size_t corner = 3;  ///< at this corner of it; 3: at none
+    std::array<double, 3> shares{};
+};
+
+place_in_face place_of(const tf::point3& p, const tf::mesh& mesh, const tf::face& corners) {
+    std::array<tf::point3, 3> at;
+    for (std::size_t k = 0; k < 3; ++k) {
+        at[k] = mesh.points[corners[k]];
+        if (at[k] == p) return {.corner = k};
+    }
+    return {.shares = shares_at(p, at[0], at[1], at[2]).of};
+}
+
+/// A point as it was before it was rounded, where it is one of an input.
+const tf::point3& place_before(std::span<const property_source> inputs, const tf::mesh& surface,
+                               const carried_to& made, std::uint32_t p) {
+    const tf::operand_element source = made.source_point[p];
+    return source == tf::operand_element{} ? surface.points[p]
+                                           : inputs[source.operand].file->mesh.points[source.index];
+}
+
+/// Values of one kind on their way to the result.
+template <class Row>
+class row_carrier {
+  public:
+    row_carrier(std::span<const property_source> inputs, std::size_t points) : made_(points) {
+        for (const property_source& input : inputs) {
+            sources_.push_back(source_of<Row>(input));
+            copies_.push_back({});
+            for (auto& copies : copies_.back()) copies.assign(sources_.back().rows.size(), none);
+        }
+    }
+
+    /// What the corners of the input's triangle have.
+    [[nodiscard]] tf::face numbers_of(std::uint32_t input, std::uint32_t triangle) const {
+        const std::vector<tf::face>& all = sources_[input].of_corner;
+        return all.empty() ? tf::face{none, none, none} : all[triangle];
+    }
+
+    /// The number in the result of what stands at a place of that face.
+    [[nodiscard]] std::uint32_t carry(std::uint32_t p, tf::operand_element face, bool turned,
+                                      const tf::face& numbers, const place_in_face& place) {
+        if (place.corner < 3) return copy(face.operand, turned, numbers[place.corner]);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (place.shares[k] == 1.0) return copy(face.operand, turned, numbers[k]);
+        if (numbers[0] == numbers[1] && numbers[1] == numbers[2])
+            return copy(face.operand, turned, numbers[0]);
+        Row sum{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (!(place.shares[k] > 0.0)) continue;
+            if (numbers[k] == none) return none;
+            const Row& row = sources_[face.operand].rows[numbers[k]];
+            for (std::size_t i = 0; i < 3; ++i) sum[i] += place.shares[k] * row[i];
+        }
+        return add(p, face, turned, seen(between(sum), turned));
+    }
+
+    [[nodiscard]] std::vector<Row>& rows() { return rows_; }
+
+  private:
+    /// The last row that was made at a point, and for which face.
+    struct made_row {
+        tf::operand_element face{};
+        bool turned = false;
+        std::uint32_t number = none;
+    };
+
+    [[nodiscard]] std::uint32_t copy(std::uint32_t input, bool turned, std::uint32_t number) {
+        if (number == none) return none;
+        constexpr bool can_turn = std::is_same_v<Row, tf::point3>;
+        std::uint32_t& there = copies_[input][can_turn && turned ? 1 : 0][number];
+        if (there == none) there = append(seen(sources_[input].rows[number], turned));
+        return there;
+    }
+
+    [[nodiscard]] std::uint32_t add(std::uint32_t p, tf::operand_element face, bool turned,
+                                    const Row& row) {
+        made_row& last = made_[p];
+        const bool known = last.number != none && ((last.face == face && last.turned == turned) ||
+                                                   rows_[last.number] == row);
+        last = {face, turned, known ? last.number : append(row)};
+        return last.number;
+    }
+
+    [[nodiscard]] std::uint32_t append(const Row& row) {
+        rows_.push_back(row);
+        return static_cast<std::uint32_t>(rows_.size() - 1);
+    }
+
+    std::vector<row_source<Row>> sources_{};
+    /// By input, as they are and turned around: the number in the result of each row, or none.
+    std::vector<std::array<std::vector<std::uint32_t>, 2>> copies_{};
+    std::vector<made_row> made_;  ///< [V]
+    std::vector<Row> rows_{};
+};
+
+/// [F] the numbers of the corners of the result; empty where no input has such values.
+template <class Row>
+std::vector<tf::face> carried(std::span<const property_source> inputs, const tf::mesh& surface,
+                              const carried_to& made, std::vector<Row>& rows) {
+    const bool any = std::any_of(inputs.begin(), inputs.end(), [](const property_source& input) {
+        return !source_of<Row>(input).of_corner.empty();
+    });
+    if (!any) return {};
+    row_carrier<Row> carrier(inputs, surface.points.size());
+    std::vector<tf::face> all(surface.faces.size(), {none, none, none});
+    for (std::size_t f = 0; f < all.size(); ++f) {
+        const tf::operand_element source = made.source_face[f];
+        if (source == tf::operand_element{}) continue;
+        const property_source& input = inputs[source.operand];
+        const tf::face numbers = carrier.numbers_of(source.operand, input.triangle(source.index));
+        if (numbers == tf::face{none, none, none}) continue;
+        const tf::mesh& mesh = input.file->mesh;
+        const tf::face& corners = mesh.faces[source.index];
+        const bool turned =
+            is_turned(normal_of(surface, surface.faces[f]), normal_of(mesh, corners));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t p = surface.faces[f][k];
+            const auto place = place_of(place_before(inputs, surface, made, p), mesh, corners);
+            all[f][k] = carrier.carry(p, source, turned, numbers, place);
+        }
+    }
+    rows = std::move(carrier.rows());
+    return rows.empty() ? std::vector<tf::face>{} : all;
+}
+
+}  // namespace
+
+void carry_corners(tf::mesh_file& file, std::span<const property_source> inputs,
+                   const carried_to& made) {
+    tf::corner_values& corners = file.attributes.corners;
+    corners.texture_of_corner = carried(inputs, file.mesh, made, corners.texture);
+    corners.normal_of_corner = carried(inputs, file.mesh, made, corners.normals);
+    corners.has_w = std::any_of(inputs.begin(), inputs.end(), [](const property_source& input) {
+        return input.file->attributes.corners.has_w;
+    });
+}
+
+}  // namespace tools

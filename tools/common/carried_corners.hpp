@@ -1,0 +1,22 @@
+#pragma once
+/// \file
+/// Texture coordinates and normals of the inputs' corners, for the corners of what is made of them.
+
+#include "tools/common/carried_properties.hpp"
+
+namespace tools {
+
+/// Gives `file` the values that corners of the inputs have.
+///
+/// A corner of a face that lies in an input's face has what that face has there: that of one of its
+/// corners where it is at this corner, and else values in between, of normals in the direction in
+/// between. Normals are turned around where the face is. Where the input's face has none at a
+/// corner that counts, or a face no source, there is none.
+///
+/// Rows of an input stand once in the result, in the order of their first use, so that what shares
+/// one still does. Faces from one face of an input share what lies between at a point that they
+/// share.
+void carry_corners(tf::mesh_file& file, std::span<const property_source> inputs,
+                   const carried_to& made);
+
+}  // namespace tools

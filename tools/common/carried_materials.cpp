@@ -1,0 +1,60 @@
+#include "tools/common/carried_materials.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+
+namespace tools {
+namespace {
+
+bool has_materials(const property_source& input) {
+    const auto& parts = input.file->attributes.parts;
+    return std::any_of(parts.begin(), parts.end(),
+                       [](const tf::part& p) { return !p.material.empty(); });
+}
+
+}  // namespace
+
+const std::string& material_of(const property_source& input, std::uint32_t face) {
+    static const std::string no_name;
+    const auto& parts = input.file->attributes.parts;
+    const auto behind = std::upper_bound(
+        parts.begin(), parts.end(), input.stored_face(face),
+        [](std::uint32_t number, const tf::part& p) { return number < p.first_face; });
+    return behind == parts.begin() ? no_name : std::prev(behind)->material;
+}
+
+void carry_materials(tf::mesh_file& file, std::span<const property_source> inputs,
+                     const carried_to& made) {
+    std::set<std::string> known;
+    for (const property_source& input : inputs)
+        for (const std::string& name : input.file->attributes.material_files)
+            if (known.insert(name).second) file.attributes.material_files.push_back(name);
+    if (std::none_of(inputs.begin(), inputs.end(), has_materials)) return;
+    std::string now;
+    for (std::uint32_t f = 0; f < made.source_face.size(); ++f) {
+        const auto [operand, index] = made.source_face[f];
+        if (operand == tf::operand_element::none) continue;
+        const std::string& material = material_of(inputs[operand], index);
+        if (material == now) continue;
+        now = material;
+        file.attributes.parts.push_back({.material = now, .first_face = f});
+    }
+}
+
+std::vector<std::string> ambiguous_materials(std::span<const property_source> inputs) {
+    std::map<std::string, const std::vector<std::string>*> files_of;
+    std::set<std::string> found;
+    for (const property_source& input : inputs) {
+        const tf::attributes& all = input.file->attributes;
+        for (const tf::part& p : all.parts) {
+            if (p.material.empty()) continue;
+            const auto [at, fresh] = files_of.try_emplace(p.material, &all.material_files);
+            if (!fresh && *at->second != all.material_files) found.insert(p.material);
+        }
+    }
+    return {found.begin(), found.end()};
+}
+
+}  // namespace tools

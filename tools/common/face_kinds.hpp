@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// Which faces of the inputs look alike.
+
+#include "tools/common/carried_properties.hpp"
+
+#include <map>
+#include <string>
+
+namespace tools {
+
+/// Materials, and what corners have. Faces whose corners have one and the same value are alike
+/// where these are; one whose corners differ is like no other.
+class face_kinds {
+  public:
+    /// `inputs` must outlive this.
+    explicit face_kinds(std::span<const property_source> inputs);
+
+    /// Whether there is nothing by which faces could differ.
+    [[nodiscard]] bool empty() const { return materials_.empty() && !has_corner_values_; }
+
+    /// Appends numbers to `values`, as many for each face, that are equal for faces that are alike.
+    void append(std::uint32_t input, std::uint32_t face, std::vector<double>& values) const;
+
+  private:
+    std::span<const property_source> inputs_;
+    std::map<std::string, double> materials_{};  ///< numbers from 1
+    bool has_corner_values_ = false;
+};
+
+}  // namespace tools

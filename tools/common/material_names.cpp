@@ -1,0 +1,36 @@
+#include "tools/common/material_names.hpp"
+
+#include <optional>
+#include <system_error>
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Without links; none where it cannot be found out.
+std::optional<fs::path> folder_of(const fs::path& file) {
+    std::error_code error;
+    const fs::path whole = fs::absolute(file, error);
+    if (error) return std::nullopt;
+    fs::path folder = fs::weakly_canonical(whole.parent_path(), error);
+    return error ? std::nullopt : std::optional(std::move(folder));
+}
+
+}  // namespace
+
+std::vector<std::string> seen_from_output(std::vector<std::string> names, const fs::path& input,
+                                          const fs::path& output) {
+    if (names.empty() || input == "-" || output == "-") return names;
+    const auto from = folder_of(input);
+    const auto to = folder_of(output);
+    if (!from || !to || *from == *to) return names;
+    for (std::string& name : names) {
+        if (fs::path(name).is_absolute()) continue;
+        const fs::path there = (*from / name).lexically_normal().lexically_relative(*to);
+        if (!there.empty()) name = there.generic_string();
+    }
+    return names;
+}
+
+}  // namespace tools
