@@ -1,4 +1,5 @@
 #include <libmesh/arrange/cells.hpp>
+#include <libmesh/arrange/detail/arrange_pairs.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/boolean/boolean.hpp>
 #include <libmesh/boolean/detail/inside_of_cells.hpp>
@@ -30,6 +31,19 @@ constexpr std::size_t grain = std::size_t{1} << 14;
 progress_callback part_of(const progress_callback& callback, double begin, double end) {
     if (!callback) return {};
     return [&callback, begin, end](double done) { return callback(begin + (end - begin) * done); };
+}
+
+/// The arrangement of the operands, which takes their points; their faces stay.
+arrange_faces_result arrange_joined(joined_operands& joined, const progress_callback& progress) {
+    arrange_faces_result arranged =
+        detail::arrange_without_points(joined.all, {.progress = progress});
+    arranged.cut.given_points = std::move(joined.all.points);
+    return arranged;
+}
+
+/// What `cut` is the arrangement of.
+mesh_view input_of(const mesh_arrangement& cut, const joined_operands& joined) {
+    return {cut.given_points, joined.all.faces};
 }
 
 std::vector<open_operand_edge> open_edges(const arrangement_cells& cells,
@@ -68,8 +82,8 @@ std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uin
                     joined.face_source(cut.covers_of(face_of[f]).front().face);
     std::vector<std::uint32_t> plane_of;
     for (const std::uint32_t f : face_of) plane_of.push_back(cut.covers_of(f).front().face);
-    detail::merged_faces merged =
-        detail::merge_coplanar(exact, {joined.all, plane_of, options.face_groups});
+    detail::merged_faces merged = detail::merge_coplanar(
+        exact, {{exact.given, joined.all.faces}, plane_of, options.face_groups});
     std::vector<std::uint8_t> sound(merged.faces.size());
     for (std::size_t f = 0; f < sound.size(); ++f)
         sound[f] = merged.is_new[f] != 0 ? std::uint8_t{0} : exact.sound[merged.face_of[f]];
@@ -81,27 +95,29 @@ std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uin
 }
 
 /// `exact_faces` are faces of `cut`, `face_of` says which; both become the surface of `result`.
-/// What is not needed any more is let go on the way: `cut` and `joined.all` are empty then.
+/// What is not needed any more is let go on the way: `cut` and `joined.all` are empty then, and
+/// `face_of` is of the input.
 void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact_faces,
             std::vector<std::uint32_t> face_of, joined_operands& joined, bool solid,
             const boolean_options& options) {
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(exact_faces), std::vector<std::uint8_t>(face_of.size())};
+    const auto source_of = [&](std::size_t f) { return cut.covers_of(face_of[f]).front().face; };
     for_chunks(face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
-            const std::uint32_t source = cut.covers_of(face_of[f]).front().face;
+            const std::uint32_t source = source_of(f);
             exact.sound[f] = cut.whole[face_of[f]] != 0 &&
                              same_corners(exact.faces[f], joined.all.faces[source]);
+            if (!options.simplify) face_of[f] = source;
         }
     });
     const std::size_t given = exact.given.size();
     std::vector<operand_element> face_of_point;
-    if (options.simplify) face_of_point = simplify(exact, face_of, cut, joined, options);
+    if (options.simplify) {
+        face_of_point = simplify(exact, face_of, cut, joined, options);
+        for (std::size_t f = 0; f < face_of.size(); ++f) face_of[f] = source_of(f);
+    }
     result.exact_faces = face_of.size();
-    for_chunks(face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t f = begin; f < end; ++f)
-            face_of[f] = cut.covers_of(face_of[f]).front().face;  // of the input from here on
-    });
     cut = {};
     joined.all = {};
     rounded_surface r =
@@ -155,12 +171,13 @@ std::uint64_t count_covered(const arrange_faces_result& arranged, std::size_t fa
 
 /// [F'] 0 for faces of `cut` that are not of the sheet, 1 for those oriented as the lowest of its
 /// faces there, 2 for those oriented the other way.
-std::vector<std::uint8_t> sheet_faces(const mesh_arrangement& cut, const joined_operands& joined,
+std::vector<std::uint8_t> sheet_faces(const mesh_arrangement& cut,
+                                      const std::vector<std::uint32_t>& operand_of_face,
                                       std::uint32_t sheet) {
     std::vector<std::uint8_t> way(cut.faces.size(), 0);
     for (std::size_t f = 0; f < way.size(); ++f)
         for (const auto& [face, opposite] : cut.covers_of(f))
-            if (joined.operand_of_face[face] == sheet) {
+            if (operand_of_face[face] == sheet) {
                 way[f] = opposite ? 2 : 1;
                 break;
             }
@@ -169,7 +186,7 @@ std::vector<std::uint8_t> sheet_faces(const mesh_arrangement& cut, const joined_
 
 /// Faces of the sheet become covers both ways: then it is closed and bounds nothing, and cells are
 /// those of the others.
-void cover_from_both_sides(mesh_arrangement& cut, const joined_operands& joined,
+void cover_from_both_sides(mesh_arrangement& cut, const std::vector<std::uint32_t>& operand_of_face,
                            std::uint32_t sheet) {
     std::vector<covering_face> covers;
     covers.reserve(2 * cut.covers.size());
@@ -178,7 +195,7 @@ void cover_from_both_sides(mesh_arrangement& cut, const joined_operands& joined,
         cut.cover_begin[f] = covers.size();
         for (const covering_face& cover : before) {
             covers.push_back(cover);
-            if (joined.operand_of_face[cover.face] == sheet)
+            if (operand_of_face[cover.face] == sheet)
                 covers.push_back({cover.face, !cover.opposite});
         }
     }
@@ -189,7 +206,7 @@ void cover_from_both_sides(mesh_arrangement& cut, const joined_operands& joined,
 /// The faces that the expression keeps, now first covered by the sheet. A piece is in a solid when
 /// one of its sides is.
 detail::solid_faces kept_of_sheet(mesh_arrangement& cut, const arrangement_cells& cells,
-                                  const joined_operands& joined,
+                                  const std::vector<std::uint32_t>& operand_of_face,
                                   const std::vector<std::uint8_t>& way, std::uint32_t sheet,
                                   const boolean_expression& expression, inside_rule rule) {
     detail::solid_faces kept;
@@ -202,8 +219,8 @@ detail::solid_faces kept_of_sheet(mesh_arrangement& cut, const arrangement_cells
                     detail::is_inside(rule, cells.winding_of(behind)[k]);
         if (!expression({in.get(), cells.operands})) continue;
         auto first = cut.covers.begin() + static_cast<std::ptrdiff_t>(cut.cover_begin[f]);
-        for (auto at = first; joined.operand_of_face[first->face] != sheet; ++at)
-            if (joined.operand_of_face[at->face] == sheet) std::iter_swap(first, at);
+        for (auto at = first; operand_of_face[first->face] != sheet; ++at)
+            if (operand_of_face[at->face] == sheet) std::iter_swap(first, at);
         const auto [a, b, c] = cut.faces[f];
         kept.faces.push_back(way[f] == 1 ? face{a, b, c} : face{a, c, b});
         kept.face_of.push_back(static_cast<std::uint32_t>(f));
@@ -218,12 +235,11 @@ solid_result boolean_of(std::span<const mesh_view> operands, const boolean_expre
         if (auto result = detail::boolean_of_sound_pair(operands.first<2>(), expression, options))
             return std::move(*result);
     joined_operands joined = detail::join_operands("boolean", operands);
-    arrange_faces_result arranged =
-        arrange_faces(joined.all, {.progress = part_of(options.progress, 0.0, 0.5)});
+    arrange_faces_result arranged = arrange_joined(joined, part_of(options.progress, 0.0, 0.5));
     solid_result result = with_counts(arranged);
     if (result.cancelled) return result;
-    arrangement_cells cells =
-        find_cells(joined.all, arranged.cut, joined.operand_of_face, operands.size());
+    arrangement_cells cells = find_cells(input_of(arranged.cut, joined), arranged.cut,
+                                         joined.operand_of_face(), operands.size());
     if (!cells.open.empty()) {
         result.open = open_edges(cells, arranged.cut, joined);
         result.open_count = cells.open_count;
@@ -247,15 +263,15 @@ solid_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
     if (!expression.needs(sheet))
         throw std::invalid_argument("tf::clip: the expression holds more than of the sheet");
     joined_operands joined = detail::join_operands("clip", operands);
-    arrange_faces_result arranged =
-        arrange_faces(joined.all, {.progress = part_of(options.progress, 0.0, 0.5)});
+    arrange_faces_result arranged = arrange_joined(joined, part_of(options.progress, 0.0, 0.5));
     solid_result result = with_counts(arranged);
     if (result.cancelled) return result;
     mesh_arrangement& cut = arranged.cut;
-    const std::vector<std::uint8_t> way = sheet_faces(cut, joined, sheet);
-    cover_from_both_sides(cut, joined, sheet);
+    const std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
+    const std::vector<std::uint8_t> way = sheet_faces(cut, operand_of_face, sheet);
+    cover_from_both_sides(cut, operand_of_face, sheet);
     const arrangement_cells cells =
-        find_cells(joined.all, cut, joined.operand_of_face, operands.size());
+        find_cells(input_of(cut, joined), cut, operand_of_face, operands.size());
     if (!cells.open.empty()) {
         result.open = open_edges(cells, cut, joined);
         result.open_count = cells.open_count;
@@ -263,15 +279,14 @@ solid_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
     }
     result.cells = cells.winding.size() / operands.size();
     detail::solid_faces chosen =
-        kept_of_sheet(cut, cells, joined, way, sheet, expression, options.inside);
+        kept_of_sheet(cut, cells, operand_of_face, way, sheet, expression, options.inside);
     finish(result, cut, std::move(chosen.faces), std::move(chosen.face_of), joined, false, options);
     return result;
 }
 
 solid_result split_of(std::span<const mesh_view> operands, const boolean_options& options) {
     joined_operands joined = detail::join_operands("split", operands);
-    arrange_faces_result arranged =
-        arrange_faces(joined.all, {.progress = part_of(options.progress, 0.0, 0.7)});
+    arrange_faces_result arranged = arrange_joined(joined, part_of(options.progress, 0.0, 0.7));
     solid_result result = with_counts(arranged);
     if (result.cancelled) return result;
     std::vector<std::uint32_t> all(arranged.cut.faces.size());
@@ -306,12 +321,12 @@ solid_result split(std::span<const mesh_view> operands, const boolean_options& o
 }
 
 solid_check check_solid(mesh_view mesh, const progress_callback& progress) {
-    const joined_operands joined = detail::join_operands("check_solid", {&mesh, 1});
+    joined_operands joined = detail::join_operands("check_solid", {&mesh, 1});
     if (!find_open_edge(joined.all)) return {};
-    const arrange_faces_result arranged =
-        arrange_faces(joined.all, {.progress = part_of(progress, 0.0, 1.0)});
+    const arrange_faces_result arranged = arrange_joined(joined, part_of(progress, 0.0, 1.0));
     if (arranged.cancelled) return {.cancelled = true};
-    const arrangement_cells cells = find_cells(joined.all, arranged.cut, joined.operand_of_face, 1);
+    const arrangement_cells cells =
+        find_cells(input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), 1);
     return {.open = open_edges(cells, arranged.cut, joined), .open_count = cells.open_count};
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tf::detail {
 namespace {
@@ -54,7 +55,6 @@ void append_all(std::span<const mesh_view> operands, joined_operands& joined) {
                        for (std::size_t f = begin; f < end; ++f) {
                            const auto& [a, b, c] = operand.faces[f];
                            all.faces[face_number + f] = {a + offset, b + offset, c + offset};
-                           joined.operand_of_face[face_number + f] = k;
                        }
                    });
         point += operand.points.size();
@@ -67,8 +67,7 @@ void append_all(std::span<const mesh_view> operands, joined_operands& joined) {
 /// Leaves out points that no face uses, which may be anything, also NaN.
 void keep_used(joined_operands& joined) {
     mesh& all = joined.all;
-    joined.number_of_point = used_points(all.points.size(), all.faces);
-    const std::vector<std::uint32_t>& used = joined.number_of_point;
+    std::vector<std::uint32_t> used = used_points(all.points.size(), all.faces);
     if (used.size() == all.points.size()) return;
     std::vector<std::uint32_t> new_of_old(all.points.size(), 0);
     for (std::uint32_t i = 0; i < used.size(); ++i) {
@@ -77,6 +76,7 @@ void keep_used(joined_operands& joined) {
     }
     all.points.resize(used.size());
     renumber(all.faces, new_of_old);
+    joined.number_of_point = std::move(used);
 }
 
 void join_equal(joined_operands& joined) {
@@ -84,12 +84,13 @@ void join_equal(joined_operands& joined) {
     const auto equal = few_equal_points(all.points);
     if (!equal) return;
     const std::size_t count = equal->first_of_new.size();
+    std::vector<std::uint32_t> number = equal->first_of_new;
     for (std::size_t i = 0; i < count; ++i) {
-        all.points[i] = all.points[equal->first_of_new[i]];
-        joined.number_of_point[i] = joined.number_of_point[equal->first_of_new[i]];
+        all.points[i] = all.points[number[i]];
+        if (!joined.number_of_point.empty()) number[i] = joined.number_of_point[number[i]];
     }
     all.points.resize(count);
-    joined.number_of_point.resize(count);
+    joined.number_of_point = std::move(number);
     renumber(all.faces, equal->new_of_old);
 }
 
@@ -100,7 +101,14 @@ operand_element joined_operands::face_source(std::uint32_t face) const {
 }
 
 operand_element joined_operands::point_source(std::uint32_t point) const {
-    return element_at(first_point, number_of_point[point]);
+    return element_at(first_point, number_of_point.empty() ? point : number_of_point[point]);
+}
+
+std::vector<std::uint32_t> joined_operands::operand_of_face() const {
+    std::vector<std::uint32_t> operands(first_face.back());
+    for (std::uint32_t k = 0; k + 1 < first_face.size(); ++k)
+        std::fill(operands.begin() + first_face[k], operands.begin() + first_face[k + 1], k);
+    return operands;
 }
 
 joined_operands join_operands(const char* function, std::span<const mesh_view> operands) {
@@ -117,7 +125,6 @@ joined_operands join_operands(const char* function, std::span<const mesh_view> o
 
     joined.all.points.resize(points);
     joined.all.faces.resize(faces);
-    joined.operand_of_face.resize(faces);
     append_all(operands, joined);
     keep_used(joined);
     join_equal(joined);

@@ -28,14 +28,15 @@ struct near_operands {
     std::vector<std::vector<std::uint32_t>> face_of;   ///< [k][F] face of all operands as given
     std::vector<std::vector<std::uint32_t>> point_of;  ///< [k][V] point of all, or beyond them
 
-    explicit near_operands(const joined_near& near, const joined_operands& given)
-        : meshes(given.first_face.size() - 1), face_of(meshes.size()), point_of(meshes.size()) {
+    near_operands(const joined_near& near, const std::vector<std::uint32_t>& operand_of_face,
+                  std::size_t operands)
+        : meshes(operands), face_of(meshes.size()), point_of(meshes.size()) {
         constexpr std::uint32_t none = operand_element::none;
         std::vector<std::uint32_t> number(near.surface.points.size(), none);
         const auto& faces = near.surface.faces;
         for (std::size_t f = 0, end = 0; f < faces.size(); f = end) {
-            const std::uint32_t k = given.operand_of_face[near.face_of[f]];
-            for (; end < faces.size() && given.operand_of_face[near.face_of[end]] == k; ++end) {
+            const std::uint32_t k = operand_of_face[near.face_of[f]];
+            for (; end < faces.size() && operand_of_face[near.face_of[end]] == k; ++end) {
                 face local = faces[end];
                 for (std::uint32_t& corner : local) {
                     const std::uint32_t p = corner;
@@ -73,7 +74,9 @@ std::vector<std::uint8_t> next_to(const std::vector<aabb<double, 3>>& broken, me
 class mending {
   public:
     mending(std::span<const mesh_view> operands, const boolean_options& options)
-        : options_(options), given_(join_operands("boolean", operands)) {
+        : options_(options),
+          given_(join_operands("boolean", operands)),
+          operand_of_face_(given_.operand_of_face()) {
         source_.resize(given_.all.faces.size());
         std::iota(source_.begin(), source_.end(), 0U);
     }
@@ -84,8 +87,8 @@ class mending {
             reach_of_bits(given_.all.points, bits_of_step(number, options_.to_float));
         const joined_near near = join_near(
             given_.all, next_to(broken, given_.all, reach),
-            {.reach = reach, .source = source_, .solid = false, .operand = given_.operand_of_face});
-        const near_operands joined(near, given_);
+            {.reach = reach, .source = source_, .solid = false, .operand = operand_of_face_});
+        const near_operands joined(near, operand_of_face_, given_.first_face.size() - 1);
         boolean_options how = options_;
         how.rounding_steps = steps_of_surface;
         how.sound_operands = false;
@@ -116,11 +119,12 @@ class mending {
                                                const operand_element& point) const {
         if (point.operand == operand_element::none) return point;
         const std::uint32_t p = joined.point_of[point.operand][point.index];
-        return p < given_.number_of_point.size() ? given_.point_source(p) : operand_element{};
+        return p < given_.all.points.size() ? given_.point_source(p) : operand_element{};
     }
 
     const boolean_options& options_;
     joined_operands given_;
+    std::vector<std::uint32_t> operand_of_face_;
     std::vector<std::uint32_t> source_;
 };
 

@@ -11,7 +11,7 @@
 #include <libmesh/round/detail/surface_faults.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/topology.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <libmesh/weld/detail/few_equal_points.hpp>
 #include <libtree/parallel.hpp>
 
 #include <algorithm>
@@ -149,26 +149,27 @@ class rounding {
     bool join_equal(const std::vector<std::uint32_t>& points, std::vector<point3> at) {
         std::vector<std::uint32_t> new_of_old(point_of_.size(), 0);
         std::vector<std::uint32_t> point_of(points.size());
-        {
-            const equal_points equal = find_equal_points(at);
-            const std::size_t count = equal.first_of_new.size();
-            for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-                for (std::size_t i = begin; i < end; ++i)
-                    new_of_old[points[i]] = equal.new_of_old[i];
-                for (std::size_t p = begin; p < std::min(end, count); ++p)
-                    point_of[p] = point_of_[points[equal.first_of_new[p]]];
-            });
-            if (count < at.size())
-                for (std::size_t p = 0; p < count; ++p)  // in place: a first point is no earlier
-                    at[p] = at[equal.first_of_new[p]];
-            at.resize(count);
-            point_of.resize(count);
+        const auto equal = detail::few_equal_points(at);
+        for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto number = static_cast<std::uint32_t>(i);
+                new_of_old[points[i]] = equal ? equal->new_of_old[i] : number;
+                point_of[i] = point_of_[points[i]];
+            }
+        });
+        if (equal) {
+            const std::vector<std::uint32_t>& first = equal->first_of_new;
+            for (std::size_t p = 0; p < first.size(); ++p) {  // in place: it is no earlier
+                at[p] = at[first[p]];
+                point_of[p] = point_of[first[p]];
+            }
+            at.resize(first.size());
+            point_of.resize(first.size());
         }
-        const bool joined = at.size() < points.size();
         result_.surface.points = std::move(at);
         point_of_ = std::move(point_of);
-        take_faces(new_of_old, joined);
-        return joined;
+        take_faces(new_of_old, equal.has_value());
+        return equal.has_value();
     }
 
     /// The exact faces in new numbers, without those that repeat a corner, as some may where points

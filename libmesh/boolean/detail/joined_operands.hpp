@@ -12,12 +12,14 @@
 namespace tf::detail {
 
 struct joined_operands {
-    mesh all;                                    ///< no two points are equal, all are corners
-    std::vector<std::uint32_t> operand_of_face;  ///< [F] of `all`
-    std::vector<std::uint32_t> first_face;       ///< [k + 1] of each operand
-    std::vector<std::uint32_t> first_point;      ///< [k + 1] of each, before equal ones were one
-    std::vector<std::uint32_t> number_of_point;  ///< [V] of `all`, before: the lowest
+    mesh all;                                ///< no two points are equal, all are corners
+    std::vector<std::uint32_t> first_face;   ///< [k + 1] of each operand
+    std::vector<std::uint32_t> first_point;  ///< [k + 1] of each, before equal ones were one
+    /// [V] of `all`, before: the lowest; or empty, where nothing was left out.
+    std::vector<std::uint32_t> number_of_point;
 
+    /// [F] of `all`
+    [[nodiscard]] std::vector<std::uint32_t> operand_of_face() const;
     [[nodiscard]] operand_element face_source(std::uint32_t face) const;
     [[nodiscard]] operand_element point_source(std::uint32_t point) const;
 };
