@@ -1,13 +1,16 @@
 #include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/detail/union_find.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/repair/detail/few_of_pairs.hpp>
 #include <libmesh/repair/detail/fill_hole.hpp>
 #include <libmesh/repair/detail/remove_faces.hpp>
 #include <libmesh/validate.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <span>
 #include <utility>
 
 namespace tf::detail {
@@ -15,31 +18,53 @@ namespace {
 
 constexpr std::size_t listed_pairs = 100;
 
+/// A hole becomes wider by a ring of faces, by two when it has failed four times, and so on. In a
+/// part that has a border, where a hole may stay, it is given up at the third time.
+constexpr int tries_of_ring = 4;
+constexpr int tries_with_border = 3;
+
+enum class fate : std::uint8_t {
+    stays,
+    refilled,  ///< deleted, and the hole is filled
+    gone       ///< deleted, and the hole stays
+};
+
+/// Parts are faces linked by edges, patches linked faces that are to be refilled. Patches only
+/// grow, and each time are refilled as a whole from what was given, so that nothing is made of what
+/// has failed.
 class remover {
   public:
     remover(mesh_view given, const repair_options& options)
-        : options_(options), now_{{given.points.begin(), given.points.end()}, {}} {
-        now_.faces.assign(given.faces.begin(), given.faces.end());
+        : options_(options),
+          given_{{given.points.begin(), given.points.end()},
+                 {given.faces.begin(), given.faces.end()}},
+          edges_(given_.faces),
+          fates_(given_.faces.size(), fate::stays),
+          few_(given_.faces.size(), 0),
+          tries_(given_.faces.size(), 0) {
         if (options.to_float) to_floats();
-        result_.face_of.resize(now_.faces.size());
-        std::iota(result_.face_of.begin(), result_.face_of.end(), 0U);
-        remember_open_edges();
+        find_parts();
     }
 
     repaired_mesh run() {
-        if (!std::isfinite(result_.max_move)) return finished();  // beyond the range of float
-        const int rounds = std::max(options_.removal_rounds, 0);
-        for (int round = 0; look() && round < rounds; ++round) {
-            widen(1 + round / 2);
-            take_away();
-            close();
+        if (!std::isfinite(result_.max_move)) {  // beyond the range of float
+            build();
+            return finished();
         }
-        return finished();
+        const int rounds = std::max(options_.removal_rounds, 0);
+        for (int round = 0;; ++round) {
+            build();
+            if (!look() || round == rounds) return finished();
+            choose();
+            settle(round + 3 > rounds);
+        }
     }
 
   private:
+    [[nodiscard]] mesh_view now() const { return {given_.points, now_}; }
+
     void to_floats() {
-        for (point3& p : now_.points) {
+        for (point3& p : given_.points) {
             const point3 rounded{nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
             for (std::size_t k = 0; k < 3; ++k)
                 result_.max_move = std::max(result_.max_move, std::abs(rounded[k] - p[k]));
@@ -47,113 +72,232 @@ class remover {
         }
     }
 
-    void remember_open_edges() {
-        const directed_edges edges(now_.faces);
-        for (const face& f : now_.faces)
-            for (std::size_t i = 0; i < 3; ++i)
-                if (!edges.has(f[(i + 1) % 3], f[i])) was_open_.push_back({f[(i + 1) % 3], f[i]});
-        std::sort(was_open_.begin(), was_open_.end());
-    }
-    [[nodiscard]] bool was_open(std::uint32_t from, std::uint32_t to) const {
-        return std::binary_search(was_open_.begin(), was_open_.end(), std::array{from, to});
+    /// Calls `with(u, v)` for each edge, as it runs.
+    template <class With>
+    static void for_edges(const face& f, const With& with) {
+        for (std::size_t i = 0; i < 3; ++i) with(f[i], f[(i + 1) % 3]);
     }
 
-    /// Marks the faces that meet others, are degenerate, or end at a hole that could not be closed;
-    /// whether there are any.
+    /// Of each edge of a face, the lowest one that runs along it, and the lowest against it.
+    template <class With>
+    void for_neighbors(std::uint32_t f, const With& with) const {
+        for_edges(given_.faces[f], [&](std::uint32_t u, std::uint32_t v) {
+            with(edges_.face_along(u, v));
+            if (const std::uint32_t g = edges_.face_along(v, u); g != directed_edges::none) with(g);
+        });
+    }
+
+    void find_parts() {
+        const auto count = static_cast<std::uint32_t>(given_.faces.size());
+        union_find parts(count);
+        for (std::uint32_t f = 0; f < count; ++f)
+            for_neighbors(f, [&](std::uint32_t g) { parts.join(f, g); });
+        part_of_.resize(count);
+        for (std::uint32_t f = 0; f < count; ++f) part_of_[f] = parts.root(f);
+        std::vector<std::uint8_t> ends(count, 0);
+        for (std::uint32_t f = 0; f < count; ++f)
+            for_edges(given_.faces[f], [&](std::uint32_t u, std::uint32_t v) {
+                if (!edges_.has(v, u)) ends[part_of_[f]] = 1;
+            });
+        is_closed_.resize(count);
+        for (std::uint32_t f = 0; f < count; ++f) is_closed_[f] = ends[part_of_[f]] == 0;
+    }
+
+    /// The faces that stay, and those that fill the holes of patches.
+    void build() {
+        now_.clear();
+        result_.face_of.clear();
+        for (std::uint32_t f = 0; f < fates_.size(); ++f) {
+            if (fates_[f] != fate::stays) continue;
+            now_.push_back(given_.faces[f]);
+            result_.face_of.push_back(f);
+        }
+        kept_ = now_.size();
+        const directed_edges kept(now_);
+        find_patches();
+        patch_of_fill_.clear();
+        for (std::uint32_t p = 0; p < patches_.size(); ++p) {
+            std::vector<face> turned;  // the hole that they leave is filled as they were
+            for (const std::uint32_t f : patches_[p]) {
+                const auto [a, b, c] = given_.faces[f];
+                turned.push_back({a, c, b});
+            }
+            for (const auto& rim : find_rims(turned, directed_edges(turned)))
+                for (const face& f : fill(given_.points, rim, kept)) {
+                    now_.push_back(f);
+                    result_.face_of.push_back(repaired_mesh::none);
+                    patch_of_fill_.push_back(p);
+                }
+        }
+    }
+
+    /// In the order of their lowest faces.
+    void find_patches() {
+        constexpr std::uint32_t none = directed_edges::none;
+        const auto count = static_cast<std::uint32_t>(fates_.size());
+        union_find linked(count);
+        for (std::uint32_t f = 0; f < count; ++f) {
+            if (fates_[f] != fate::refilled) continue;
+            for_neighbors(f, [&](std::uint32_t g) {
+                if (fates_[g] == fate::refilled) linked.join(f, g);
+            });
+        }
+        patches_.clear();
+        std::vector<std::uint32_t> number(count, none);
+        for (std::uint32_t f = 0; f < count; ++f) {
+            if (fates_[f] != fate::refilled) continue;
+            std::uint32_t& patch = number[linked.root(f)];
+            if (patch == none) {
+                patch = static_cast<std::uint32_t>(patches_.size());
+                patches_.emplace_back();
+            }
+            patches_[patch].push_back(f);
+        }
+    }
+
+    /// Finds what meets, is degenerate, or is not closed; whether there is any.
     bool look() {
         result_.meeting.clear();
         result_.meeting_count = 0;
-        marked_.assign(now_.faces.size(), 0);
-        const auto found = self_intersections(now_, {.progress = options_.progress});
+        pairs_.clear();
+        rings_.assign(patches_.size(), 0);
+        places_.clear();
+        const auto found = self_intersections(now(), {.progress = options_.progress});
         result_.cancelled = found.cancelled;
         if (found.cancelled) return false;
-        for (const std::uint32_t f : find_defects(now_).degenerate_faces) complain(f, f);
+        for (const std::uint32_t f : find_defects(now()).degenerate_faces) complain(f, f);
         for (const face_pair& pair : found.pairs) complain(pair.a, pair.b);
-        const bool holes = mark_new_holes();
-        return result_.meeting_count > 0 || holes;
-    }
-    /// Marks the faces at open edges that were not open at the beginning.
-    bool mark_new_holes() {
-        const directed_edges edges(now_.faces);
-        has_new_hole_ = false;
-        for (std::size_t f = 0; f < now_.faces.size(); ++f)
-            for (std::size_t i = 0; i < 3; ++i) {
-                const std::uint32_t from = now_.faces[f][(i + 1) % 3], to = now_.faces[f][i];
-                if (edges.has(from, to) || was_open(from, to)) continue;
-                marked_[f] = 1;
-                has_new_hole_ = true;
-            }
-        return has_new_hole_;
+        find_holes();
+        return result_.meeting_count > 0 || has_hole_;
     }
     void complain(std::uint32_t f, std::uint32_t g) {
-        marked_[f] = marked_[g] = 1;
+        if (f < kept_ && g < kept_) pairs_.push_back({result_.face_of[f], result_.face_of[g]});
+        for (const auto& [x, other] : {std::array{f, g}, std::array{g, f}}) {
+            if (x < kept_) continue;
+            const std::uint32_t patch = patch_of_fill_[x - kept_];
+            fail(patch, now_[x]);
+            if (other < kept_) blame(patch, result_.face_of[other]);
+        }
         ++result_.meeting_count;
         if (result_.meeting.size() < listed_pairs) result_.meeting.push_back({f, g});
     }
-
-    /// Marks the faces at the points of marked faces, `rings` times.
-    void widen(int rings) {
-        std::vector<char> at_point(now_.points.size());
-        for (int ring = 0; ring < rings; ++ring) {
-            for (std::size_t f = 0; f < marked_.size(); ++f)
-                if (marked_[f] != 0)
-                    for (const std::uint32_t c : now_.faces[f]) at_point[c] = 1;
-            for (std::size_t f = 0; f < marked_.size(); ++f)
-                for (const std::uint32_t c : now_.faces[f])
-                    if (at_point[c] != 0) marked_[f] = 1;
+    /// The hole is to become wider at these points.
+    void fail(std::uint32_t patch, std::span<const std::uint32_t> points) {
+        rings_[patch] = 1;
+        for (const std::uint32_t p : points) places_.push_back({patch, p});
+    }
+    /// A face that stays meets what fills a hole: it is as much to blame in the same part or if
+    /// both are closed, it alone if only it has a border.
+    void blame(std::uint32_t patch, std::uint32_t f) {
+        const std::uint32_t beside = patches_[patch].front();
+        const bool both_closed = is_closed_[beside] != 0 && is_closed_[f] != 0;
+        if (part_of_[f] == part_of_[beside] || both_closed) {
+            fail(patch, given_.faces[f]);
+        } else if (is_closed_[beside] != 0) {
+            few_[f] = 1;
+            fates_[f] = fate::refilled;
         }
     }
-
-    void take_away() {
-        std::size_t kept = 0;
-        for (std::size_t f = 0; f < marked_.size(); ++f) {
-            if (marked_[f] != 0) continue;
-            now_.faces[kept] = now_.faces[f];
-            result_.face_of[kept++] = result_.face_of[f];
-        }
-        now_.faces.resize(kept);
-        result_.face_of.resize(kept);
+    /// Edges next to patches that have lost their second face.
+    void find_holes() {
+        has_hole_ = false;
+        const directed_edges edges(now_);
+        for (std::uint32_t p = 0; p < patches_.size(); ++p)
+            for (const std::uint32_t f : patches_[p])
+                for_edges(given_.faces[f], [&](std::uint32_t u, std::uint32_t v) {
+                    if (edges.has(u, v) || !edges.has(v, u)) return;
+                    fail(p, std::array{u, v});
+                    has_hole_ = true;
+                });
     }
 
-    /// Fills the holes no edge of which was open at the beginning.
-    void close() {
-        const directed_edges edges(now_.faces);
-        for (const auto& rim : find_rims(now_.faces, edges)) {
-            bool was_hole = false;
-            for (std::size_t i = 0; i < rim.size(); ++i)
-                was_hole = was_hole || was_open(rim[i], rim[(i + 1) % rim.size()]);
-            if (was_hole) continue;
-            for (const face& f : fill(now_.points, rim, edges)) {
-                now_.faces.push_back(f);
-                result_.face_of.push_back(repaired_mesh::none);
+    /// Faces that meet are refilled, but those of closed parts that parts with a border pass
+    /// through.
+    void choose() {
+        const std::vector<std::uint8_t> few = few_of_pairs(pairs_, is_closed_);
+        for (std::size_t f = 0; f < few.size(); ++f) {
+            if (few[f] == 0) continue;
+            few_[f] = 1;
+            fates_[f] = fate::refilled;
+        }
+        for (const auto& [f, g] : pairs_)
+            if (is_closed_[f] == is_closed_[g]) fates_[f] = fates_[g] = fate::refilled;
+    }
+
+    /// Makes holes wider whose filling has failed. Where that does not help, or it is late, and the
+    /// part has a border, few of the faces go and nothing fills the hole.
+    void settle(bool is_late) {
+        for (std::uint32_t p = 0; p < patches_.size(); ++p) {
+            if (rings_[p] == 0) continue;
+            int tries = 0;
+            for (const std::uint32_t f : patches_[p]) tries = std::max<int>(tries, tries_[f] + 1);
+            for (const std::uint32_t f : patches_[p])
+                tries_[f] = static_cast<std::uint8_t>(std::min(tries, 255));
+            rings_[p] = static_cast<std::uint8_t>(1 + tries / tries_of_ring);
+            const bool is_open = is_closed_[patches_[p].front()] == 0;
+            if (!is_open || (tries < tries_with_border && !is_late)) continue;
+            rings_[p] = 0;
+            for (const std::uint32_t f : patches_[p])
+                fates_[f] = few_[f] != 0 ? fate::gone : fate::stays;
+        }
+        widen();
+    }
+    /// Refills the faces around the places where filling has failed.
+    void widen() {
+        std::vector<std::uint8_t> rings(given_.points.size(), 0);  // still to go, by point
+        for (const auto& [patch, point] : places_)
+            rings[point] = std::max(rings[point], rings_[patch]);
+        for (std::uint8_t most = *std::ranges::max_element(rings); most > 0; --most)
+            for (std::uint32_t f = 0; f < fates_.size(); ++f) {
+                const auto [a, b, c] = given_.faces[f];
+                if (rings[a] != most && rings[b] != most && rings[c] != most) continue;
+                if (fates_[f] == fate::stays) fates_[f] = fate::refilled;
+                for (const std::uint32_t p : given_.faces[f])
+                    rings[p] = std::max(rings[p], static_cast<std::uint8_t>(most - 1));
             }
-        }
     }
 
     /// Without the points that no face uses.
     repaired_mesh finished() {
         result_.certified = std::isfinite(result_.max_move) && !result_.cancelled &&
-                            result_.meeting_count == 0 && !has_new_hole_;
-        std::vector<std::uint32_t> number(now_.points.size(), repaired_mesh::none);
-        for (const face& f : now_.faces)
+                            result_.meeting_count == 0 && !has_hole_;
+        const directed_edges edges(now_);
+        for (const face& f : now_)
+            for_edges(f, [&](std::uint32_t u, std::uint32_t v) {
+                result_.left_open += !edges.has(v, u) && edges_.has(v, u);
+            });
+        std::vector<std::uint32_t> number(given_.points.size(), repaired_mesh::none);
+        for (const face& f : now_)
             for (const std::uint32_t c : f) number[c] = 0;
         for (std::uint32_t p = 0; p < number.size(); ++p) {
             if (number[p] == repaired_mesh::none) continue;
             number[p] = static_cast<std::uint32_t>(result_.point_of.size());
             result_.point_of.push_back(p);
-            result_.surface.points.push_back(now_.points[p]);
+            result_.surface.points.push_back(given_.points[p]);
         }
-        for (face& f : now_.faces)
+        for (face& f : now_)
             for (std::uint32_t& c : f) c = number[c];
-        result_.surface.faces = std::move(now_.faces);
+        result_.surface.faces = std::move(now_);
         return std::move(result_);
     }
 
     const repair_options& options_;
-    mesh now_;
-    std::vector<std::array<std::uint32_t, 2>> was_open_;  ///< as a hole runs along them
-    std::vector<char> marked_;                            ///< by face: to be deleted
-    bool has_new_hole_ = false;
+    mesh given_;
+    directed_edges edges_;
+    std::vector<std::uint32_t> part_of_;   ///< by face: the lowest face of its part
+    std::vector<std::uint8_t> is_closed_;  ///< by face: whether its part has no border
+    std::vector<fate> fates_;              ///< by face
+    std::vector<std::uint8_t> few_;        ///< by face: without it and its like no pair is left
+    std::vector<std::uint8_t> tries_;      ///< by face: to fill the hole
+    std::vector<std::vector<std::uint32_t>> patches_{};
+
+    std::vector<face> now_;                     ///< faces that stay, then those that fill
+    std::size_t kept_ = 0;                      ///< of them, those that stay
+    std::vector<std::uint32_t> patch_of_fill_;  ///< by face that fills
+    std::vector<std::uint8_t> rings_;           ///< by patch: to be added where it has failed
+    std::vector<std::array<std::uint32_t, 2>> places_;  ///< patch and point: where it has failed
+    std::vector<std::array<std::uint32_t, 2>> pairs_;   ///< of faces given, that stay and meet
+    bool has_hole_ = false;
     repaired_mesh result_{};
 };
 

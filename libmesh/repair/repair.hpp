@@ -26,8 +26,8 @@ struct repair_options {
     bool to_float = false;                      ///< coordinates become floats (then widened)
     /// Of `split` and `outer`: see `boolean_options`.
     int rounding_steps = 5;
-    /// Of `remove`: how often faces are deleted, each time in a wider ring, before giving up.
-    int removal_rounds = 8;
+    /// Of `remove`: how often holes are made and made wider before giving up.
+    int removal_rounds = 16;
     progress_callback progress{};
 };
 
@@ -40,8 +40,8 @@ struct repaired_mesh {
     double max_move = 0.0;  ///< bound of how far points were moved, in each coordinate
     /// Checked on the coordinates above: no face is degenerate, and two faces have a common corner,
     /// a common edge or nothing in common. Of `outer`, also that every edge runs as often one way
-    /// as the other and the inside is behind every face, and of `remove` that no edge is open that
-    /// was not.
+    /// as the other and the inside is behind every face, and of `remove` that no edge of a
+    /// closed part is open.
     bool certified = false;
     /// Pairs of faces that still meet, at most 100; twice the same face where it is degenerate.
     std::vector<std::array<std::uint32_t, 2>> meeting{};
@@ -54,6 +54,7 @@ struct repaired_mesh {
     /// not counted as removed.
     std::uint64_t covered = 0;
     std::uint64_t filled = 0;       ///< faces that fill holes
+    std::uint64_t left_open = 0;    ///< of `remove`, edges that have no second face any more
     std::uint64_t exact_faces = 0;  ///< of `split` and `outer`, as in `solid_result`
     bool cancelled = false;
 };
@@ -63,9 +64,11 @@ struct repaired_mesh {
 /// `split` and `outer` decide exactly on the coordinates as given what is cut and what is inside,
 /// and then round (`round_surface`); faces that meet nothing come out as they are. `remove` is for
 /// surfaces that bound nothing: it is local and keeps no volume. It deletes the faces that meet, or
-/// are degenerate, and a ring of faces around them, and closes each hole that it has made itself by
-/// triangles of the least total area between the points of its rim; where the mesh ended, it ends.
-/// What meets then is deleted in a wider ring.
+/// are degenerate, and closes each hole by triangles of the least total area between the points of
+/// its rim, up to where the mesh ended. Where these meet something, the hole becomes wider. In a
+/// part, of faces linked by edges, that has a border, holes stay open (`left_open`) where even that
+/// does not help; then few faces go, of each pair that meets one. Closed parts that parts with a
+/// border pass through stay as they are.
 ///
 /// \throws std::invalid_argument as `boolean`
 /// \cost   as `boolean`; of `remove` a `self_intersections` a round, and O(n^3) for a hole of n <=

@@ -83,6 +83,16 @@ class Repair(ToolTest):
         self.assertEqual(entry["repair"]["max_move"]["largest"], 0)
         self.no_pairs("out.obj")
 
+    def test_sheets_that_pass_through_each_other_lose_little(self):
+        points, faces = grid(8)
+        across = [(x + 0.25, 4.25, y - 4.25) for x, y, _ in points]
+        part = write(self.path("part.obj"), together((points, faces), (across, faces)))
+        entry = self.repaired(part, "--repair=remove", "--keep-components", "-o", "out.obj")
+        self.assertGreater(entry["repair"]["left_open_edges"], 0)
+        self.assertLess(entry["repair"]["removed_faces"], 20)
+        self.no_pairs("out.obj")
+        self.assertIn("edges left open", self.run_tool(part, "--repair=remove", "-n").text)
+
     def test_what_would_leave_nothing_is_no_repair(self):
         points, faces = cube()
         inside_out = [tuple(reversed(f)) for f in faces]

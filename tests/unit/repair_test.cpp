@@ -4,8 +4,10 @@
 #include <libmesh/face_tree.hpp>
 #include <libmesh/intersect/point_location.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/repair/detail/few_of_pairs.hpp>
 #include <libmesh/repair/repair.hpp>
 #include <libmesh/topology.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <libtree/parallel.hpp>
 
 #include <doctest/doctest.h>
@@ -13,6 +15,7 @@
 #include <support/soups.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -154,6 +157,115 @@ TEST_CASE("repair: removing faces leaves a border where there was one") {
     const auto after = tf::count_topology(result.surface.points.size(), result.surface.faces);
     CHECK(after.boundary_edges == before.boundary_edges);
     CHECK(after.components_by_edge == 1);
+}
+
+TEST_CASE("repair: a notch in the border is filled up to where the border was") {
+    tf::mesh mesh = test::grid(20);
+    mesh.points[10] = {10.0, 3.5, 0.0};  // of the border, over three rows of faces
+    const auto before = tf::count_topology(mesh.points.size(), mesh.faces);
+    REQUIRE(!tf::self_intersections(mesh).pairs.empty());
+    const auto result = tf::repair(mesh, {.mode = mode::remove});
+    CHECK(result.certified);
+    CHECK(tf::self_intersections(result.surface).pairs.empty());
+    const auto after = tf::count_topology(result.surface.points.size(), result.surface.faces);
+    CHECK(after.components_by_edge == 1);
+    CHECK(after.boundary_edges <= before.boundary_edges + result.left_open);
+    CHECK(result.removed < 20);
+}
+
+TEST_CASE("repair: of two open sheets that pass through each other, one is cut open") {
+    const tf::mesh sheet = test::grid(20);
+    const tf::mesh other = test::moved(test::turned(sheet, {1, 0, 0}, 1.5), {0.3, 10.2, -9.7});
+    const tf::mesh mesh = test::together(sheet, other);
+    std::vector<char> meets(mesh.faces.size());
+    for (const tf::face_pair& pair : tf::self_intersections(mesh).pairs)
+        meets[pair.a] = meets[pair.b] = 1;
+    REQUIRE(std::ranges::count(meets, 1) > 0);
+    const auto result = tf::repair(mesh, {.mode = mode::remove});
+    CHECK(result.certified);
+    CHECK(tf::self_intersections(result.surface).pairs.empty());
+    CHECK(result.lost_components == 0);
+    CHECK(result.left_open > 0);
+    for (std::uint32_t f = 0; f < meets.size(); ++f)  // nothing else is touched
+        if (meets[f] == 0) CHECK(std::ranges::count(result.face_of, f) == 1);
+    CHECK(result.removed < static_cast<std::uint64_t>(std::ranges::count(meets, 1)));
+}
+
+TEST_CASE("repair: a closed part that an open sheet passes through stays as it is") {
+    const tf::mesh ball = test::ball(3, 6.0);
+    const tf::mesh mesh = test::together(ball, test::moved(test::grid(20), {-10.1, -9.8, 0.3}));
+    const auto result = tf::repair(mesh, {.mode = mode::remove});
+    CHECK(result.certified);
+    CHECK(tf::self_intersections(result.surface).pairs.empty());
+    CHECK(result.lost_components == 0);
+    for (std::uint32_t f = 0; f < ball.faces.size(); ++f)
+        CHECK(std::ranges::count(result.face_of, f) == 1);
+}
+
+TEST_CASE("repair: removing leaves no edge of a closed part open") {
+    const tf::mesh mesh = test::together(two_balls(), test::moved(test::grid(3), {5, 5, 5}));
+    const auto result = tf::repair(mesh, {.mode = mode::remove});
+    CHECK(result.certified);
+    CHECK(result.left_open == 0);
+    const auto counts = tf::count_topology(result.surface.points.size(), result.surface.faces);
+    CHECK(counts.boundary_edges == 12);  // of the sheet far away
+}
+
+TEST_CASE("repair: of faces on each other one is left, and of a face and its back none") {
+    tf::mesh twice = test::grid(4);
+    twice.faces.push_back(twice.faces[12]);
+    const auto result = tf::repair(twice, {.mode = mode::remove});
+    CHECK(result.certified);
+    CHECK(result.surface.faces.size() == test::grid(4).faces.size());
+    CHECK(result.left_open == 0);
+    tf::mesh flap = test::ball(1, 1.0);
+    flap.points.push_back({3, 3, 3});
+    flap.faces.push_back({0, 6, 18});
+    flap.faces.push_back({0, 18, 6});
+    const auto without = tf::repair(flap, {.mode = mode::remove});
+    CHECK(without.certified);
+    CHECK(without.surface == test::ball(1, 1.0));
+}
+
+TEST_CASE("repair: of random sheets, what is removed never leaves faces that meet") {
+    test::random source(6);
+    for (int i = 0; i < 30; ++i) {
+        CAPTURE(i);
+        tf::mesh mesh = i % 3 == 0   ? test::random_soup(source, 40, 0.4)
+                        : i % 3 == 1 ? tf::join_equal_points(test::lattice_soup(source, 30, 20, 3))
+                                     : test::fan(source, 30);
+        const auto result = tf::repair(mesh, {.mode = mode::remove});
+        if (!result.certified) continue;
+        CHECK(tf::self_intersections(result.surface).pairs.empty());
+    }
+}
+
+TEST_CASE("repair: of each pair one face is chosen, that in the most pairs first") {
+    using pairs = std::vector<std::array<std::uint32_t, 2>>;
+    const auto few = [](const pairs& p, std::vector<std::uint8_t> spared) {
+        return tf::detail::few_of_pairs(p, spared);
+    };
+    using chosen = std::vector<std::uint8_t>;
+    CHECK(few({{0, 3}, {1, 3}, {2, 3}}, chosen(5, 0)) == chosen{0, 0, 0, 1, 0});
+    CHECK(few({{0, 1}}, chosen(2, 0)) == chosen{1, 0});
+    CHECK(few({{0, 3}, {1, 3}, {2, 3}}, {0, 0, 0, 1}) == chosen{1, 1, 1, 0});
+    CHECK(few({{0, 1}}, {1, 1}) == chosen{1, 1});
+    CHECK(few({{1, 1}, {1, 2}}, {0, 0, 0}) == chosen{0, 1, 0});
+    CHECK(few({}, {}).empty());
+    test::random source(7);
+    for (int i = 0; i < 200; ++i) {
+        pairs p;
+        std::vector<std::uint8_t> spared(12);
+        for (auto& s : spared) s = source.below(4) == 0 ? 1 : 0;
+        for (std::size_t k = source.below(30); k > 0; --k)
+            p.push_back({static_cast<std::uint32_t>(source.below(12)),
+                         static_cast<std::uint32_t>(source.below(12))});
+        const auto taken = few(p, spared);
+        for (const auto& [a, b] : p) {
+            CHECK(taken[a] + taken[b] > 0);
+            if (spared[a] != 0 && spared[b] != 0) CHECK(taken[a] + taken[b] == 2);
+        }
+    }
 }
 
 TEST_CASE("repair: a component that is nothing but faces that meet is counted as lost") {

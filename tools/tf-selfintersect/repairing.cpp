@@ -76,6 +76,7 @@ void enter_repair(job& work, const findings& result, const repair_settings& sett
         {"removed_faces", repaired.removed},
         {"covered_faces", repaired.covered},
         {"filled_faces", repaired.filled},
+        {"left_open_edges", repaired.left_open},
         {"lost_components", repaired.lost_components},
         {"volume",
          {{"before", tf::signed_volume(result.mesh)}, {"after", tf::signed_volume(surface)}}},
@@ -129,6 +130,8 @@ void say_result(job& work, const repair_settings& settings, const tf::repaired_m
     if (repaired.covered > 0)
         text += ", " + counted(repaired.covered, "face lies", "faces lie") + " on others";
     if (repaired.filled > 0) text += ", " + grouped(repaired.filled) + " filled in";
+    if (repaired.left_open > 0)
+        text += ", " + counted(repaired.left_open, "edge", "edges") + " left open";
     if (repaired.max_move > 0.0)
         text += ", rounding moved points by " + shortest(repaired.max_move) + " at most";
     work.out.result(text);
