@@ -2,6 +2,8 @@
 #include <libmesh/io/detail/reserve.hpp>
 
 #include <array>
+#include <limits>
+#include <string>
 #include <string_view>
 
 namespace tf::detail {
@@ -45,6 +47,14 @@ std::size_t numbers(text& t, std::size_t least, std::string_view what,
 }
 
 }  // namespace
+
+void obj_numbers::refuse(const text& t, const parsed<std::int64_t>& index) const {
+    const std::string kind(kind_);
+    if (index.end == nullptr)
+        t.fail(quoted(t.at, t.end) + " where a " + kind + " index should stand");
+    if (index.value == 0) t.fail(kind + " index 0 (OBJ counts from 1)");
+    t.fail(kind + " index " + quoted(t.at, index.end) + " is out of range");
+}
 
 void corner_fans::start(std::size_t triangles, std::size_t expected, std::vector<face>& fans) {
     used_ = true;

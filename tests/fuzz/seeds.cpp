@@ -121,6 +121,27 @@ std::string encoded(std::string_view target, tf::test::stress_stream& stream) {
     return to.text();
 }
 
+/// Every other corner has texture coordinates by its point, every third one a normal.
+tf::mesh_file with_corner_values(tf::mesh mesh) {
+    constexpr std::uint32_t none = tf::corner_values::none;
+    tf::mesh_file file{.mesh = std::move(mesh)};
+    tf::corner_values& corners = file.attributes.corners;
+    corners.normals = {{0, 0, 1}, {0, 0.6, -0.8}};
+    for (const tf::point3& p : file.mesh.points) corners.texture.push_back({p.x, 0.5, 0.0});
+    std::uint32_t n = 0;
+    for (const tf::face& f : file.mesh.faces) {
+        tf::face& texture = corners.texture_of_corner.emplace_back();
+        tf::face& normals = corners.normal_of_corner.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k, ++n) {
+            texture[k] = n % 2 == 0 ? f[k] : none;
+            normals[k] = n % 3 == 0 ? n % 2 : none;
+        }
+    }
+    file.attributes.material_files = {"a.mtl"};
+    file.attributes.parts = {{.material = "b", .first_face = 0}};
+    return file;
+}
+
 void write_seeds(const std::filesystem::path& folder) {
     const auto folder_of = [&](const std::string& target) {
         std::filesystem::create_directories(folder / "new" / target);
@@ -136,6 +157,12 @@ void write_seeds(const std::filesystem::path& folder) {
                 write(to / (std::string(name_of(family)) + (ascii ? "-ascii" : "")),
                       write_mesh_to_memory(file, {.format = format, .ascii = ascii}));
         }
+        const tf::mesh_file textured =
+            with_corner_values(stress_mesh(static_cast<stress_family>(0), 12, 1));
+        if (format == std::string_view("obj") || format == std::string_view("ply"))
+            for (const bool ascii : {false, true})
+                write(to / (ascii ? "textured-ascii" : "textured"),
+                      write_mesh_to_memory(textured, {.format = format, .ascii = ascii}));
     }
     for (const char* const target : deciders) {
         const auto to = folder_of(target);

@@ -44,13 +44,10 @@ class obj_numbers {
     /// Negative numbers count from the last row back, others from 1.
     [[nodiscard]] std::uint32_t read(text& t, std::size_t count) {
         const parsed<std::int64_t> index = parse_integer(t.at, t.end);
-        if (index.end == nullptr)
-            t.fail(quoted(t.at, t.end) + " where a " + kind_ + " index should stand");
-        if (index.value == 0) t.fail(std::string(kind_) + " index 0 (OBJ counts from 1)");
         const std::int64_t row =
             index.value > 0 ? index.value - 1 : static_cast<std::int64_t>(count) + index.value;
-        if (row < 0 || static_cast<std::uint64_t>(row) >= limit_)
-            t.fail(std::string(kind_) + " index " + quoted(t.at, index.end) + " is out of range");
+        // One that is not there has the value 0.
+        if (index.value == 0 || static_cast<std::uint64_t>(row) >= limit_) refuse(t, index);
         needed_ = std::max(needed_, static_cast<std::uint64_t>(row) + 1);
         t.at = index.end;
         return static_cast<std::uint32_t>(row);
@@ -60,6 +57,8 @@ class obj_numbers {
     [[nodiscard]] std::uint64_t needed() const { return needed_; }
 
   private:
+    [[noreturn]] void refuse(const text& t, const parsed<std::int64_t>& index) const;
+
     const char* kind_;
     std::uint64_t limit_;
     std::uint64_t needed_ = 0;
