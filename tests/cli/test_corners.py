@@ -96,6 +96,13 @@ class CornerTest(BooleanTest):
                     self.assertLess(abs(is_there - should_be), 1e-12)
 
 
+    def soup(self):
+        """A box with points of its own in each face, and a texture row a corner."""
+        points, faces = box((0, 0, 0), (2, 2, 2))
+        corners = [points[c] for f in faces for c in f]
+        return textured_text((corners, [(i, i + 1, i + 2) for i in range(0, 36, 3)]))
+
+
 class Booleans(CornerTest):
     def test_texture_coordinates_and_normals_are_those_of_the_faces_of_the_inputs(self):
         self.boxes()
@@ -118,6 +125,15 @@ class Booleans(CornerTest):
         # Flat faces keep the one row that they had; three sides of b are turned around.
         self.assertEqual(len(mesh.vn), 6 + 3)
         self.assertNotIn("-0 ", self.read("out.obj"))
+
+    def test_points_that_are_one_by_place_have_the_rows_of_each_face(self):
+        self.boxes()
+        self.put("a.obj", self.soup())
+        self.run_tool("difference", "a.obj", "b.obj", "-o", "out.obj", status=0)
+        self.check_rows(self.parsed("out.obj"))
+        self.run_tool("union", "a.obj", "-o", "same.obj", status=0)
+        mesh = self.parsed("same.obj")
+        self.assertEqual((len(mesh.v), len(mesh.vt), len(mesh.vn)), (8, 36, 6))
 
     def test_a_seam_stays_a_seam(self):
         # Two faces of the bottom, z = 0, are elsewhere in the picture.
@@ -286,12 +302,6 @@ class Booleans(CornerTest):
 
 class Weld(CornerTest):
     tool = WELD
-
-    def soup(self):
-        """A box with points of its own in each face, and a row of each kind a corner."""
-        points, faces = box((0, 0, 0), (2, 2, 2))
-        corners = [points[c] for f in faces for c in f]
-        return textured_text((corners, [(i, i + 1, i + 2) for i in range(0, 36, 3)]), seam=(0, 1))
 
     def test_points_become_one_and_corners_keep_what_they_have(self):
         self.put("soup.obj", self.soup())

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace tf::fuzz {
@@ -32,6 +33,16 @@ inline int read_any(const std::uint8_t* data, std::size_t size, const char* form
         return -1;  // nothing to learn for the corpus
     }
     return 0;
+}
+
+/// What is written of bytes that were read must be written of it again once it has been read.
+inline void check_round_trip(const std::uint8_t* data, std::size_t size,
+                             const write_options& options) {
+    const auto written = [&](std::span<const std::byte> bytes) {
+        return write_mesh_to_memory(read_mesh(bytes, "fuzz", options.format), options);
+    };
+    const std::string once = written(std::as_bytes(std::span(data, size)));
+    if (written(std::as_bytes(std::span(once))) != once) std::abort();
 }
 
 }  // namespace tf::fuzz

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -244,4 +245,30 @@ TEST_CASE("weld_mesh: rows of vertices, faces and edges follow, parts keep their
     ids first_faces;
     for (const tf::part& p : now.parts) first_faces.push_back(p.first_face);
     CHECK(first_faces == ids{0, 0, 2, 2});
+}
+
+TEST_CASE(
+    "weld_mesh: corners of faces that stay keep what they have, and what does not fit is refused") {
+    const tf::mesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                        {{1, 2, 0}, {0, 1, 3}, {2, 3, 0}}};
+    constexpr std::uint32_t none = tf::corner_values::none;
+    tf::attributes properties{
+        .corners = {.texture = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                    .normals = {{0, 0, 1}},
+                    .texture_of_corner = {{0, 0, 0}, {0, 1, 2}, {2, none, 1}},
+                    .normal_of_corner = {{0, 0, 0}, {none, 0, 0}, {0, 0, none}}},
+        .material_files = {"a.mtl"}};
+    const auto welded = tf::weld_mesh(mesh, properties, {});
+    CHECK(welded.face_of_new == ids{1, 2});
+    tf::attributes expected = properties;
+    expected.corners.texture_of_corner = {{0, 1, 2}, {2, none, 1}};
+    expected.corners.normal_of_corner = {{none, 0, 0}, {0, 0, none}};
+    CHECK(welded.attributes == expected);
+
+    tf::attributes bad = properties;
+    bad.corners.texture_of_corner[2][0] = 3;
+    CHECK_THROWS_AS(static_cast<void>(tf::weld_mesh(mesh, bad, {})), std::invalid_argument);
+    bad = properties;
+    bad.corners.normal_of_corner.pop_back();
+    CHECK_THROWS_AS(static_cast<void>(tf::weld_mesh(mesh, bad, {})), std::invalid_argument);
 }
