@@ -74,6 +74,7 @@ ids with_neighbours(mesh_view surface, const ids& doubted, std::span<const std::
         for (std::size_t p = begin; p < end; ++p) cell[p] = grid.cell_of(surface.points[p]);
     });
     for (const auto& [a, b, c] : asked) grid.add(cell[a], cell[b], cell[c]);
+    grid.finish();
     const auto is_near = [&](std::size_t f) {
         const auto& [a, b, c] = surface.faces[f];
         if (sound[f] == 0) return true;
