@@ -1,4 +1,5 @@
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/checked_face_tree.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libtree/build.hpp>
 
@@ -8,6 +9,10 @@ namespace tf {
 
 tree<3> face_tree(mesh_view mesh) {
     detail::check_faces("face_tree", mesh.points.size(), mesh.faces);
+    return detail::checked_face_tree(mesh);
+}
+
+tree<3> detail::checked_face_tree(mesh_view mesh) {
     return build(mesh.faces, [points = mesh.points](const face& f) {
         aabb<double, 3> box;
         double sum = 0.0;  // of zeros; NaN where a coordinate is NaN or infinite

@@ -1,4 +1,5 @@
 #include <libmesh/arrange/cells.hpp>
+#include <libmesh/arrange/detail/cells_of.hpp>
 #include <libmesh/arrange/detail/operand_sums.hpp>
 #include <libmesh/arrange/detail/parts.hpp>
 #include <libmesh/arrange/detail/patches.hpp>
@@ -233,6 +234,12 @@ arrangement_cells find_cells(mesh_view mesh, const mesh_arrangement& cut,
                              std::span<const std::uint32_t> operand_of_face,
                              std::size_t operand_count) {
     check(mesh, cut, operand_of_face, operand_count);
+    return detail::cells_of(mesh, cut, operand_of_face, operand_count);
+}
+
+arrangement_cells detail::cells_of(mesh_view mesh, const mesh_arrangement& cut,
+                                   std::span<const std::uint32_t> operand_of_face,
+                                   std::size_t operand_count) {
     surface_patches patches = detail::find_patches(cut, operand_of_face);
     arrangement_cells result;
     result.operands = operand_count;

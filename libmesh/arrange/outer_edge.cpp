@@ -5,6 +5,7 @@
 #include <libtree/parallel.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -24,6 +25,43 @@ void raise(const mesh_arrangement& cut, std::uint32_t& top, std::uint32_t p) {
     if (top != no_point && cut.given_points[p].x < cut.given_points[top].x) return;  // nearly all
     if (top == no_point || lexicographically_less(cut.given_points[top], cut.given_points[p]))
         top = p;
+}
+
+bool is_finite(const point3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+std::uint32_t greatest_given_point(const mesh_arrangement& cut) {
+    const std::vector<point3>& points = cut.given_points;
+    std::vector<std::uint32_t> tops(chunk_count(points.size(), grain), no_point);
+    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::uint32_t top = no_point;
+        for (std::size_t p = begin; p < end; ++p)
+            if ((top == no_point || points[p].x >= points[top].x) && is_finite(points[p]))
+                raise(cut, top, static_cast<std::uint32_t>(p));
+        tops[c] = top;
+    });
+    std::uint32_t top = no_point;
+    for (const std::uint32_t p : tops) raise(cut, top, p);
+    return top;
+}
+
+/// The extent of all faces as one part; none where their greatest point is not that of all points.
+std::optional<part_extent> extent_of_all(const mesh_arrangement& cut) {
+    const std::uint32_t top = greatest_given_point(cut);
+    std::vector<std::vector<std::uint32_t>> at_top(chunk_count(cut.faces.size(), grain));
+    for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const auto& [p, q, r] = cut.faces[f];
+            if (p == top || q == top || r == top)
+                at_top[c].push_back(static_cast<std::uint32_t>(f));
+        }
+    });
+    part_extent all{top, {}};
+    for (const auto& chunk : at_top)
+        all.faces_at_top.insert(all.faces_at_top.end(), chunk.begin(), chunk.end());
+    if (all.faces_at_top.empty()) return std::nullopt;
+    return all;
 }
 
 /// Whether the direction of the edge at `v` that leads to `p` is that from v to b. No two edges at
@@ -119,6 +157,8 @@ class edge_finder {
 
 std::vector<part_extent> find_extents(const mesh_arrangement& cut, const surface_patches& patches,
                                       const numbered_sets& parts) {
+    if (parts.count() == 1)
+        if (auto all = extent_of_all(cut)) return {*all};
     struct extent {
         std::uint32_t part = 0;
         std::size_t begin = 0;  ///< its first face

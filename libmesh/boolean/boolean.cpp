@@ -1,5 +1,6 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/detail/arrange_pairs.hpp>
+#include <libmesh/arrange/detail/cells_of.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/boolean/boolean.hpp>
 #include <libmesh/boolean/detail/inside_of_cells.hpp>
@@ -238,8 +239,8 @@ solid_result boolean_of(std::span<const mesh_view> operands, const boolean_expre
     arrange_faces_result arranged = arrange_joined(joined, part_of(options.progress, 0.0, 0.5));
     solid_result result = with_counts(arranged);
     if (result.cancelled) return result;
-    arrangement_cells cells = find_cells(input_of(arranged.cut, joined), arranged.cut,
-                                         joined.operand_of_face(), operands.size());
+    arrangement_cells cells = detail::cells_of(input_of(arranged.cut, joined), arranged.cut,
+                                               joined.operand_of_face(), operands.size());
     if (!cells.open.empty()) {
         result.open = open_edges(cells, arranged.cut, joined);
         result.open_count = cells.open_count;
@@ -271,7 +272,7 @@ solid_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
     const std::vector<std::uint8_t> way = sheet_faces(cut, operand_of_face, sheet);
     cover_from_both_sides(cut, operand_of_face, sheet);
     const arrangement_cells cells =
-        find_cells(input_of(cut, joined), cut, operand_of_face, operands.size());
+        detail::cells_of(input_of(cut, joined), cut, operand_of_face, operands.size());
     if (!cells.open.empty()) {
         result.open = open_edges(cells, cut, joined);
         result.open_count = cells.open_count;
@@ -326,7 +327,7 @@ solid_check check_solid(mesh_view mesh, const progress_callback& progress) {
     const arrange_faces_result arranged = arrange_joined(joined, part_of(progress, 0.0, 1.0));
     if (arranged.cancelled) return {.cancelled = true};
     const arrangement_cells cells =
-        find_cells(input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), 1);
+        detail::cells_of(input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), 1);
     return {.open = open_edges(cells, arranged.cut, joined), .open_count = cells.open_count};
 }
 

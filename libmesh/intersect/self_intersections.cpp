@@ -1,6 +1,6 @@
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/checked_face_tree.hpp>
 #include <libmesh/detail/first_bad.hpp>
-#include <libmesh/face_tree.hpp>
 #include <libmesh/intersect/detail/join_outputs.hpp>
 #include <libmesh/intersect/detail/pair_sieve.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
@@ -25,13 +25,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 void check(mesh_view mesh, const self_intersection_options& options) {
     detail::check_faces("self_intersections", mesh.points.size(), mesh.faces);
-    const std::size_t bad_point = detail::first_bad(mesh.points.size(), [&](std::size_t i) {
-        const point3& p = mesh.points[i];
-        return !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
-    });
-    if (bad_point != mesh.points.size())
-        throw std::invalid_argument("tf::self_intersections: point " + std::to_string(bad_point) +
-                                    " is not finite");
     const std::size_t labels = options.component_of_face.size();
     if (labels != mesh.faces.size() && (labels != 0 || options.between || options.within))
         throw std::invalid_argument("tf::self_intersections: " + std::to_string(labels) +
@@ -39,12 +32,25 @@ void check(mesh_view mesh, const self_intersection_options& options) {
                                     " faces");
 }
 
+/// Whether all coordinates are in the range of the filter.
+/// \throws std::invalid_argument naming a point with one that is not finite
 bool fits_filter(points_view points) {
-    return detail::first_bad(points.size(), [&](std::size_t i) {
-               const point3& p = points[i];
-               return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <=
-                        detail::largest_filtered_coordinate);
-           }) == points.size();
+    const std::size_t beyond = detail::first_bad(points.size(), [&](std::size_t i) {
+        const point3& p = points[i];
+        constexpr double largest = detail::largest_filtered_coordinate;
+        const int fit = (std::abs(p.x) <= largest ? 1 : 0) + (std::abs(p.y) <= largest ? 1 : 0) +
+                        (std::abs(p.z) <= largest ? 1 : 0);
+        return fit < 3;
+    });
+    if (beyond == points.size()) return true;
+    const std::size_t bad_point = detail::first_bad(points.size(), [&](std::size_t i) {
+        const point3& p = points[i];
+        return !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    });
+    if (bad_point != points.size())
+        throw std::invalid_argument("tf::self_intersections: point " + std::to_string(bad_point) +
+                                    " is not finite");
+    return false;
 }
 
 /// The faces in leaf order, so that candidates find theirs side by side.
@@ -65,14 +71,15 @@ detail::buffer<detail::numbered_face> leaf_order(mesh_view mesh, const tree<3>& 
 self_intersection_result self_intersections(mesh_view mesh,
                                             const self_intersection_options& options) {
     check(mesh, options);
+    const bool filtered = fits_filter(mesh.points);
     self_intersection_result result;
     const auto tree_start = std::chrono::steady_clock::now();
-    const tree<3> tree = face_tree(mesh);
+    const tree<3> tree = detail::checked_face_tree(mesh);
     result.tree_seconds = seconds_since(tree_start);
 
     const auto pair_start = std::chrono::steady_clock::now();
     const detail::buffer<detail::numbered_face> faces = leaf_order(mesh, tree);
-    const detail::sieve_input input{mesh.points, faces.span(), &options, fits_filter(mesh.points)};
+    const detail::sieve_input input{mesh.points, faces.span(), &options, filtered};
     const self_search<3> search(tree);
     std::vector<detail::sieve_output> found(search.chunks());
     detail::search_progress progress(options.progress, search.chunks());

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -296,6 +297,25 @@ std::multiset<std::vector<std::int32_t>> windings(const tf::arrangement_cells& c
         rows.emplace(row.begin(), row.end());
     }
     return rows;
+}
+
+TEST_CASE("cells: a point that no face has changes nothing, wherever it is, finite or not") {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const tf::mesh box = test::box(1, 1, 1);
+    const std::vector<std::uint32_t> one_operand(box.faces.size(), 0);
+    const auto expected = tf::find_cells(box, arrangement_of(box), one_operand, 1);
+    REQUIRE(expected.winding == std::vector<std::int32_t>{0, 1});
+    for (const tf::point3& p : std::vector<tf::point3>{
+             {5, 0, 0}, {-5, 0, 0}, {1, 1, 1}, {infinity, 0, 0}, {nan, nan, nan}, {5, nan, 0}}) {
+        for (const std::size_t place : {std::size_t{0}, std::size_t{3}, box.points.size()}) {
+            tf::mesh more = box;
+            more.points.insert(more.points.begin() + static_cast<std::ptrdiff_t>(place), p);
+            for (tf::face& f : more.faces)
+                for (std::uint32_t& corner : f) corner += corner >= place ? 1 : 0;
+            CHECK(same_cells(tf::find_cells(more, arrangement_of(more), one_operand, 1), expected));
+        }
+    }
 }
 
 TEST_CASE("cells: boxes that share a face, an edge, a corner or nothing have an inside each") {

@@ -18,7 +18,7 @@ namespace tf::detail {
 /// input faces, so its extreme points are points of the input.
 struct part_extent {
     std::uint32_t top = 0;  ///< its lexicographically greatest point, by x, then y, then z
-    aabb<double, 3> box;
+    aabb<double, 3> box;    ///< where there are several parts
     std::vector<std::uint32_t> faces_at_top{};  ///< ascending
 };
 
