@@ -125,6 +125,14 @@ class Booleans(CornerTest):
         # Flat faces keep the one row that they had; three sides of b are turned around.
         self.assertEqual(len(mesh.vn), 6 + 3)
         self.assertNotIn("-0 ", self.read("out.obj"))
+        # Where an edge was cut, the faces on both sides still share a row: one for each input.
+        for k in (1, 2):
+            rows_at = {}
+            for face in mesh.faces:
+                for corner in face:
+                    key = (corner[0], mesh.normal(face) if k == 2 else None)
+                    rows_at.setdefault(key, set()).add(corner[k])
+            self.assertLessEqual(max(map(len, rows_at.values())), 2)
 
     def test_points_that_are_one_by_place_have_the_rows_of_each_face(self):
         self.boxes()

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
 namespace tools {
 namespace {
@@ -44,13 +46,30 @@ struct place_in_face {
     std::array<double, 3> shares{};
 };
 
+/// The same for both faces at the edge from corner `i` to corner `j`, so that they still share what
+/// is in between.
+std::array<double, 3> shares_along_edge(const tf::point3& p, const std::array<tf::point3, 3>& at,
+                                        std::size_t i, std::size_t j) {
+    if (std::tie(at[j].x, at[j].y, at[j].z) < std::tie(at[i].x, at[i].y, at[i].z)) std::swap(i, j);
+    std::array<double, 3> shares{};
+    shares[j] = share_along(p, at[i], at[j]);
+    shares[i] = 1.0 - shares[j];
+    return shares;
+}
+
 place_in_face place_of(const tf::point3& p, const tf::mesh& mesh, const tf::face& corners) {
     std::array<tf::point3, 3> at;
     for (std::size_t k = 0; k < 3; ++k) {
         at[k] = mesh.points[corners[k]];
         if (at[k] == p) return {.corner = k};
     }
-    return {.shares = shares_at(p, at[0], at[1], at[2]).of};
+    const std::array<double, 3> shares = shares_at(p, at[0], at[1], at[2]).of;
+    // Far below what textures hold, and far above what rounding does.
+    constexpr double on_edge = 0x1p-44;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (shares[k] <= on_edge)
+            return {.shares = shares_along_edge(p, at, (k + 1) % 3, (k + 2) % 3)};
+    return {.shares = shares};
 }
 
 /// A point as it was before it was rounded, where it is one of an input.

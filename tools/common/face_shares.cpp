@@ -34,6 +34,12 @@ shares_of_corners shares_at(const tf::point3& p, const tf::point3& a, const tf::
     return {w, outside / sum};
 }
 
+double share_along(const tf::point3& p, const tf::point3& a, const tf::point3& b) {
+    const tf::point3 edge = difference(b, a);
+    const double share = dot(difference(p, a), edge) / dot(edge, edge);
+    return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
+}
+
 tf::point3 normal_of(const tf::mesh& mesh, const tf::face& f) {
     const tf::point3 &a = mesh.points[f[0]], &b = mesh.points[f[1]], &c = mesh.points[f[2]];
     return cross(difference(b, a), difference(c, a));

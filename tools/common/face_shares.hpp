@@ -18,6 +18,9 @@ struct shares_of_corners {
 [[nodiscard]] shares_of_corners shares_at(const tf::point3& p, const tf::point3& a,
                                           const tf::point3& b, const tf::point3& c);
 
+/// How far along from `a` to `b` a point is, from 0 to 1; 0 where they are equal.
+[[nodiscard]] double share_along(const tf::point3& p, const tf::point3& a, const tf::point3& b);
+
 /// Twice the area long.
 [[nodiscard]] tf::point3 normal_of(const tf::mesh& mesh, const tf::face& f);
 
