@@ -8,9 +8,11 @@
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -168,6 +170,36 @@ TEST_CASE("round: the middle of a piece that was mended lies in the face that it
             CHECK(tf::closest_point(source, middle).squared_distance < 1e-12);
         }
     }
+}
+
+TEST_CASE("round: mending that makes more and more faces meet is given up") {
+    // Two octahedra, all but equal, flat and cut by their own sides; they were found by chance.
+    const auto octahedron = [](double x) {
+        tf::mesh made;
+        made.points = {{x, 0x1.b65866034c599p-32, 0x1.565849a8ecd1ep-31},
+                       {-0x1.f3b1b2f08a8fbp-21, 0x1.01976b46ddca5p-31, 0x1.e073b3cc1b922p-33},
+                       {-0x1.f3e47f31d8321p-21, 0x1.caca6808a6914p-32, 0x1.a61d14ed75c2p-31},
+                       {-0x1.f3aa6p-21, 0x1.76p-32, 0x1.09p-32},
+                       {-0x1.f3e2cp-21, 0x1.c8p-32, 0x1.9d8p-31},
+                       {-0x1.f3a5cp-21, 0x1.11p-31, 0x1.54p-34}};
+        made.faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                      {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+        return made;
+    };
+    tf::mesh second = octahedron(-0x1.f3d4af7828161p-21);
+    std::rotate(second.points.begin(), second.points.begin() + 3, second.points.end());
+    std::vector<tf::mesh> solids{octahedron(-0x1.f3d4af7028161p-21), second};
+    for (tf::mesh& solid : solids) {
+        const tf::mesh_view view = solid;
+        tf::solid_result alone = tf::boolean({&view, 1}, tf::boolean_expression::union_of(1));
+        REQUIRE(alone.certified);
+        solid = std::move(alone.surface);
+    }
+    const std::vector<tf::mesh_view> both(solids.begin(), solids.end());
+    const tf::solid_result result =
+        tf::boolean(both, tf::boolean_expression::union_of(2), {.rounding_steps = 4});
+    if (!result.certified) CHECK(result.rounding_steps < 4);
+    CHECK(result.broken.size() < 20000);  // boxes of faces that met in any step
 }
 
 TEST_CASE("round: without steps, what is broken is told") {
