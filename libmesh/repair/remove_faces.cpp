@@ -1,3 +1,4 @@
+#include <libmesh/detail/check_faces.hpp>
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/detail/union_find.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
@@ -304,6 +305,7 @@ class remover {
 }  // namespace
 
 repaired_mesh remove_faces(mesh_view mesh, const repair_options& options) {
+    check_faces("repair", mesh.points.size(), mesh.faces);
     return remover(mesh, options).run();
 }
 

@@ -19,6 +19,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 namespace {
@@ -275,6 +277,20 @@ TEST_CASE("repair: a component that is nothing but faces that meet is counted as
     CHECK(result.certified);
     CHECK(result.lost_components == 1);
     CHECK(result.removed == 2);
+}
+
+TEST_CASE("repair: what cannot be meant is refused") {
+    for (const mode m : {mode::split, mode::outer, mode::remove})
+        for (const bool to_float : {false, true}) {
+            tf::mesh mesh = test::box(1, 1, 1);
+            mesh.points[3].x = std::numeric_limits<double>::quiet_NaN();
+            CHECK_THROWS_AS(static_cast<void>(tf::repair(mesh, {.mode = m, .to_float = to_float})),
+                            std::invalid_argument);
+            mesh.points[3].x = 1e300;  // beyond the range of float
+            mesh.faces[5][1] = 8;
+            CHECK_THROWS_AS(static_cast<void>(tf::repair(mesh, {.mode = m, .to_float = to_float})),
+                            std::invalid_argument);
+        }
 }
 
 TEST_CASE("repair: nothing to repair, nothing changed; on any number of threads") {
