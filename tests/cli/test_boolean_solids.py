@@ -63,6 +63,29 @@ class Solids(BooleanTest):
         output = self.made("intersection", "a.obj", "far.obj", name="out.stl")["output"]
         self.assertEqual((output["faces"], output["exact_faces"]), (0, 0))
 
+    def test_where_rounding_leaves_faces_that_meet_is_said(self):
+        # Two octahedra, all but equal, flat and cut by their own sides; they were found by chance.
+        hexes = ("-0x1.f3d4af{}8161p-21 0x1.b65866034c599p-32 0x1.565849a8ecd1ep-31",
+                 "-0x1.f3b1b2f08a8fbp-21 0x1.01976b46ddca5p-31 0x1.e073b3cc1b922p-33",
+                 "-0x1.f3e47f31d8321p-21 0x1.caca6808a6914p-32 0x1.a61d14ed75c2p-31",
+                 "-0x1.f3aa6p-21 0x1.76p-32 0x1.09p-32", "-0x1.f3e2cp-21 0x1.c8p-32 0x1.9d8p-31",
+                 "-0x1.f3a5cp-21 0x1.11p-31 0x1.54p-34")
+        faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4),
+                 (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+        for name, digits, first in (("p.obj", "702", 0), ("q.obj", "782", 3)):
+            points = [tuple(map(float.fromhex, row.format(digits).split())) for row in hexes]
+            self.mesh(name, (points[first:] + points[:first], faces))
+            self.made("union", name, name="whole-" + name)
+        run = self.run_tool("union", "whole-p.obj", "whole-q.obj", "-o", "out.obj")
+        if run.status == 1:
+            self.assertRegex(run.text, r"pairs of faces meet when rounded to double, the first "
+                                       r"near \(-9\.3")
+            self.assertIn("nothing written", run.err)
+            self.assertNotIn("more than two faces", run.err)
+            self.assertNotIn("out.obj", self.listing())
+        else:
+            self.solid("out.obj")
+
     def test_parts_that_a_format_is_too_coarse_for_are_named(self):
         speck = box((5, 5, 5), (5 + 2 ** -40, 5 + 2 ** -40, 5 + 2 ** -40))
         self.mesh("both.obj", together(cube(), speck))

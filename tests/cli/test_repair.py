@@ -65,6 +65,7 @@ class Repair(ToolTest):
         part = write(self.path("part.obj"), (points, faces[1:]))
         run = self.run_tool(part, "--repair", "-o", "out.obj", status=1)
         self.assertIn("bounds no solid", run.text)
+        self.assertRegex(run.text, r"the first from \(.*\) to \(.*\) at face \d+; --repair=split")
         self.assertNotIn("out.obj", self.listing())
         entry = self.repaired(part, "--repair", status=1)
         self.assertEqual(entry["repair"]["open"]["count"], 3)
@@ -100,6 +101,8 @@ class Repair(ToolTest):
         run = self.run_tool(part, "--repair", "-o", "out.stl", status=1)
         self.assertIn("nothing would be left", run.text)
         self.assertEqual(self.listing(), ["part.obj"])
+        self.run_tool(part, "--repair=split", "-o", "one.obj", status=0)
+        self.assertEqual(len(obj_mesh(self.read("one.obj"))[1]), 12)
 
     def test_what_the_numbers_written_cannot_tell_apart_is_no_repair(self):
         points, faces = TWO_CUBES

@@ -27,12 +27,14 @@ std::string verdict(const job& work, const boolean_settings& settings,
     const json& volume = output["volume"];
     if (!volume.is_null() && std::isfinite(volume.get<double>()))
         text += ", volume " + shortest(volume.get<double>());
-    if (!result.certified)
-        return text + ", but " +
-               (result.meeting_count > 0
-                    ? counted(result.meeting_count, "pair", "pairs") + " of faces meet"
-                    : "coordinates are too large") +
-               " when rounded to " + output["precision_out"].get<std::string>();
+    if (!result.certified) {
+        const std::string rounded =
+            " when rounded to " + output["precision_out"].get<std::string>();
+        if (result.meeting_count == 0) return text + ", but coordinates are too large" + rounded;
+        const tf::face& first = result.surface.faces[result.meeting_faces.front()[0]];
+        return text + ", but " + counted(result.meeting_count, "pair", "pairs") + " of faces meet" +
+               rounded + ", the first near " + in_words(result.surface.points[first[0]]);
+    }
     if (result.max_move > 0.0)
         text += ", rounding moved points by " + shortest(result.max_move) + " at most";
     return text;
@@ -58,7 +60,7 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
                                     " without an area left out; nothing changes by that");
     const json& output = work.entry["output"];
     const auto nonmanifold = output["nonmanifold_edges"].get<std::uint64_t>();
-    if (!output["volume"].is_null() && nonmanifold > 0)
+    if (result.certified && !output["volume"].is_null() && nonmanifold > 0)
         work.warn("nonmanifold", counted(nonmanifold, "edge", "edges") +
                                      " of more than two faces, where the result touches itself");
     if (!settings.splits() && !output["closed"].get<bool>())

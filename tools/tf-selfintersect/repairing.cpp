@@ -4,6 +4,7 @@
 #include "tools/common/carried_properties.hpp"
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
+#include "tools/tf-selfintersect/words.hpp"
 #include <libmesh/attributes.hpp>
 #include <libmesh/boolean/separate_fans.hpp>
 #include <libmesh/round/rounding_harm.hpp>
@@ -51,14 +52,16 @@ json edge_entry(const tf::open_operand_edge& edge, const findings& result) {
             {"to", triple(edge.ends[1])}};
 }
 
+const tf::point3& meeting_place(const tf::repaired_mesh& repaired, std::uint32_t face) {
+    return repaired.surface.points[repaired.surface.faces[face][0]];
+}
+
 void enter_repair(job& work, const findings& result, const repair_settings& settings,
                   const tf::repaired_mesh& repaired, double allowed, bool to_single) {
     json open = json::array(), meeting = json::array();
     for (const auto& edge : repaired.open) open.push_back(edge_entry(edge, result));
     for (const auto& [f, g] : repaired.meeting)
-        meeting.push_back(
-            {{"faces", {f, g}},
-             {"near", triple(repaired.surface.points[repaired.surface.faces[f][0]])}});
+        meeting.push_back({{"faces", {f, g}}, {"near", triple(meeting_place(repaired, f))}});
     const tf::mesh& surface = repaired.surface;
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
     work.entry["repair"] = {
@@ -93,13 +96,19 @@ std::string objection(const findings& result, const repair_settings& settings,
                       const tf::repaired_mesh& repaired, double allowed, bool to_single) {
     if (repaired.open_count > 0)
         return "it bounds no solid: its surface ends at " +
-               counted(repaired.open_count, "edge", "edges") + ", the first at face " +
+               counted(repaired.open_count, "edge", "edges") + ", the first from " +
+               in_words(repaired.open.front().ends[0]) + " to " +
+               in_words(repaired.open.front().ends[1]) + " at face " +
                std::to_string(result.stored_face(repaired.open.front().face.index)) +
                "; --repair=split or --repair=remove do without";
     if (repaired.meeting_count > 0)
         return counted(repaired.meeting_count, "self-intersecting pair",
                        "self-intersecting pairs") +
-               (repaired.meeting_count == 1 ? " remains" : " remain");
+               (repaired.meeting_count == 1 ? " remains" : " remain") + ", the first near " +
+               in_words(meeting_place(repaired, repaired.meeting.front()[0])) +
+               (to_single && settings.mode != tf::repair_mode::remove
+                    ? "; --precision double, in a format that has it, may do"
+                    : "");
     if (!repaired.certified)
         return settings.mode == tf::repair_mode::remove ? "a hole could not be closed"
                                                         : "coordinates are too large";
@@ -110,7 +119,8 @@ std::string objection(const findings& result, const repair_settings& settings,
                (to_single ? "; --precision double may do" : "");
     if (repaired.surface.faces.empty() && !result.mesh.faces.empty())
         return settings.mode == tf::repair_mode::outer
-                   ? "nothing would be left: the faces cancel each other out and bound nothing"
+                   ? "nothing would be left: the faces cancel each other out and bound nothing; "
+                     "--repair=split keeps one of each"
                    : "nothing would be left";
     if (repaired.max_move > allowed)
         return "a point would move by " + shortest(repaired.max_move) + ", more than " +
@@ -136,9 +146,12 @@ void say_result(job& work, const repair_settings& settings, const tf::repaired_m
         text += ", rounding moved points by " + shortest(repaired.max_move) + " at most";
     work.out.result(text);
     if (repaired.lost_components > 0)
-        work.warn(
-            "lost-components",
-            counted(repaired.lost_components, "component has", "components have") + " disappeared");
+        work.warn("lost-components",
+                  counted(repaired.lost_components, "component has", "components have") +
+                      " disappeared" +
+                      (settings.mode == tf::repair_mode::split && repaired.covered > 0
+                           ? ", or all of it lies on others"
+                           : ""));
 }
 
 /// Where points of the file's mesh are those that were searched, their properties can be carried.
