@@ -2,11 +2,13 @@
 #include <libmesh/arrange/detail/cluster.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/part_of_progress.hpp>
 #include <libmesh/detail/stars.hpp>
 #include <libmesh/detail/union_find.hpp>
 #include <libmesh/exact/detail/filter.hpp>
 #include <libmesh/exact/predicates.hpp>
 #include <libmesh/intersect/detail/meetings.hpp>
+#include <libmesh/intersect/detail/pairs_by_tree.hpp>
 #include <libmesh/intersect/detail/same_points.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libtree/parallel.hpp>
@@ -27,6 +29,7 @@ namespace {
 using detail::cut_cluster;
 using detail::meeting;
 using detail::mesh_meetings;
+using detail::part_of;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t grain = std::size_t{1} << 14;
@@ -46,26 +49,38 @@ bool can_be_used(const point3& p) {
            std::abs(p.z) <= largest_coordinate;
 }
 
-/// \throws std::invalid_argument naming a corner that cannot be used
-std::vector<std::uint32_t> degenerate_faces(mesh_view mesh) {
-    std::vector<std::uint32_t> bad(chunk_count(mesh.faces.size(), grain), none);
-    std::vector<std::vector<std::uint32_t>> found(bad.size());
+/// What `arrange_faces` refuses or leaves out, chunk by chunk.
+struct unfit_faces {
+    std::vector<std::uint32_t> corner;  ///< the first that cannot be used, or none
+    std::vector<std::vector<std::uint32_t>> degenerate;
+};
+
+unfit_faces find_unfit(mesh_view mesh) {
+    unfit_faces result;
+    result.corner.resize(chunk_count(mesh.faces.size(), grain), none);
+    result.degenerate.resize(result.corner.size());
     for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         std::uint32_t unfit = none;
         for (std::size_t f = begin; f < end && unfit == none; ++f) {
             for (const std::uint32_t corner : mesh.faces[f])
                 if (unfit == none && !can_be_used(mesh.points[corner])) unfit = corner;
             if (unfit == none && is_degenerate(mesh, mesh.faces[f]))
-                found[c].push_back(static_cast<std::uint32_t>(f));
+                result.degenerate[c].push_back(static_cast<std::uint32_t>(f));
         }
-        bad[c] = unfit;
+        result.corner[c] = unfit;
     });
-    for (const std::uint32_t corner : bad)
+    return result;
+}
+
+/// \throws std::invalid_argument naming a corner that cannot be used
+std::vector<std::uint32_t> degenerate_faces(mesh_view mesh) {
+    const unfit_faces unfit = find_unfit(mesh);
+    for (const std::uint32_t corner : unfit.corner)
         if (corner != none)
             throw std::invalid_argument("tf::arrange_faces: point " + std::to_string(corner) +
                                         " is not finite or beyond 2^1000");
     std::vector<std::uint32_t> all;
-    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    for (const auto& part : unfit.degenerate) all.insert(all.end(), part.begin(), part.end());
     return all;
 }
 
@@ -341,6 +356,13 @@ arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pa
     return result;
 }
 
+arrange_faces_result cancelled_result(std::vector<std::uint32_t> degenerate) {
+    arrange_faces_result result;
+    result.degenerate = std::move(degenerate);
+    result.cancelled = true;
+    return result;
+}
+
 void copy_points(mesh_view mesh, arrange_faces_result& result) {
     if (!result.cancelled) result.cut.given_points.assign(mesh.points.begin(), mesh.points.end());
 }
@@ -374,24 +396,30 @@ arrange_faces_result detail::arrange_without_points(mesh_view mesh,
             }
         usable.faces = kept;
     }
-    self_intersection_options search;
-    const progress_callback& progress = options.progress;
-    if (progress) search.progress = [&](double done) { return progress(0.5 * done); };
-    self_intersection_result found = self_intersections(usable, search);
-    if (found.cancelled) {
-        arrange_faces_result result;
-        result.degenerate = std::move(degenerate);
-        result.cancelled = true;
-        return result;
-    }
+    self_intersection_result found =
+        self_intersections(usable, {.progress = part_of(options.progress, 0.0, 0.5)});
+    if (found.cancelled) return cancelled_result(std::move(degenerate));
     if (!degenerate.empty())
         for (face_pair& pair : found.pairs) {
             pair.a = kept_number[pair.a];
             pair.b = kept_number[pair.b];
         }
-    progress_callback rest;
-    if (progress) rest = [&](double done) { return progress(0.5 + 0.5 * done); };
-    return arrange_known(mesh, found.pairs, std::move(degenerate), rest);
+    return arrange_known(mesh, found.pairs, std::move(degenerate),
+                         part_of(options.progress, 0.5, 1.0));
+}
+
+bool detail::can_all_be_arranged(mesh_view mesh) {
+    const unfit_faces unfit = find_unfit(mesh);
+    return std::ranges::all_of(unfit.corner, [](std::uint32_t c) { return c == none; }) &&
+           std::ranges::all_of(unfit.degenerate, [](const auto& part) { return part.empty(); });
+}
+
+arrange_faces_result detail::arrange_by_tree(mesh_view mesh, tree<3> tree,
+                                             const progress_callback& progress) {
+    const self_intersection_result found =
+        pairs_by_tree(mesh, std::move(tree), {.progress = part_of(progress, 0.0, 0.5)});
+    if (found.cancelled) return cancelled_result({});
+    return arrange_known(mesh, found.pairs, {}, part_of(progress, 0.5, 1.0));
 }
 
 arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {

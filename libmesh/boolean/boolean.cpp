@@ -7,16 +7,20 @@
 #include <libmesh/boolean/detail/joined_operands.hpp>
 #include <libmesh/boolean/detail/mended_operands.hpp>
 #include <libmesh/boolean/detail/merged_faces.hpp>
+#include <libmesh/boolean/detail/operand_tree.hpp>
 #include <libmesh/boolean/detail/sound_pair.hpp>
+#include <libmesh/detail/part_of_progress.hpp>
 #include <libmesh/intersect/point_location.hpp>
 #include <libmesh/round/detail/solid_faces.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libtree/parallel.hpp>
+#include <libtree/tree.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -25,21 +29,26 @@ namespace tf {
 namespace {
 
 using detail::joined_operands;
+using detail::part_of;
 
 constexpr std::size_t grain = std::size_t{1} << 14;
 
-/// `callback` as it is told of a step that does the share from `begin` to `end` of the work.
-progress_callback part_of(const progress_callback& callback, double begin, double end) {
-    if (!callback) return {};
-    return [&callback, begin, end](double done) { return callback(begin + (end - begin) * done); };
-}
+/// Operands, joined, and their arrangement, which has taken their points; their faces stay.
+struct arranged_operands {
+    joined_operands joined;
+    arrange_faces_result arranged;
+};
 
-/// The arrangement of the operands, which takes their points; their faces stay.
-arrange_faces_result arrange_joined(joined_operands& joined, const progress_callback& progress) {
-    arrange_faces_result arranged =
-        detail::arrange_without_points(joined.all, {.progress = progress});
-    arranged.cut.given_points = std::move(joined.all.points);
-    return arranged;
+arranged_operands arrange_operands(const char* function, std::span<const mesh_view> operands,
+                                   const progress_callback& progress) {
+    detail::check_operands(function, operands);
+    std::optional<tree<3>> tree = detail::tree_of_operands(operands);
+    arranged_operands result{detail::join_operands(operands), {}};
+    mesh& all = result.joined.all;
+    result.arranged = tree ? detail::arrange_by_tree(all, *std::move(tree), progress)
+                           : detail::arrange_without_points(all, {.progress = progress});
+    result.arranged.cut.given_points = std::move(all.points);
+    return result;
 }
 
 /// What `cut` is the arrangement of.
@@ -235,8 +244,8 @@ solid_result boolean_of(std::span<const mesh_view> operands, const boolean_expre
     if (options.sound_operands && operands.size() == 2 && !options.simplify && !options.volumes)
         if (auto result = detail::boolean_of_sound_pair(operands.first<2>(), expression, options))
             return std::move(*result);
-    joined_operands joined = detail::join_operands("boolean", operands);
-    arrange_faces_result arranged = arrange_joined(joined, part_of(options.progress, 0.0, 0.5));
+    auto [joined, arranged] =
+        arrange_operands("boolean", operands, part_of(options.progress, 0.0, 0.5));
     solid_result result = with_counts(arranged);
     if (result.cancelled) return result;
     arrangement_cells cells = detail::cells_of(input_of(arranged.cut, joined), arranged.cut,
@@ -263,8 +272,8 @@ solid_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
     if (sheet >= operands.size()) throw std::invalid_argument("tf::clip: the sheet is no operand");
     if (!expression.needs(sheet))
         throw std::invalid_argument("tf::clip: the expression holds more than of the sheet");
-    joined_operands joined = detail::join_operands("clip", operands);
-    arrange_faces_result arranged = arrange_joined(joined, part_of(options.progress, 0.0, 0.5));
+    auto [joined, arranged] =
+        arrange_operands("clip", operands, part_of(options.progress, 0.0, 0.5));
     solid_result result = with_counts(arranged);
     if (result.cancelled) return result;
     mesh_arrangement& cut = arranged.cut;
@@ -286,8 +295,8 @@ solid_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
 }
 
 solid_result split_of(std::span<const mesh_view> operands, const boolean_options& options) {
-    joined_operands joined = detail::join_operands("split", operands);
-    arrange_faces_result arranged = arrange_joined(joined, part_of(options.progress, 0.0, 0.7));
+    auto [joined, arranged] =
+        arrange_operands("split", operands, part_of(options.progress, 0.0, 0.7));
     solid_result result = with_counts(arranged);
     if (result.cancelled) return result;
     std::vector<std::uint32_t> all(arranged.cut.faces.size());
@@ -322,9 +331,10 @@ solid_result split(std::span<const mesh_view> operands, const boolean_options& o
 }
 
 solid_check check_solid(mesh_view mesh, const progress_callback& progress) {
-    joined_operands joined = detail::join_operands("check_solid", {&mesh, 1});
-    if (!find_open_edge(joined.all)) return {};
-    const arrange_faces_result arranged = arrange_joined(joined, part_of(progress, 0.0, 1.0));
+    detail::check_operands("check_solid", {&mesh, 1});
+    if (!find_open_edge(detail::join_operands({&mesh, 1}).all)) return {};
+    const auto [joined, arranged] =
+        arrange_operands("check_solid", {&mesh, 1}, part_of(progress, 0.0, 1.0));
     if (arranged.cancelled) return {.cancelled = true};
     const arrangement_cells cells =
         detail::cells_of(input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), 1);

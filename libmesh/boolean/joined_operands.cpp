@@ -111,8 +111,7 @@ std::vector<std::uint32_t> joined_operands::operand_of_face() const {
     return operands;
 }
 
-joined_operands join_operands(const char* function, std::span<const mesh_view> operands) {
-    joined_operands joined;
+void check_operands(const char* function, std::span<const mesh_view> operands) {
     std::size_t points = 0, faces = 0;
     for (const mesh_view& operand : operands) {
         check_faces(function, operand.points.size(), operand.faces);
@@ -122,7 +121,15 @@ joined_operands join_operands(const char* function, std::span<const mesh_view> o
     require_nameable(function, points, "points");
     require_nameable(function, faces, "faces");
     require_nameable(function, operands.size(), "operands");
+}
 
+joined_operands join_operands(std::span<const mesh_view> operands) {
+    joined_operands joined;
+    std::size_t points = 0, faces = 0;
+    for (const mesh_view& operand : operands) {
+        points += operand.points.size();
+        faces += operand.faces.size();
+    }
     joined.all.points.resize(points);
     joined.all.faces.resize(faces);
     append_all(operands, joined);

@@ -73,9 +73,10 @@ std::vector<std::uint8_t> next_to(const std::vector<aabb<double, 3>>& broken, me
 /// The question once more, of operands joined where they are next to broken places.
 class mending {
   public:
+    /// \pre the operands have been checked
     mending(std::span<const mesh_view> operands, const boolean_options& options)
         : options_(options),
-          given_(join_operands("boolean", operands)),
+          given_(join_operands(operands)),
           operand_of_face_(given_.operand_of_face()) {
         source_.resize(given_.all.faces.size());
         std::iota(source_.begin(), source_.end(), 0U);

@@ -3,6 +3,7 @@
 #include <libmesh/detail/first_bad.hpp>
 #include <libmesh/intersect/detail/join_outputs.hpp>
 #include <libmesh/intersect/detail/pair_sieve.hpp>
+#include <libmesh/intersect/detail/pairs_by_tree.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libtree/parallel.hpp>
 #include <libtree/search_self.hpp>
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tf {
 namespace {
@@ -25,6 +27,13 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 void check(mesh_view mesh, const self_intersection_options& options) {
     detail::check_faces("self_intersections", mesh.points.size(), mesh.faces);
+    const std::size_t bad_point = detail::first_bad(mesh.points.size(), [&](std::size_t i) {
+        const point3& p = mesh.points[i];
+        return !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    });
+    if (bad_point != mesh.points.size())
+        throw std::invalid_argument("tf::self_intersections: point " + std::to_string(bad_point) +
+                                    " is not finite");
     const std::size_t labels = options.component_of_face.size();
     if (labels != mesh.faces.size() && (labels != 0 || options.between || options.within))
         throw std::invalid_argument("tf::self_intersections: " + std::to_string(labels) +
@@ -32,25 +41,12 @@ void check(mesh_view mesh, const self_intersection_options& options) {
                                     " faces");
 }
 
-/// Whether all coordinates are in the range of the filter.
-/// \throws std::invalid_argument naming a point with one that is not finite
 bool fits_filter(points_view points) {
-    const std::size_t beyond = detail::first_bad(points.size(), [&](std::size_t i) {
-        const point3& p = points[i];
-        constexpr double largest = detail::largest_filtered_coordinate;
-        const int fit = (std::abs(p.x) <= largest ? 1 : 0) + (std::abs(p.y) <= largest ? 1 : 0) +
-                        (std::abs(p.z) <= largest ? 1 : 0);
-        return fit < 3;
-    });
-    if (beyond == points.size()) return true;
-    const std::size_t bad_point = detail::first_bad(points.size(), [&](std::size_t i) {
-        const point3& p = points[i];
-        return !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
-    });
-    if (bad_point != points.size())
-        throw std::invalid_argument("tf::self_intersections: point " + std::to_string(bad_point) +
-                                    " is not finite");
-    return false;
+    return detail::first_bad(points.size(), [&](std::size_t i) {
+               const point3& p = points[i];
+               return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <=
+                        detail::largest_filtered_coordinate);
+           }) == points.size();
 }
 
 /// The faces in leaf order, so that candidates find theirs side by side.
@@ -71,15 +67,20 @@ detail::buffer<detail::numbered_face> leaf_order(mesh_view mesh, const tree<3>& 
 self_intersection_result self_intersections(mesh_view mesh,
                                             const self_intersection_options& options) {
     check(mesh, options);
-    const bool filtered = fits_filter(mesh.points);
-    self_intersection_result result;
-    const auto tree_start = std::chrono::steady_clock::now();
-    const tree<3> tree = detail::checked_face_tree(mesh);
-    result.tree_seconds = seconds_since(tree_start);
+    const auto start = std::chrono::steady_clock::now();
+    tree<3> tree = detail::checked_face_tree(mesh);
+    const double seconds = seconds_since(start);
+    self_intersection_result result = detail::pairs_by_tree(mesh, std::move(tree), options);
+    result.tree_seconds = seconds;
+    return result;
+}
 
+self_intersection_result detail::pairs_by_tree(mesh_view mesh, tree<3> tree,
+                                               const self_intersection_options& options) {
+    self_intersection_result result;
     const auto pair_start = std::chrono::steady_clock::now();
     const detail::buffer<detail::numbered_face> faces = leaf_order(mesh, tree);
-    const detail::sieve_input input{mesh.points, faces.span(), &options, filtered};
+    const detail::sieve_input input{mesh.points, faces.span(), &options, fits_filter(mesh.points)};
     const self_search<3> search(tree);
     std::vector<detail::sieve_output> found(search.chunks());
     detail::search_progress progress(options.progress, search.chunks());

@@ -5,6 +5,7 @@
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libmesh/mesh.hpp>
+#include <libtree/tree.hpp>
 
 #include <cstdint>
 #include <span>
@@ -17,6 +18,16 @@ namespace tf::detail {
 [[nodiscard]] arrange_faces_result arrange_pairs(mesh_view mesh, std::span<const face_pair> pairs,
                                                  std::vector<std::uint32_t> degenerate,
                                                  const progress_callback& progress);
+
+/// Whether `arrange_faces` refuses none of the corners and leaves none of the faces out.
+/// \pre  every corner is a point
+/// \same on any number of threads
+[[nodiscard]] bool can_all_be_arranged(mesh_view mesh);
+
+/// As `arrange_faces` of such faces, but without the `given_points`; `tree` is that of the faces,
+/// and is gone when their pairs have been found.
+[[nodiscard]] arrange_faces_result arrange_by_tree(mesh_view mesh, tree<3> tree,
+                                                   const progress_callback& progress);
 
 /// As `arrange_faces`, but without the `given_points`: for those who can move theirs there.
 [[nodiscard]] arrange_faces_result arrange_without_points(mesh_view mesh,

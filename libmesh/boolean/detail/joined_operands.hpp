@@ -26,7 +26,9 @@ struct joined_operands {
 
 /// \throws std::invalid_argument naming `function` and a face with a corner that is no point, or
 ///         for more than 2^32 - 1 points or faces
-[[nodiscard]] joined_operands join_operands(const char* function,
-                                            std::span<const mesh_view> operands);
+void check_operands(const char* function, std::span<const mesh_view> operands);
+
+/// \pre the operands have been checked
+[[nodiscard]] joined_operands join_operands(std::span<const mesh_view> operands);
 
 }  // namespace tf::detail
