@@ -37,6 +37,12 @@ struct corner_values {
 [[nodiscard]] TREEFORM_API corner_values gather(const corner_values& c,
                                                 std::span<const std::uint32_t> triangles);
 
+/// Puts those of `more` behind those of `triangles` triangles that `to` is for.
+///
+/// \pre both together have fewer rows of a kind than `corner_values::none`
+TREEFORM_API void append(corner_values& to, std::size_t triangles, const corner_values& more,
+                         std::size_t more_triangles);
+
 /// What is wrong with `c` as values of `triangles` triangles, in words; empty when nothing is.
 [[nodiscard]] TREEFORM_API std::string fault_of(const corner_values& c, std::size_t triangles);
 

@@ -378,6 +378,25 @@ class Place(CornerTest):
                 for is_there, should_be in zip(after.vn[vn], after.normal(face)):
                     self.assertLess(abs(is_there - should_be), 1e-12)
 
+    def test_a_plate_has_the_rows_and_materials_of_all(self):
+        self.put("a.obj", textured_text(box((0, 0, 0), (1, 7, 2)), head="mtllib a.mtl",
+                                        material=lambda i: ("oak", "pine")[i // 6]))
+        self.mesh("b.obj", box((0, 0, 0), (6, 1, 2)))
+        self.run_tool("arrange", "a.obj", "b.obj", "a.obj", "--size", "20,6", "-o", "out.obj",
+                      status=0)
+        mesh = self.parsed("out.obj")
+        self.assertEqual(mesh.libraries, ["a.mtl"])
+        both = ["oak"] * 6 + ["pine"] * 6
+        self.assertEqual(mesh.materials, both + [""] * 12 + both)
+        self.assertEqual(re.findall(r"(?m)^o (.*)", self.read("out.obj")), ["a", "b", "a"])
+        before = self.parsed("a.obj")
+        self.assertEqual(mesh.vt, before.vt * 2)
+        for i, face in enumerate(mesh.faces):
+            for (v, vt, vn), (_, old, _) in zip(face, before.faces[i % 12]):
+                self.assertEqual(vt, None if 12 <= i < 24 else old + len(before.vt) * (i >= 24))
+                if vn is not None:  # also of what was turned to find room
+                    self.assertEqual(mesh.vn[vn], mesh.normal(face))
+
     def test_what_is_only_shifted_has_the_same_rows(self):
         text = textured_text(box((0, 0, 5), (1, 4, 6)))
         self.put("a.obj", text.replace("vn ", "vn 0.1 0.7 0.3\nvn ", 1))

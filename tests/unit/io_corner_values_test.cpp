@@ -281,3 +281,30 @@ TEST_CASE("stl: materials alone are no solids of their own") {
     const std::string text = written(read(textured), "stl", true);
     CHECK(text.find("endsolid") == text.rfind("endsolid"));
 }
+
+TEST_CASE(
+    "corner values: what is appended names its own rows, and triangles without any are none") {
+    const tf::corner_values a{.texture = {{0, 0, 0}, {1, 0, 0}},
+                              .texture_of_corner = {{0, 1, none}}};
+    const tf::corner_values b{.texture = {{2, 0, 0.5}},
+                              .has_w = true,
+                              .normals = {{0, 0, 1}},
+                              .texture_of_corner = {{none, 0, 0}},
+                              .normal_of_corner = {{0, none, 0}}};
+    tf::corner_values all;
+    tf::append(all, 0, {}, 1);
+    CHECK(all == tf::corner_values{});
+    tf::append(all, 1, a, 1);
+    tf::append(all, 2, b, 1);
+    tf::append(all, 3, {}, 1);
+    CHECK(all.texture.size() == 3);
+    CHECK(all.has_w);
+    CHECK(all.texture_of_corner ==
+          faces{{none, none, none}, {0, 1, none}, {none, 2, 2}, {none, none, none}});
+    CHECK(all.normal_of_corner ==
+          faces{{none, none, none}, {none, none, none}, {0, none, 0}, {none, none, none}});
+    CHECK(tf::fault_of(all, 4).empty());
+    CHECK(tf::fault_of(all, 5) == "texture coordinate numbers of 4 triangles for 5");
+    all.normals.clear();
+    CHECK(tf::fault_of(all, 4) == "a corner of triangle 2 has a normal that is not there");
+}

@@ -94,8 +94,22 @@ void enter_fit(job& work, const tf::fit_result& fit) {
                     {"pivot_moved", triple(fit.pivot_moved)}};
 }
 
-/// All together, with the parts of their files; a file of one part is one with the file's name.
-/// Other properties are left out.
+/// The parts of a body's file in a scene, to be known there by the names they have, or by the
+/// file's where it has one part.
+std::vector<tf::part> parts_in_scene(const body& b, std::vector<tf::part> parts) {
+    const std::string file_name = std::filesystem::path(b.name()).stem().string();
+    const bool one = std::all_of(parts.begin(), parts.end(), [&](const tf::part& p) {
+        return p.object == parts[0].object && p.group == parts[0].group;
+    });
+    for (tf::part& p : parts)
+        if (one) p = {.object = file_name, .material = p.material, .first_face = p.first_face};
+    if (parts.empty() || parts[0].first_face > 0)
+        parts.insert(parts.begin(), {.object = file_name});
+    return parts;
+}
+
+/// All together, with the parts of their files, what their corners have and its materials. Other
+/// properties are left out.
 tf::mesh_file scene_of(const std::vector<const body*>& bodies) {
     tf::mesh_file scene;
     scene.format = bodies[0]->file->format;
@@ -105,19 +119,18 @@ tf::mesh_file scene_of(const std::vector<const body*>& bodies) {
         one.mesh = b.file->mesh;
         one.stored_face = b.file->stored_face;
         one.attributes.parts = b.file->attributes.parts;
-        if (one.attributes.parts.size() < 2) one.attributes.parts.clear();
         tf::split_polygons(one);
         const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
         const auto first_face = static_cast<std::uint32_t>(scene.mesh.faces.size());
-        auto& parts = scene.attributes.parts;
-        if (one.attributes.parts.empty() || one.attributes.parts[0].first_face > 0)
-            parts.push_back({.object = std::filesystem::path(b.name()).stem().string(),
-                             .first_face = first_face});
-        for (tf::part& p : one.attributes.parts) {
+        for (tf::part& p : parts_in_scene(b, std::move(one.attributes.parts))) {
             p.first_face += first_face;
-            p.material.clear();
-            parts.push_back(std::move(p));
+            scene.attributes.parts.push_back(std::move(p));
         }
+        tf::append(scene.attributes.corners, scene.mesh.faces.size(), b.file->attributes.corners,
+                   one.mesh.faces.size());
+        auto& names = scene.attributes.material_files;
+        for (const std::string& name : b.file->attributes.material_files)
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
         scene.mesh.points.insert(scene.mesh.points.end(), one.mesh.points.begin(),
                                  one.mesh.points.end());
         for (const tf::face& f : one.mesh.faces)

@@ -92,7 +92,8 @@ class joiner {
         leave_out_elements();
         for (tf::mesh_file& file : files_) {
             join_parts(file);
-            join_corners(file);
+            tf::append(all_.attributes.corners, all_.mesh.faces.size(), file.attributes.corners,
+                       file.mesh.faces.size());
             join_faces(file);
             file = {};
         }
@@ -229,35 +230,6 @@ class joiner {
             part.first_face += offset;
             all_.attributes.parts.push_back(std::move(part));
         }
-    }
-
-    /// \pre faces of the file have not been joined yet
-    void join_corners(const tf::mesh_file& file) {
-        tf::corner_values& to = all_.attributes.corners;
-        const tf::corner_values& from = file.attributes.corners;
-        const std::size_t before = all_.mesh.faces.size();
-        const std::size_t after = before + file.mesh.faces.size();
-        append_numbers(to.texture_of_corner, from.texture_of_corner, to.texture.size(), before,
-                       after);
-        append_numbers(to.normal_of_corner, from.normal_of_corner, to.normals.size(), before,
-                       after);
-        to.texture.insert(to.texture.end(), from.texture.begin(), from.texture.end());
-        to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
-        to.has_w = to.has_w || from.has_w;
-    }
-
-    /// Numbers of rows behind which there are `rows` of earlier files.
-    static void append_numbers(std::vector<tf::face>& to, const std::vector<tf::face>& from,
-                               std::size_t rows, std::size_t before, std::size_t after) {
-        constexpr std::uint32_t none = tf::corner_values::none;
-        if (to.empty() && from.empty()) return;
-        to.resize(before, {none, none, none});
-        for (tf::face numbers : from) {
-            for (std::uint32_t& row : numbers)
-                if (row != none) row += static_cast<std::uint32_t>(rows);
-            to.push_back(numbers);
-        }
-        to.resize(after, {none, none, none});
     }
 
     void join_faces(const tf::mesh_file& file) {
