@@ -105,10 +105,10 @@ class obj_reader {
         if ((first == 'o' || first == 'g') && one_letter) return name(first);
         if (first == 'u' && text_.starts_with("usemtl")) return name(first);
         if (first == '\0') text_.fail("a zero byte: binary data, not text");
+        if (starts_statement("mtllib")) return material_files();
         has_other_lines_ = true;
         if (starts_statement("vt")) return corners_.texture(text_);
         if (starts_statement("vn")) return corners_.normal(text_);
-        if (starts_statement("mtllib")) return material_files();
         // Anything else is left out. Where such a statement is continued, the next line starts with
         // a number and is left out in its turn.
     }
@@ -231,7 +231,7 @@ class obj_reader {
     std::set<std::string> known_material_files_{};
     bool new_part_ = false;
     std::size_t skipped_elements_ = 0;
-    bool has_other_lines_ = false;  ///< than comments, vertices, faces, elements and names
+    bool has_other_lines_ = false;  ///< than comments, vertices, faces, elements, names
     bool has_colours_ = false;
     std::vector<double> colours_{};  ///< [3 * vertices] as long as every vertex has one
 };

@@ -34,6 +34,15 @@ class Solids(BooleanTest):
         self.assertEqual(entry["output"]["exact_faces"], 0)
         self.assertIn("nothing-left", [w["code"] for w in entry["warnings"]])
 
+    def test_of_nothing_that_has_materials_a_file_of_nothing_is_written(self):
+        text = self.read(self.mesh("a.obj", cube()))
+        with open(self.path("a.mtl"), "w") as file:
+            file.write("newmtl red\nKd 1 0 0\n")
+        with open(self.path("a.obj"), "w") as file:
+            file.write("mtllib a.mtl\nusemtl red\n" + text)
+        self.assertEqual(self.made("difference", "a.obj", "a.obj")["output"]["faces"], 0)
+        self.assertEqual(self.made("union", "out.obj", name="again.obj")["output"]["faces"], 0)
+
     def test_what_a_format_is_too_coarse_for_is_no_empty_result(self):
         self.mesh("tiny.obj", ([tuple(1e-320 * x for x in p) for p in cube()[0]], cube()[1]))
         for operation in ("union", "split"):
