@@ -1,4 +1,5 @@
 #include <libmesh/io/detail/face_texture.hpp>
+#include <libmesh/io/detail/reserve.hpp>
 #include <libmesh/io/detail/vertex_columns.hpp>
 #include <libmesh/io/detail/writers.hpp>
 
@@ -9,8 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <type_traits>
-#include <utility>
+#include <span>
 #include <vector>
 
 namespace tf::detail {
@@ -24,45 +24,60 @@ using texture_point = std::array<double, 3>;
            std::bit_cast<std::array<std::uint64_t, 3>>(b);
 }
 
-/// Value `i` of the list as a double, which is written as the same bytes again.
+/// The values of the list as they are stored.
 template <class T>
-[[nodiscard]] bool keeps_bits(const column& c, std::size_t i) {
-    using bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-    bits before;
-    std::memcpy(&before, c.values.data() + i * sizeof before, sizeof before);
-    const double value = number_at(c, i);
-    // What is none is written as this NaN.
-    const T after = std::isnan(value) ? std::numeric_limits<T>::quiet_NaN() : static_cast<T>(value);
-    return std::bit_cast<bits>(after) == before;
-}
+class stored_values {
+  public:
+    explicit stored_values(const column& c) : bytes_(c.values.data()), begin_(c.list_begin) {}
 
-[[nodiscard]] bool is_none(const column& c, std::size_t i) {
-    return std::isnan(number_at(c, i)) && std::isnan(number_at(c, i + 1));
-}
+    [[nodiscard]] T at(std::size_t i) const {
+        T value;
+        std::memcpy(&value, bytes_ + i * sizeof value, sizeof value);
+        return value;
+    }
+    /// Of the list of a face.
+    [[nodiscard]] std::size_t begin(std::size_t face) const { return begin_[face]; }
+    [[nodiscard]] std::size_t end(std::size_t face) const { return begin_[face + 1]; }
+
+    /// Whether the corner whose two numbers start at `i` has none.
+    [[nodiscard]] bool is_none(std::size_t i) const {
+        return std::isnan(at(i)) && std::isnan(at(i + 1));
+    }
+    /// Whether it becomes a double and the same bytes again: of NaN, only the one that is written
+    /// for corners that have none does surely.
+    [[nodiscard]] bool keeps_bits(std::size_t i) const {
+        const T value = at(i);
+        if (!std::isnan(value)) return true;
+        constexpr T written = std::numeric_limits<T>::quiet_NaN();
+        return std::memcmp(&value, &written, sizeof value) == 0;
+    }
+
+  private:
+    const std::byte* bytes_;
+    std::span<const std::uint64_t> begin_;
+};
 
 /// Whether the list of a face of `corners` corners can be taken.
-[[nodiscard]] bool fits(const column& c, std::size_t face, std::size_t corners) {
-    const std::size_t first = c.list_begin[face];
-    const std::size_t last = c.list_begin[face + 1];
+template <class T>
+[[nodiscard]] bool fits(const stored_values<T>& values, std::size_t face, std::size_t corners) {
+    const std::size_t first = values.begin(face);
+    const std::size_t last = values.end(face);
     if (first == last) return true;
     if (last - first != 2 * corners) return false;
     bool any = false;
-    for (std::size_t i = first; i < last; ++i) {
-        const bool same =
-            c.type == scalar_type::float32 ? keeps_bits<float>(c, i) : keeps_bits<double>(c, i);
-        if (!same) return false;
-        any = any || ((i - first) % 2 == 0 && !is_none(c, i));
+    for (std::size_t i = first; i < last; i += 2) {
+        if (!values.keeps_bits(i) || !values.keeps_bits(i + 1)) return false;
+        any = any || !values.is_none(i);
     }
     return any;  // else an empty list would be written
 }
 
-[[nodiscard]] bool can_be_taken(const mesh_file& file, const column& c) {
-    if (c.role != column_role::data || !c.list_length || c.type < scalar_type::float32)
-        return false;
-    bool fit = value_count(c) / 2 < corner_values::none;
+template <class T>
+[[nodiscard]] bool all_fit(const mesh_file& file, const stored_values<T>& values) {
+    bool fit = true;
     std::size_t face = 0;
     for_each_stored_face(file, [&](std::size_t, std::span<const std::uint32_t> corners) {
-        fit = fit && fits(c, face++, corners.size());
+        fit = fit && fits(values, face++, corners.size());
     });
     return fit;
 }
@@ -87,28 +102,46 @@ class row_sharer {
     std::vector<std::uint32_t> last_;  ///< [V] that was given to a corner there
 };
 
-void take(mesh_file& file, const column& c) {
+template <class T>
+void take(mesh_file& file, const stored_values<T>& lists) {
     corner_values& values = file.attributes.corners;
     constexpr face nothing{corner_values::none, corner_values::none, corner_values::none};
+    reserve_large(values.texture_of_corner, file.mesh.faces.size());
     values.texture_of_corner.assign(file.mesh.faces.size(), nothing);
+    reserve_large(values.texture, file.mesh.points.size());
     row_sharer sharer(file.mesh.points.size(), values.texture);
     std::size_t number = 0;
     for_each_stored_face(file, [&](std::size_t first, std::span<const std::uint32_t> corners) {
-        const std::size_t begin = c.list_begin[number];
-        const bool empty = begin == c.list_begin[++number];
+        const std::size_t begin = lists.begin(number);
+        const bool empty = begin == lists.end(number++);
         std::uint32_t first_row = corner_values::none;
         std::uint32_t previous = corner_values::none;
         for (std::size_t i = 0; i < corners.size() && !empty; ++i) {
             const std::size_t at = begin + 2 * i;
             const std::uint32_t row =
-                is_none(c, at)
-                    ? corner_values::none
-                    : sharer.row_of(corners[i], {number_at(c, at), number_at(c, at + 1), 0.0});
+                lists.is_none(at) ? corner_values::none
+                                  : sharer.row_of(corners[i], {lists.at(at), lists.at(at + 1), 0});
             if (i == 0) first_row = row;
             if (i >= 2) values.texture_of_corner[first + i - 2] = {first_row, previous, row};
             previous = row;
         }
     });
+}
+
+/// Moves the values of the list, if all of them can be. Whether it did.
+template <class T>
+[[nodiscard]] bool take_if_all_fit(mesh_file& file, const column& c) {
+    const stored_values<T> lists(c);
+    if (!all_fit(file, lists)) return false;
+    take(file, lists);
+    return true;
+}
+
+[[nodiscard]] bool take_if_all_fit(mesh_file& file, const column& c) {
+    if (c.role != column_role::data || !c.list_length || value_count(c) / 2 >= corner_values::none)
+        return false;
+    if (c.type == scalar_type::float32) return take_if_all_fit<float>(file, c);
+    return c.type == scalar_type::float64 && take_if_all_fit<double>(file, c);
 }
 
 }  // namespace
@@ -118,10 +151,9 @@ void take_face_texture(mesh_file& file) {
         if (e.name != "face" || e.rows == 0) continue;
         const auto at = std::find_if(e.columns.begin(), e.columns.end(),
                                      [](const column& c) { return c.name == face_texture_name; });
-        if (at == e.columns.end() || !can_be_taken(file, *at)) continue;
-        column placeholder = declaration(*at);
-        placeholder.role = column_role::texture;
-        take(file, std::exchange(*at, std::move(placeholder)));
+        if (at == e.columns.end() || !take_if_all_fit(file, *at)) continue;
+        *at = declaration(*at);
+        at->role = column_role::texture;
     }
 }
 
