@@ -167,9 +167,16 @@ class remover {
         result_.cancelled = found.cancelled;
         if (found.cancelled) return false;
         for (const std::uint32_t f : find_defects(now()).degenerate_faces) complain(f, f);
-        for (const face_pair& pair : found.pairs) complain(pair.a, pair.b);
+        for (const face_pair& pair : found.pairs)
+            if (!is_let_be(pair)) complain(pair.a, pair.b);
         find_holes();
         return result_.meeting_count > 0 || has_hole_;
+    }
+    /// Of faces given: contact, and what meets a degenerate one, which is told of by itself.
+    [[nodiscard]] bool is_let_be(const face_pair& pair) const {
+        if (pair.a >= kept_ || pair.b >= kept_) return false;
+        return pair.kind == pair_kind::degenerate ||
+               (pair.kind == pair_kind::touching && !options_.touching);
     }
     void complain(std::uint32_t f, std::uint32_t g) {
         if (f < kept_ && g < kept_) pairs_.push_back({result_.face_of[f], result_.face_of[g]});

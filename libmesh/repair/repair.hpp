@@ -26,6 +26,9 @@ struct repair_options {
     bool to_float = false;                      ///< coordinates become floats (then widened)
     /// Of `split` and `outer`: see `boolean_options`.
     int rounding_steps = 5;
+    /// Of `remove`: faces that only touch (`pair_kind::touching`) are deleted, too. Otherwise they
+    /// stay, and touch.
+    bool touching = false;
     /// Of `remove`: how often holes are made and made wider before giving up.
     int removal_rounds = 16;
     progress_callback progress{};
@@ -40,8 +43,8 @@ struct repaired_mesh {
     double max_move = 0.0;  ///< bound of how far points were moved, in each coordinate
     /// Checked on the coordinates above: no face is degenerate, and two faces have a common corner,
     /// a common edge or nothing in common. Of `outer`, also that every edge runs as often one way
-    /// as the other and the inside is behind every face, and of `remove` that no edge of a
-    /// closed part is open.
+    /// as the other and the inside is behind every face, and of `remove` that no edge of a closed
+    /// part is open; there, what touched may touch (`repair_options::touching`).
     bool certified = false;
     /// Pairs of faces that still meet, at most 100; twice the same face where it is degenerate.
     std::vector<std::array<std::uint32_t, 2>> meeting{};

@@ -233,13 +233,35 @@ TEST_CASE("repair: of random sheets, what is removed never leaves faces that mee
     test::random source(6);
     for (int i = 0; i < 30; ++i) {
         CAPTURE(i);
-        tf::mesh mesh = i % 3 == 0   ? test::random_soup(source, 40, 0.4)
-                        : i % 3 == 1 ? tf::join_equal_points(test::lattice_soup(source, 30, 20, 3))
-                                     : test::fan(source, 30);
-        const auto result = tf::repair(mesh, {.mode = mode::remove});
-        if (!result.certified) continue;
-        CHECK(tf::self_intersections(result.surface).pairs.empty());
+        const tf::mesh mesh = i % 3 == 0 ? test::random_soup(source, 40, 0.4)
+                              : i % 3 == 1
+                                  ? tf::join_equal_points(test::lattice_soup(source, 30, 20, 3))
+                                  : test::fan(source, 30);
+        for (const bool touching : {false, true}) {
+            const auto result = tf::repair(mesh, {.mode = mode::remove, .touching = touching});
+            if (!result.certified) continue;
+            for (const tf::face_pair& pair : tf::self_intersections(result.surface).pairs) {
+                CHECK(!touching);
+                CHECK(pair.kind == tf::pair_kind::touching);
+                CHECK(result.face_of[pair.a] != tf::repaired_mesh::none);
+                CHECK(result.face_of[pair.b] != tf::repaired_mesh::none);
+            }
+        }
     }
+}
+
+TEST_CASE("repair: faces that only touch are deleted on request") {
+    const tf::mesh wall = test::moved(test::turned(test::grid(4), {1, 0, 0}, 1.5), {0.5, 2.0, 0.0});
+    tf::mesh mesh = test::together(test::grid(5), wall);
+    for (tf::point3& p : mesh.points) p.z = std::max(p.z, 0.0);
+    const auto found = tf::self_intersections(mesh);
+    REQUIRE(!found.pairs.empty());
+    for (const tf::face_pair& pair : found.pairs) REQUIRE(pair.kind == tf::pair_kind::touching);
+    CHECK(tf::repair(mesh, {.mode = mode::remove}).surface == mesh);
+    const auto result = tf::repair(mesh, {.mode = mode::remove, .touching = true});
+    CHECK(result.certified);
+    CHECK(result.removed > 0);
+    CHECK(tf::self_intersections(result.surface).pairs.empty());
 }
 
 TEST_CASE("repair: of each pair one face is chosen, that in the most pairs first") {

@@ -135,8 +135,9 @@ const char* const epilogue =
     "closed surface, however it overlaps; it keeps what the surface winds around.\n"
     "remove is for open sheets and scans: it is local, and keeps no volume. A hole\n"
     "that cannot be filled becomes wider; in a surface with a border it stays, as\n"
-    "small as can be, where that does not help. Faces that meet nothing stay bit for\n"
-    "bit, but where rounding next to them was mended.\n"
+    "small as can be, where that does not help. Faces that only touch are deleted\n"
+    "with --touching. Faces that meet nothing stay bit for bit, but where rounding\n"
+    "next to them was mended.\n"
     "\n"
     "Examples:\n"
     "  tf-selfintersect part.stl --curves where.obj\n"
@@ -213,6 +214,7 @@ tools::repair_settings repair_settings_of(const request& r) {
     tools::repair_settings settings = *r.repair;
     settings.max_move = r.max_move ? *r.max_move : tools::parse_distance("--max-move", "0.1%");
     settings.keep_components = r.keep_components;
+    settings.touching = r.search.touching;
     return settings;
 }
 

@@ -28,6 +28,7 @@ tf::repaired_mesh compute(job& work, const findings& result, const repair_settin
     const auto timing = work.time("repair");
     tf::repair_options options;
     options.mode = settings.mode;
+    options.touching = settings.touching;
     options.to_float = to_single;
     options.progress = work.progress("repair");
     tf::repaired_mesh repaired = tf::repair(result.mesh, options);

@@ -15,6 +15,7 @@ struct repair_settings {
     tf::repair_mode mode = tf::repair_mode::outer;
     distance max_move{};  ///< no point may move further
     bool keep_components = false;
+    bool touching = false;  ///< faces that only touch are to be resolved, too
 };
 
 [[nodiscard]] const char* name_of(tf::repair_mode mode);
