@@ -1,7 +1,7 @@
 #include <libmesh/round/detail/near_edges.hpp>
 
 #include <algorithm>
-#include <tuple>
+#include <cstdint>
 
 namespace tf::detail {
 
@@ -13,12 +13,13 @@ near_edges::near_edges(mesh_view surface, std::span<const std::uint32_t> faces)
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t a = f[i], b = f[i == 2 ? 0 : i + 1];
             const std::uint32_t low = std::min(a, b);
-            parts_[low % parts_.size()].push_back({low, std::max(a, b), place, a < b ? 1 : -1});
+            const std::uint64_t edge = std::uint64_t{low} << 32 | std::max(a, b);
+            parts_[low % parts_.size()].push_back({edge, place, a < b ? 1 : -1});
         }
     }
     for_chunks(parts_.size(), 1, [&](std::size_t part, std::size_t, std::size_t) {
         std::sort(parts_[part].begin(), parts_[part].end(), [](const use& x, const use& y) {
-            return std::tie(x.low, x.high, x.place) < std::tie(y.low, y.high, y.place);
+            return x.edge != y.edge ? x.edge < y.edge : x.place < y.place;
         });
     });
 }

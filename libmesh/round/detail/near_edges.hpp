@@ -18,11 +18,9 @@ namespace tf::detail {
 class near_edges {
   public:
     struct use {
-        std::uint32_t low, high;  ///< ends, the lower first
-        std::uint32_t place;      ///< of the face among those chosen
-        int way;                  ///< 1 when the face runs from `low` to `high`, else -1
-
-        [[nodiscard]] bool same_edge(const use& u) const { return low == u.low && high == u.high; }
+        std::uint64_t edge;   ///< its ends, the lower in front, as one number
+        std::uint32_t place;  ///< of the face among those chosen
+        int way;              ///< 1 when the face runs from the lower end to the higher, else -1
     };
 
     /// `faces` are numbers of faces of the surface. Both outlive this.
@@ -36,7 +34,7 @@ class near_edges {
         for_chunks(parts_.size(), 1, [&](std::size_t part, std::size_t, std::size_t) {
             const std::span<const use> uses = parts_[part];
             for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-                while (end < uses.size() && uses[end].same_edge(uses[begin])) ++end;
+                while (end < uses.size() && uses[end].edge == uses[begin].edge) ++end;
                 visit(uses.subspan(begin, end - begin));
             }
         });
