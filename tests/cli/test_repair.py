@@ -59,6 +59,8 @@ class Repair(ToolTest):
         self.no_pairs("out.stl")
         entry = self.repaired(part, "--repair", "-o", "out.ply")
         self.assertLess(entry["repair"]["max_move"]["largest"], 1e-15)
+        entry = self.repaired(part, "--repair", "-n", "--precision", "float")
+        self.assertEqual(entry["repair"]["precision_out"], "float")
 
     def test_a_surface_that_ends_has_no_outer_side(self):
         points, faces = TWO_CUBES
@@ -107,6 +109,7 @@ class Repair(ToolTest):
         part = write(self.path("part.obj"), together((points, faces), (points, inside_out)))
         run = self.run_tool(part, "--repair", "-o", "out.stl", status=1)
         self.assertIn("nothing would be left", run.text)
+        self.assertIn("--repair=split keeps one of each", run.text)
         self.assertEqual(self.listing(), ["part.obj"])
         self.run_tool(part, "--repair=split", "-o", "one.obj", status=0)
         self.assertEqual(len(obj_mesh(self.read("one.obj"))[1]), 12)

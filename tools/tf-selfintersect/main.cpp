@@ -174,8 +174,8 @@ void check_request(const command_line& line, const request& r, common_options& o
     if (!r.repair) options.mesh_formats = {"ply", "glb"};  // that can hold marks
     if (!options.output.empty()) static_cast<void>(tools::mesh_format(options, options.output));
     if (!tools::wants_mesh(options)) {
-        if (options.ascii || options.binary || options.precision != "keep" ||
-            !options.output_format.empty())
+        if (options.ascii || options.binary || !options.output_format.empty() ||
+            (options.precision != "keep" && !r.repair))
             refuse("--output-format, --ascii, --binary and --precision need -o or --output-dir");
         if (options.dry_run && !r.repair) refuse("-n needs -o or --output-dir, or --repair");
     }

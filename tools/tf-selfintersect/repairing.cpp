@@ -119,10 +119,11 @@ std::string objection(const findings& result, const repair_settings& settings,
                (to_single ? "float32" : "double") + " numbers tell apart there" +
                (to_single ? "; --precision double may do" : "");
     if (repaired.surface.faces.empty() && !result.mesh.faces.empty())
-        return settings.mode == tf::repair_mode::outer
-                   ? "nothing would be left: the faces cancel each other out and bound nothing; "
-                     "--repair=split keeps one of each"
-                   : "nothing would be left";
+        return std::string("nothing would be left") +
+               (settings.mode == tf::repair_mode::outer
+                    ? ": the faces cancel each other out and bound nothing"
+                    : "") +
+               "; --repair=split keeps one of each";
     if (repaired.max_move > allowed)
         return "a point would move by " + shortest(repaired.max_move) + ", more than " +
                shortest(allowed) + " (--max-move)";
