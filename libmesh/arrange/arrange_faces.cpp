@@ -1,6 +1,7 @@
 #include <libmesh/arrange/detail/arrange_pairs.hpp>
 #include <libmesh/arrange/detail/cluster.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/detail/at_once.hpp>
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/detail/part_of_progress.hpp>
 #include <libmesh/detail/stars.hpp>
@@ -226,11 +227,10 @@ class emitter {
     }
 
     void write(mesh_arrangement& out) const {
-        const auto [faces, covers] = begin_.back();
-        out.faces.resize(faces);
-        out.cover_begin.resize(faces + 1);
-        out.covers.resize(covers);
-        out.whole.resize(faces);
+        const std::size_t faces = begin_.back().face, covers = begin_.back().cover;
+        detail::at_once([&] { out.faces.resize(faces); },
+                        [&] { out.cover_begin.resize(faces + 1); },
+                        [&] { out.covers.resize(covers); }, [&] { out.whole.resize(faces); });
         for_chunks(mesh_.faces.size(), grain,
                    [&](std::size_t begin, std::size_t end, std::size_t c) {
                        write(begin, end, begin_[c], out);

@@ -9,6 +9,7 @@
 #include <libmesh/boolean/detail/merged_faces.hpp>
 #include <libmesh/boolean/detail/operand_tree.hpp>
 #include <libmesh/boolean/detail/sound_pair.hpp>
+#include <libmesh/detail/at_once.hpp>
 #include <libmesh/detail/part_of_progress.hpp>
 #include <libmesh/intersect/point_location.hpp>
 #include <libmesh/round/detail/solid_faces.hpp>
@@ -146,12 +147,12 @@ void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact
     result.broken = std::move(r.broken);
     result.lost_parts = r.lost_parts;
     result.lost_places = std::move(r.lost_places);
-    result.source_face.resize(r.face_of.size());
+    detail::at_once([&] { result.source_face.resize(r.face_of.size()); },
+                    [&] { result.source_point.resize(r.point_of.size()); });
     for_chunks(r.face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
             result.source_face[f] = joined.face_source(face_of[r.face_of[f]]);
     });
-    result.source_point.resize(r.point_of.size());
     for_chunks(r.point_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t p = begin; p < end; ++p)
             if (r.point_of[p] < given) result.source_point[p] = joined.point_source(r.point_of[p]);

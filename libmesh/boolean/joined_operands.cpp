@@ -1,4 +1,5 @@
 #include <libmesh/boolean/detail/joined_operands.hpp>
+#include <libmesh/detail/at_once.hpp>
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/detail/used_points.hpp>
 #include <libmesh/weld/detail/few_equal_points.hpp>
@@ -130,8 +131,7 @@ joined_operands join_operands(std::span<const mesh_view> operands) {
         points += operand.points.size();
         faces += operand.faces.size();
     }
-    joined.all.points.resize(points);
-    joined.all.faces.resize(faces);
+    at_once([&] { joined.all.points.resize(points); }, [&] { joined.all.faces.resize(faces); });
     append_all(operands, joined);
     keep_used(joined);
     join_equal(joined);

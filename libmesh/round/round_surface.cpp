@@ -1,5 +1,6 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/detail/at_once.hpp>
 #include <libmesh/detail/compact.hpp>
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/detail/stars.hpp>
@@ -147,8 +148,9 @@ class rounding {
     /// Equal points become one, under the number of the lowest of them; faces that repeat a corner
     /// then go: what is left of them runs back and forth. Whether there were any.
     bool join_equal(const std::vector<std::uint32_t>& points, std::vector<point3> at) {
-        std::vector<std::uint32_t> new_of_old(point_of_.size(), 0);
-        std::vector<std::uint32_t> point_of(points.size());
+        std::vector<std::uint32_t> new_of_old, point_of;
+        detail::at_once([&] { new_of_old.resize(point_of_.size()); },
+                        [&] { point_of.resize(points.size()); });
         const auto equal = detail::few_equal_points(at);
         for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -186,9 +188,8 @@ class rounding {
             exact.size(),
             [&](std::size_t f) { return !joined || detail::has_three_corners(renumbered(f)); },
             [&](std::size_t count) {
-                now.faces.resize(count);
-                face_of.resize(count);
-                sound_.resize(exact_.sound.empty() ? 0 : count);
+                detail::at_once([&] { now.faces.resize(count); }, [&] { face_of.resize(count); },
+                                [&] { sound_.resize(exact_.sound.empty() ? 0 : count); });
             },
             [&](std::size_t f, std::size_t place) {
                 now.faces[place] = renumbered(f);

@@ -1,3 +1,4 @@
+#include <libmesh/detail/at_once.hpp>
 #include <libmesh/detail/compact.hpp>
 #include <libmesh/round/detail/solid_faces.hpp>
 
@@ -15,8 +16,7 @@ solid_faces faces_around(const mesh_arrangement& cut, const arrangement_cells& c
             return inside[front] != inside[behind];
         },
         [&](std::size_t count) {
-            result.faces.resize(count);
-            result.face_of.resize(count);
+            at_once([&] { result.faces.resize(count); }, [&] { result.face_of.resize(count); });
         },
         [&](std::size_t f, std::size_t place) {
             const auto [a, b, c] = cut.faces[f];
