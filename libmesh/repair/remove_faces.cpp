@@ -95,13 +95,36 @@ class remover {
             for_neighbors(f, [&](std::uint32_t g) { parts.join(f, g); });
         part_of_.resize(count);
         for (std::uint32_t f = 0; f < count; ++f) part_of_[f] = parts.root(f);
+        drop_copies();
+        build();
         std::vector<std::uint8_t> ends(count, 0);
-        for (std::uint32_t f = 0; f < count; ++f)
-            for_edges(given_.faces[f], [&](std::uint32_t u, std::uint32_t v) {
-                if (!edges_.has(v, u)) ends[part_of_[f]] = 1;
+        const directed_edges edges(now_);
+        for (std::size_t i = 0; i < now_.size(); ++i)
+            for_edges(now_[i], [&](std::uint32_t u, std::uint32_t v) {
+                if (!edges.has(v, u)) ends[part_of_[result_.face_of[i]]] = 1;
             });
         is_closed_.resize(count);
         for (std::uint32_t f = 0; f < count; ++f) is_closed_[f] = ends[part_of_[f]] == 0;
+    }
+
+    /// Of a part that lies on itself altogether, as a sheet with a back, one copy of each face
+    /// stays.
+    void drop_copies() {
+        std::vector<std::pair<face, std::uint32_t>> faces;  // corners ascending
+        for (std::uint32_t f = 0; f < given_.faces.size(); ++f) {
+            faces.push_back({given_.faces[f], f});
+            std::ranges::sort(faces.back().first);
+        }
+        std::ranges::sort(faces);
+        const auto same = [&](std::size_t i, std::size_t j) {
+            return j < faces.size() && faces[i].first == faces[j].first;
+        };
+        std::vector<std::uint8_t> has_single(faces.size(), 0);  // by part
+        for (std::size_t i = 0; i < faces.size(); ++i)
+            if (!same(i, i - 1) && !same(i, i + 1)) has_single[part_of_[faces[i].second]] = 1;
+        for (std::size_t i = 1; i < faces.size(); ++i)
+            if (const std::uint32_t f = faces[i].second; same(i, i - 1) && !has_single[part_of_[f]])
+                fates_[f] = fate::gone;
     }
 
     /// The faces that stay, and those that fill the holes of patches.

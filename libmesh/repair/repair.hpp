@@ -71,7 +71,8 @@ struct repaired_mesh {
 /// its rim, up to where the mesh ended. Where these meet something, the hole becomes wider. In a
 /// part, of faces linked by edges, that has a border, holes stay open (`left_open`) where even that
 /// does not help; then few faces go, of each pair that meets one. Closed parts that parts with a
-/// border pass through stay as they are.
+/// border pass through stay as they are. Of parts whose every face has a copy, as of a sheet with a
+/// back, one copy stays.
 ///
 /// \throws std::invalid_argument as `boolean`
 /// \cost   as `boolean`; of `remove` a `self_intersections` a round, and O(n^3) for a hole of n <=

@@ -229,6 +229,22 @@ TEST_CASE("repair: of faces on each other one is left, and of a face and its bac
     CHECK(without.surface == test::ball(1, 1.0));
 }
 
+TEST_CASE("repair: of a sheet with a back, or a solid twice, one copy is left") {
+    const tf::mesh sheet = test::grid(4), ball = test::ball(2, 1.0);
+    for (const bool closed : {false, true}) {
+        const tf::mesh one = closed ? ball : sheet;
+        for (const tf::mesh& other : {one, test::inside_out(one)}) {
+            tf::mesh both = one;
+            both.faces.insert(both.faces.end(), other.faces.begin(), other.faces.end());
+            const auto result = tf::repair(both, {.mode = mode::remove});
+            CHECK(result.certified);
+            CHECK(result.surface == one);
+            CHECK(result.removed == one.faces.size());
+            CHECK(result.left_open == (closed || other == one ? 0 : 16));
+        }
+    }
+}
+
 TEST_CASE("repair: of random sheets, what is removed never leaves faces that meet") {
     test::random source(6);
     for (int i = 0; i < 30; ++i) {
