@@ -77,7 +77,8 @@ void repair_in_all_ways(const tf::mesh& mesh, const std::string& file,
         for (const bool to_float : {false, true}) {
             const std::string what = file + name + (to_float ? " in floats" : " in doubles");
             CAPTURE(what);
-            const auto result = tf::repair(mesh, {.mode = mode, .to_float = to_float});
+            const auto result =
+                tf::repair(mesh, {.mode = mode, .to_float = to_float, .touching = true});
             if (result.open_count > 0) continue;            // bounds nothing, and is told so
             if (!std::isfinite(result.max_move)) continue;  // beyond the range of float
             look_at(result, mode == tf::repair_mode::outer, to_float);
