@@ -157,6 +157,7 @@ class writing {
     write_result run(detail::sink& out) {
         writer_({.file = file_, .options = options_, .result = result_, .out = out});
         warn_of_corner_values();
+        warn_of_materials();
         out.flush();
         return std::move(result_);
     }
@@ -164,16 +165,31 @@ class writing {
   private:
     void warn_of_corner_values() {
         const corner_values& corners = file_.attributes.corners;
-        const bool loses_normals = !corners.normal_of_corner.empty() && format_.extension != "obj";
-        const bool loses_texture = !corners.texture_of_corner.empty() &&
-                                   format_.extension != "obj" && format_.extension != "ply";
-        if (!loses_normals && !loses_texture) return;
-        const char* const what = !loses_texture   ? "normals"
-                                 : !loses_normals ? "texture coordinates"
-                                                  : "texture coordinates and normals";
-        result_.warnings.push_back({"corner-values", std::string(what) + " of corners left out: " +
-                                                         std::string(format_.extension) +
-                                                         " does not hold them"});
+        if (format_.extension == "obj") return;
+        std::string lost;
+        if (!corners.texture_of_corner.empty()) {
+            const bool has_w = std::any_of(corners.texture.begin(), corners.texture.end(),
+                                           [](const auto& row) { return row[2] != 0.0; });
+            if (format_.extension != "ply")
+                lost = "texture coordinates";
+            else if (has_w)
+                lost = "w of texture coordinates";
+        }
+        if (!corners.normal_of_corner.empty()) lost += lost.empty() ? "normals" : " and normals";
+        if (!lost.empty()) warn_of_loss("corner-values", lost + " of corners");
+    }
+
+    void warn_of_materials() {
+        const auto& parts = file_.attributes.parts;
+        if (format_.extension != "obj" &&
+            std::any_of(parts.begin(), parts.end(),
+                        [](const part& p) { return !p.material.empty(); }))
+            warn_of_loss("materials", "materials");
+    }
+
+    void warn_of_loss(const char* code, const std::string& what) {
+        result_.warnings.push_back(
+            {code, what + " left out: " + std::string(format_.extension) + " does not hold them"});
     }
 
     const mesh_file& file_;

@@ -53,13 +53,20 @@ class row_numbers {
     const std::vector<face>& fans_;
 };
 
+void put_name(sink& out, std::string_view keyword, const std::string& name) {
+    out.put(keyword);
+    out.put(' ');
+    out.put(one_line(name));
+    out.put('\n');
+}
+
 /// The names that differ from those in force.
 void put_names(sink& out, const part& now, const part& before) {
-    if (now.object != before.object) out.put("o " + now.object + '\n');
+    if (now.object != before.object) put_name(out, "o", now.object);
     // A new object has no group until one is named.
     if (now.group != (now.object != before.object ? std::string() : before.group))
-        out.put("g " + now.group + '\n');
-    if (now.material != before.material) out.put("usemtl " + now.material + '\n');
+        put_name(out, "g", now.group);
+    if (now.material != before.material) put_name(out, "usemtl", now.material);
 }
 
 }  // namespace
@@ -68,7 +75,7 @@ void write_obj(const write_job& job) {
     // A file of no bytes would be taken for one that was cut off.
     if (job.file.mesh.points.empty()) job.out.put("# no vertices\n");
     for (const std::string& name : job.file.attributes.material_files)
-        job.out.put("mtllib " + name + '\n');
+        put_name(job.out, "mtllib", name);
     put_vertices(job);
     const corner_values& values = job.file.attributes.corners;
     put_corner_values(job.out, values);

@@ -120,6 +120,13 @@ class ply_writer {
         for (std::size_t i = 0; source != nullptr && i < source->columns.size(); ++i) {
             const column& c = source->columns[i];
             if (c.role == column_role::texture && !has_texture) continue;
+            if (c.role == column_role::data && has_texture && c.name == face_texture_name) {
+                job_.result.warnings.push_back(
+                    {"corner-values", "list " + c.name +
+                                          " of faces left out: texture coordinates "
+                                          "of corners have its name"});
+                continue;
+            }
             e.columns.push_back(declaration(c));
             face_values_.push_back(&c);
         }
@@ -133,7 +140,7 @@ class ply_writer {
                     .type = scalar_type::int32,
                     .list_length = scalar_type::uint8,
                     .role = column_role::corners});
-        if (has_texture && find_column(e, face_texture_name) == nullptr)
+        if (has_texture && with_role(e, column_role::texture) == nullptr)
             add(e.columns.size(), {.name = std::string(face_texture_name),
                                    .type = scalar_type::float32,
                                    .list_length = scalar_type::uint8,
@@ -164,11 +171,10 @@ class ply_writer {
         out.put('\n');
     }
 
-    void put_remark(std::string_view keyword, std::string line) {
-        std::replace_if(line.begin(), line.end(), is_newline, ' ');
+    void put_remark(std::string_view keyword, const std::string& line) {
         job_.out.put(keyword);
         job_.out.put(' ');
-        job_.out.put(line);
+        job_.out.put(one_line(line));
         job_.out.put('\n');
     }
 

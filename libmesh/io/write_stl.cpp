@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 namespace tf::detail {
 
@@ -85,30 +87,26 @@ void write_stl_binary(const write_job& job) {
 void write_stl_text(const write_job& job) {
     const mesh_file& file = job.file;
     const auto& parts = file.attributes.parts;
-    std::size_t next_part = 0;
-    std::string name;
-    const auto open = [&] {
-        if (next_part < parts.size()) name = parts[next_part++].object;
-        job.out.put(name.empty() ? "solid" : "solid " + name);
+    // Faces ahead of the first part have no name.
+    std::size_t next_part = !parts.empty() && parts[0].first_face == 0 ? 1 : 0;
+    part now = next_part > 0 ? parts[0] : part{};
+    const auto put_name = [&](std::string_view keyword) {
+        job.out.put(keyword);
+        if (!now.object.empty()) job.out.put(' ' + one_line(now.object));
         job.out.put('\n');
     };
-    const auto close = [&] {
-        job.out.put(name.empty() ? "endsolid" : "endsolid " + name);
-        job.out.put('\n');
-    };
-    open();
+    put_name("solid");
     for (std::size_t f = 0; f < file.mesh.faces.size(); ++f) {
-        while (next_part < parts.size() && parts[next_part].first_face <= face_row(file, f)) {
-            if (next_part > 0 && differ_in_material_alone(parts[next_part - 1], parts[next_part])) {
-                ++next_part;
-                continue;
-            }
-            close();
-            open();
+        for (; next_part < parts.size() && parts[next_part].first_face <= face_row(file, f);
+             ++next_part) {
+            const bool goes_on = differ_in_material_alone(now, parts[next_part]);
+            if (!goes_on) put_name("endsolid");
+            now = parts[next_part];
+            if (!goes_on) put_name("solid");
         }
         text_facet(job, file.mesh.faces[f]);
     }
-    close();
+    put_name("endsolid");
 }
 
 }  // namespace tf::detail

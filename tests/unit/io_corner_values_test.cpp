@@ -223,6 +223,15 @@ TEST_CASE("ply: texture coordinates that the file does not have any more leave n
     CHECK(written(file, "ply", true).find("\n5 3 0 1 2 9\n") != std::string::npos);
 }
 
+TEST_CASE("ply: what corners have is written once where a list of faces has its name") {
+    const char* const bad = "5 3 0 1 2 3 0 0 1 9\n6 4 0 2 3 1 0 8\n";
+    tf::mesh_file file = read(ply_of("float", bad), "a.ply");
+    file.attributes.corners = read(ply_of("float", lists), "a.ply").attributes.corners;
+    const std::string text = written(file, "ply", true);
+    CHECK(text.find("texcoord") == text.rfind("texcoord"));
+    CHECK(read(text, "a.ply").attributes.corners == file.attributes.corners);
+}
+
 TEST_CASE("ply: texture coordinates of a polygon of 200 corners widen the length of the list") {
     std::string text = "vt 0.5 0.25\n";
     std::string face = "f";
@@ -259,6 +268,27 @@ TEST_CASE("writing: formats that do not hold what corners have say so once") {
     CHECK(warnings(only_texture, "stl") ==
           list{"texture coordinates of corners left out: stl does not hold them"});
     CHECK(warnings(square + rows + "f 1 2 3\n", "stl").empty());
+    CHECK(warnings(square + "vt 0 0 0.5\nf 1/1 2/1 3/1\n", "ply") ==
+          list{"w of texture coordinates of corners left out: ply does not hold them"});
+    CHECK(warnings(square + "vt 0 0 0\nf 1/1 2/1 3/1\n", "ply").empty());
+}
+
+TEST_CASE("writing: formats that do not hold materials say so") {
+    const auto codes = [](std::string_view text, const char* format) {
+        std::vector<std::string> all;
+        const auto path = std::filesystem::temp_directory_path() /
+                          ("io_corner_values_test_materials." + std::string(format));
+        for (const auto& w : tf::write_mesh(path, read(text), {}).warnings) all.push_back(w.code);
+        std::filesystem::remove(path);
+        return all;
+    };
+    const std::string face = square + "f 1 2 3\n";
+    for (const char* const format : {"ply", "stl", "off", "glb"}) {
+        CAPTURE(format);
+        CHECK(codes("usemtl oak\n" + face, format) == std::vector<std::string>{"materials"});
+        CHECK(codes("mtllib none.mtl\no oak\ng oak\nusemtl\n" + face, format).empty());
+    }
+    CHECK(codes("usemtl oak\n" + face, "obj").empty());
 }
 
 TEST_CASE("writing: numbers of corners that are no rows are refused") {
@@ -278,8 +308,30 @@ TEST_CASE("writing: numbers of corners that are no rows are refused") {
 }
 
 TEST_CASE("stl: materials alone are no solids of their own") {
-    const std::string text = written(read(textured), "stl", true);
-    CHECK(text.find("endsolid") == text.rfind("endsolid"));
+    for (const std::string& text : {textured, square + "f 1 2 3\nusemtl oak\nf 3 2 1\n"}) {
+        const std::string stl = written(read(text), "stl", true);
+        CHECK(stl.find("endsolid") == stl.rfind("endsolid"));
+    }
+}
+
+TEST_CASE("stl: faces ahead of the first name have none") {
+    const tf::mesh_file file = read(square + "f 1 2 3\no later\nf 1 3 4\nf 2 3 4\n");
+    const auto parts = read(written(file, "stl", true), "a.stl").attributes.parts;
+    CHECK(parts == std::vector<tf::part>{{.first_face = 0}, {.object = "later", .first_face = 1}});
+}
+
+TEST_CASE("writing: no name makes lines of its own") {
+    tf::mesh_file file = read(square + "f 1 2 3\n");
+    const std::string name = "a\nv 9 9 9\r\nf 1 2 5";
+    file.attributes.parts = {{.object = name, .group = name, .material = name}};
+    file.attributes.material_files = {name};
+    const tf::mesh_file again = read(written(file, "obj"));
+    CHECK(again.mesh == file.mesh);
+    const std::string flat = "a v 9 9 9  f 1 2 5";
+    CHECK(again.attributes.parts == std::vector<tf::part>{{flat, flat, flat}});
+    CHECK(again.attributes.material_files == std::vector<std::string>{flat});
+    const auto parts = read(written(file, "stl", true), "a.stl").attributes.parts;
+    CHECK(parts == std::vector<tf::part>{{.object = flat}});
 }
 
 TEST_CASE(

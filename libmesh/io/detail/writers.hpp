@@ -3,6 +3,7 @@
 /// The writer of each format, and what they share.
 
 #include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/io/detail/number.hpp>
 #include <libmesh/io/detail/sink.hpp>
 #include <libmesh/io/write.hpp>
 
@@ -95,6 +96,13 @@ void for_each_stored_face(const mesh_file& file, F&& f) {
         f(first, std::span<const std::uint32_t>(corners));
         first = next;
     }
+}
+
+/// A name or remark as it can stand in one line: with blanks for newlines, which names in a scene
+/// may have, and which would make the rest of it a statement.
+[[nodiscard]] inline std::string one_line(std::string text) {
+    std::replace_if(text.begin(), text.end(), is_newline, ' ');
+    return text;
 }
 
 /// Where corner `corner` of a polygon is in its fan: which triangle, which of its corners.
