@@ -226,6 +226,11 @@ class Booleans(CornerTest):
                 self.assertEqual(material, "steel")
             else:  # the first six faces of a box look along z and down y
                 self.assertEqual(material, "oak" if normal[2] or normal[1] < 0 else "pine")
+        # So are names that are whole on another system.
+        self.put("sub/c.obj", "mtllib C:\\x\\c.mtl\nmtllib \\\\host\\d.mtl\n" +
+                 textured_text(box((0, 0, 0), (2, 2, 2))))
+        self.run_tool("union", "sub/c.obj", "-o", "made/c.obj", status=0)
+        self.assertEqual(self.parsed("made/c.obj").libraries, ["C:\\x\\c.mtl", "\\\\host\\d.mtl"])
         # In the folder of the input the name is as it was; to a stream it is as given.
         self.run_tool("union", "sub/a.obj", "-o", "sub/out.obj", status=0)
         self.assertEqual(self.parsed("sub/out.obj").libraries, ["a.mtl"])
@@ -361,6 +366,29 @@ class Weld(CornerTest):
                          ["3 0 1 2 6 0 0 1 0 2 2", "3 0 2 3 6 0 0 3 3 0 1", "3 3 2 0 6 0 1 1 1 0 0"])
 
 
+    def test_joined_wedge_coordinates_lose_no_digits_and_stand_once(self):
+        head = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                "property list uchar %s texcoord\nend_header\n0 0 %d\n1 0 %d\n1 1 %d\n3 0 1 2 %s\n")
+        kinds = {"single": ("float", "6 0 0 1 0 1 1"), "double": ("double", "6 0.1 0 1e-300 0 1 1"),
+                 "odd": ("float", "4 0 0 1 0")}
+        for i, (name, (type, values)) in enumerate(kinds.items()):
+            self.put(name + ".ply", head % (type, i, i, i, values))
+        for first, second in (("single", "double"), ("double", "single")):
+            self.run_tool(first + ".ply", second + ".ply", "--join", "--ascii", "-f", "-o",
+                          "out.ply", status=0)
+            text = self.read("out.ply")
+            self.assertIn("property list uchar double texcoord", text)
+            self.assertIn(" " + kinds["double"][1] + "\n", text)
+            self.assertIn(" " + kinds["single"][1] + "\n", text)
+        for first, second in (("single", "odd"), ("odd", "single")):
+            codes = self.warnings(first + ".ply", second + ".ply", "--join", "--ascii", "-f", "-o",
+                                  "out.ply")
+            self.assertEqual(codes, ["corner-values"])
+            self.assertEqual(self.read("out.ply").count("texcoord"), 1)
+            self.assertIn(" " + kinds["single"][1] + "\n", self.read("out.ply"))
+
+
 class Place(CornerTest):
     tool = PLACE
 
@@ -396,6 +424,13 @@ class Place(CornerTest):
                 self.assertEqual(vt, None if 12 <= i < 24 else old + len(before.vt) * (i >= 24))
                 if vn is not None:  # also of what was turned to find room
                     self.assertEqual(mesh.vn[vn], mesh.normal(face))
+
+    def test_a_body_of_one_name_is_one_solid(self):
+        text = textured_text(box((0, 0, 0), (1, 7, 2)))
+        self.put("a.obj", re.sub(r"(?m)^(f .*\n)", r"\1o later\n", text, count=1))
+        self.run_tool("arrange", "a.obj", "a.obj", "--size", "20,20", "--ascii", "-o", "out.stl",
+                      status=0)
+        self.assertEqual(re.findall("(?m)^solid.*", self.read("out.stl")), ["solid a"] * 2)
 
     def test_what_is_only_shifted_has_the_same_rows(self):
         text = textured_text(box((0, 0, 5), (1, 4, 6)))

@@ -1,6 +1,7 @@
 #include "tools/common/material_names.hpp"
 
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 namespace tools {
@@ -17,6 +18,12 @@ std::optional<fs::path> folder_of(const fs::path& file) {
     return error ? std::nullopt : std::optional(std::move(folder));
 }
 
+/// Also of another system: a name with a drive or a host, as "C:/a.mtl".
+bool is_absolute(std::string_view name) {
+    const bool has_drive = name.size() > 2 && name[1] == ':' && (name[2] == '/' || name[2] == '\\');
+    return has_drive || name.starts_with("\\\\") || fs::path(name).is_absolute();
+}
+
 }  // namespace
 
 std::vector<std::string> seen_from_output(std::vector<std::string> names, const fs::path& input,
@@ -26,7 +33,7 @@ std::vector<std::string> seen_from_output(std::vector<std::string> names, const 
     const auto to = folder_of(output);
     if (!from || !to || *from == *to) return names;
     for (std::string& name : names) {
-        if (fs::path(name).is_absolute()) continue;
+        if (is_absolute(name)) continue;
         const fs::path there = (*from / name).lexically_normal().lexically_relative(*to);
         if (!there.empty()) name = there.generic_string();
     }

@@ -105,6 +105,12 @@ std::vector<tf::part> parts_in_scene(const body& b, std::vector<tf::part> parts)
         if (one) p = {.object = file_name, .material = p.material, .first_face = p.first_face};
     if (parts.empty() || parts[0].first_face > 0)
         parts.insert(parts.begin(), {.object = file_name});
+    if (one)
+        parts.erase(std::unique(parts.begin(), parts.end(),
+                                [](const tf::part& p, const tf::part& q) {
+                                    return p.material == q.material;
+                                }),
+                    parts.end());
     return parts;
 }
 

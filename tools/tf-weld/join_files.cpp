@@ -170,11 +170,7 @@ class joiner {
     void declare_columns(tf::element& joined, const tf::element& e, bool first) {
         for (const tf::column& c : e.columns) {
             if (c.role != tf::column_role::data) {
-                if (first)
-                    joined.columns.push_back({.name = c.name,
-                                              .type = c.type,
-                                              .list_length = c.list_length,
-                                              .role = c.role});
+                declare_place(joined, c, first);
                 continue;
             }
             const auto at = std::find_if(
@@ -187,6 +183,17 @@ class joiner {
             else
                 widen(*at, c);
         }
+    }
+
+    /// Of what is no data. The type in which texture coordinates are written is to hold all.
+    static void declare_place(tf::element& joined, const tf::column& c, bool first) {
+        const auto at = std::find_if(joined.columns.begin(), joined.columns.end(),
+                                     [&](const tf::column& d) { return d.role == c.role; });
+        if (c.role == tf::column_role::texture && at != joined.columns.end())
+            widen(*at, c);
+        else if (first || c.role == tf::column_role::texture)
+            joined.columns.push_back(
+                {.name = c.name, .type = c.type, .list_length = c.list_length, .role = c.role});
     }
 
     static void widen(tf::column& c, const tf::column& other) {
@@ -210,6 +217,7 @@ class joiner {
                 append_values(c, *from);
             } else if (rows > 0) {
                 append_nothing(c, rows);
+                if (from != nullptr) continue;  // what corners have
                 warn("missing-property", names_[i] + ": no " + element_name + " property " +
                                              c.name + "; " + filler_of(c) + " there");
             }
