@@ -1,6 +1,8 @@
 #include <libmesh/detail/check_faces.hpp>
 #include <libmesh/detail/nearest_float.hpp>
+#include <libmesh/detail/part_of_progress.hpp>
 #include <libmesh/detail/union_find.hpp>
+#include <libmesh/detail/used_points.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libmesh/repair/detail/few_of_pairs.hpp>
 #include <libmesh/repair/detail/fill_hole.hpp>
@@ -30,6 +32,14 @@ enum class fate : std::uint8_t {
     gone       ///< deleted, and the hole stays
 };
 
+/// Points that no face has may be anything, and are left out in the end: here they are 0.
+std::vector<point3> points_in_use(mesh_view mesh) {
+    std::vector<point3> points(mesh.points.size());
+    for (const std::uint32_t p : used_points(mesh.points.size(), mesh.faces))
+        points[p] = mesh.points[p];
+    return points;
+}
+
 /// Parts are faces linked by edges, patches linked faces that are to be refilled. Patches only
 /// grow, and each time are refilled as a whole from what was given, so that nothing is made of what
 /// has failed.
@@ -37,8 +47,7 @@ class remover {
   public:
     remover(mesh_view given, const repair_options& options)
         : options_(options),
-          given_{{given.points.begin(), given.points.end()},
-                 {given.faces.begin(), given.faces.end()}},
+          given_{points_in_use(given), {given.faces.begin(), given.faces.end()}},
           edges_(given_.faces),
           fates_(given_.faces.size(), fate::stays),
           few_(given_.faces.size(), 0),
@@ -139,6 +148,7 @@ class remover {
         kept_ = now_.size();
         const directed_edges kept(now_);
         find_patches();
+        is_hopeless_.assign(patches_.size(), 0);
         patch_of_fill_.clear();
         for (std::uint32_t p = 0; p < patches_.size(); ++p) {
             std::vector<face> turned;  // the hole that they leave is filled as they were
@@ -146,13 +156,30 @@ class remover {
                 const auto [a, b, c] = given_.faces[f];
                 turned.push_back({a, c, b});
             }
-            for (const auto& rim : find_rims(turned, directed_edges(turned)))
+            const auto rims = find_rims(turned, directed_edges(turned));
+            is_hopeless_[p] = is_closed_[patches_[p].front()] == 0 && go_around_border(rims, kept);
+            if (is_hopeless_[p] != 0) continue;
+            for (const auto& rim : rims)
                 for (const face& f : fill(given_.points, rim, kept)) {
                     now_.push_back(f);
                     result_.face_of.push_back(repaired_mesh::none);
                     patch_of_fill_.push_back(p);
                 }
         }
+    }
+
+    /// Whether at one of several rims no face stays: the mesh ended there, and what fills it would
+    /// float in space, or lie on what fills the others.
+    [[nodiscard]] static bool go_around_border(const std::vector<std::vector<std::uint32_t>>& rims,
+                                               const directed_edges& kept) {
+        const auto is_border = [&](const std::vector<std::uint32_t>& rim) {
+            for (std::size_t i = 0; i < rim.size(); ++i) {
+                const std::uint32_t u = rim[i], v = rim[(i + 1) % rim.size()];
+                if (kept.has(u, v) || kept.has(v, u)) return false;
+            }
+            return true;
+        };
+        return rims.size() > 1 && std::ranges::any_of(rims, is_border);
     }
 
     /// In the order of their lowest faces.
@@ -186,7 +213,9 @@ class remover {
         pairs_.clear();
         rings_.assign(patches_.size(), 0);
         places_.clear();
-        const auto found = self_intersections(now(), {.progress = options_.progress});
+        const double done = std::exchange(done_, (done_ + 1.0) / 2.0);  // rounds are not known
+        const auto found =
+            self_intersections(now(), {.progress = part_of(options_.progress, done, done_)});
         result_.cancelled = found.cancelled;
         if (found.cancelled) return false;
         for (const std::uint32_t f : find_defects(now()).degenerate_faces) complain(f, f);
@@ -231,7 +260,7 @@ class remover {
     }
     /// Edges next to patches that have lost their second face.
     void find_holes() {
-        has_hole_ = false;
+        has_hole_ = std::ranges::count(is_hopeless_, 1) > 0;
         const directed_edges edges(now_);
         for (std::uint32_t p = 0; p < patches_.size(); ++p)
             for (const std::uint32_t f : patches_[p])
@@ -256,11 +285,12 @@ class remover {
     }
 
     /// Makes holes wider whose filling has failed. Where that does not help, or it is late, and the
-    /// part has a border, few of the faces go and nothing fills the hole.
+    /// part has a border, few of the faces go and nothing fills the hole, as where it goes around
+    /// the border.
     void settle(bool is_late) {
         for (std::uint32_t p = 0; p < patches_.size(); ++p) {
-            if (rings_[p] == 0) continue;
-            int tries = 0;
+            if (rings_[p] == 0 && is_hopeless_[p] == 0) continue;
+            int tries = is_hopeless_[p] != 0 ? tries_with_border : 0;
             for (const std::uint32_t f : patches_[p]) tries = std::max<int>(tries, tries_[f] + 1);
             for (const std::uint32_t f : patches_[p])
                 tries_[f] = static_cast<std::uint8_t>(std::min(tries, 255));
@@ -325,10 +355,12 @@ class remover {
     std::vector<face> now_;                     ///< faces that stay, then those that fill
     std::size_t kept_ = 0;                      ///< of them, those that stay
     std::vector<std::uint32_t> patch_of_fill_;  ///< by face that fills
+    std::vector<std::uint8_t> is_hopeless_;     ///< by patch: nothing sensible can fill it
     std::vector<std::uint8_t> rings_;           ///< by patch: to be added where it has failed
     std::vector<std::array<std::uint32_t, 2>> places_;  ///< patch and point: where it has failed
     std::vector<std::array<std::uint32_t, 2>> pairs_;   ///< of faces given, that stay and meet
     bool has_hole_ = false;
+    double done_ = 0.0;
     repaired_mesh result_{};
 };
 

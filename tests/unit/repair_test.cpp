@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -175,6 +176,32 @@ TEST_CASE("repair: a notch in the border is filled up to where the border was") 
     CHECK(result.removed < 20);
 }
 
+TEST_CASE("repair: where what is deleted goes around a border, no face is left by itself there") {
+    constexpr std::uint32_t around = 6, rings = 9;
+    tf::mesh tube;
+    for (std::uint32_t i = 0; i < around * rings; ++i) {
+        const double angle = i * (2 * 3.14159265358979 / around);
+        const double radius = i / around == 1 ? -0.9 - 0.01 * i : 1.0;  // the second one turned
+        tube.points.push_back(
+            {radius * std::cos(angle), radius * std::sin(angle), 0.5 * (i / around)});
+    }
+    for (std::uint32_t i = 0; i < around * (rings - 1); ++i) {
+        const std::uint32_t next = i + 1 - ((i + 1) % around == 0 ? around : 0);
+        tube.faces.push_back({i, next, next + around});
+        tube.faces.push_back({i, next + around, i + around});
+    }
+    REQUIRE(!tf::self_intersections(tube).pairs.empty());
+    const auto result = tf::repair(tube, {.mode = mode::remove});
+    CHECK(result.certified);
+    CHECK(result.left_open > 0);
+    CHECK(result.removed < 4 * around);  // less than all at the ring
+    const auto component = tf::face_components(result.surface.points.size(), result.surface.faces);
+    std::set<std::uint32_t> all(component.begin(), component.end()), with_given;
+    for (std::size_t f = 0; f < component.size(); ++f)
+        if (result.face_of[f] != tf::repaired_mesh::none) with_given.insert(component[f]);
+    CHECK(with_given == all);
+}
+
 TEST_CASE("repair: of two open sheets that pass through each other, one is cut open") {
     const tf::mesh sheet = test::grid(20);
     const tf::mesh other = test::moved(test::turned(sheet, {1, 0, 0}, 1.5), {0.3, 10.2, -9.7});
@@ -317,6 +344,21 @@ TEST_CASE("repair: a component that is nothing but faces that meet is counted as
     CHECK(result.removed == 2);
 }
 
+TEST_CASE("repair: a point that no face has may be anything, and changes nothing") {
+    const tf::mesh ball = test::ball(2, 1.0);
+    for (const double x : {1e300, 1e6 + 0.1, std::numeric_limits<double>::quiet_NaN()})
+        for (const mode m : {mode::split, mode::outer, mode::remove})
+            for (const bool to_float : {false, true}) {
+                tf::mesh more = ball;
+                more.points.push_back({x, 0.0, 0.0});
+                const auto result = tf::repair(more, {.mode = m, .to_float = to_float});
+                const auto expected = tf::repair(ball, {.mode = m, .to_float = to_float});
+                CHECK(result.certified);
+                CHECK(result.surface == expected.surface);
+                CHECK(result.max_move == expected.max_move);
+            }
+}
+
 TEST_CASE("repair: what cannot be meant is refused") {
     for (const mode m : {mode::split, mode::outer, mode::remove})
         for (const bool to_float : {false, true}) {
@@ -329,6 +371,30 @@ TEST_CASE("repair: what cannot be meant is refused") {
             CHECK_THROWS_AS(static_cast<void>(tf::repair(mesh, {.mode = m, .to_float = to_float})),
                             std::invalid_argument);
         }
+}
+
+TEST_CASE("repair: progress never goes back, and can stop it in any round") {
+    const tf::mesh mesh = two_balls();
+    for (const mode m : {mode::split, mode::outer, mode::remove}) {
+        double last = 0.0;
+        std::size_t calls = 0;
+        bool forward = true;
+        const auto whole = tf::repair(mesh, {.mode = m, .progress = [&](double done) {
+                                                 forward = forward && done >= last && done <= 1.0;
+                                                 last = done;
+                                                 ++calls;
+                                                 return true;
+                                             }});
+        CHECK(whole.certified);
+        CHECK(forward);
+        for (std::size_t limit = 0; limit < calls; limit += 1 + calls / 20) {
+            std::size_t left = limit;
+            const auto stopped = tf::repair(
+                mesh, {.mode = m, .progress = [&](double) { return left > 0 && left-- > 0; }});
+            CHECK(stopped.cancelled);
+            CHECK(!stopped.certified);
+        }
+    }
 }
 
 TEST_CASE("repair: nothing to repair, nothing changed; on any number of threads") {
