@@ -318,6 +318,23 @@ TEST_CASE("cells: a point that no face has changes nothing, wherever it is, fini
     }
 }
 
+TEST_CASE("cells: operands are told apart whatever their numbers") {
+    const tf::mesh box = test::box(1, 1, 1);
+    for (const std::uint32_t low : {0U, 253U, 254U, 255U, 256U, 300U}) {
+        CAPTURE(low);
+        std::vector<std::uint32_t> operand(box.faces.size(), low);
+        const auto closed = tf::find_cells(box, arrangement_of(box), operand, low + 2);
+        REQUIRE(closed.open_count == 0);
+        REQUIRE(closed.winding.size() == 2 * (low + 2));
+        CHECK(closed.winding_of(1)[low] == 1);
+        CHECK(closed.winding_of(1)[low + 1] == 0);
+        operand.back() = low + 1;  // alone, and missing from the other one
+        const auto open = tf::find_cells(box, arrangement_of(box), operand, low + 2);
+        CHECK(open.open_count == 6);  // three edges of both
+        for (const auto& edge : open.open) CHECK((edge.operand == low || edge.operand == low + 1));
+    }
+}
+
 TEST_CASE("cells: boxes that share a face, an edge, a corner or nothing have an inside each") {
     using rows = std::multiset<std::vector<std::int32_t>>;
     for (const tf::point3& by : std::vector<tf::point3>{

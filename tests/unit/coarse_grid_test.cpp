@@ -78,6 +78,19 @@ TEST_CASE("coarse_grid: faces in the cells of others, beyond the box and in flat
     CHECK(count_passed(point, point) == 1);
 }
 
+TEST_CASE("coarse_grid: no face is missed where boxes are as large or as small as doubles can be") {
+    test::random source(12);
+    const tf::mesh added = test::moved(test::random_soup(source, 60, 0.02), {-0.5, -0.5, -0.5});
+    const tf::mesh asked = test::moved(test::random_soup(source, 1000, 0.05), {-0.5, -0.5, -0.5});
+    for (const double size :
+         {0x1p1023, 1e300, 0.9e290, 1.1e290, 0.9e-290, 1.1e-290, 1e-310, 1e-322}) {
+        CAPTURE(size);
+        count_passed(test::scaled(added, size), test::scaled(asked, size));
+        count_passed(added, test::scaled(asked, size));
+        count_passed(test::scaled(added, size), asked);
+    }
+}
+
 TEST_CASE("coarse_grid: few faces pass that are far from all that were added") {
     test::random source(13);
     tf::mesh ends = test::random_soup(source, 2, 1e-3);
