@@ -128,6 +128,22 @@ class Repair(ToolTest):
         run = self.run_tool(part, "--repair", "-o", "out.obj", status=3)
         self.assertIn("beyond 2^1000", run.err)
 
+    def test_what_floats_cannot_hold_is_said_whatever_the_mode(self):
+        points, faces = cube()
+        part = write(self.path("part.obj"), ([tuple(1e39 * x for x in p) for p in points], faces))
+        for mode in ("outer", "split", "remove"):
+            run = self.run_tool(part, f"--repair={mode}", "-o", "out.stl", status=1)
+            self.assertIn("coordinates are too large", run.text)
+            self.run_tool(part, f"--repair={mode}", "-o", f"{mode}.obj", status=0)
+
+    def test_points_that_no_face_has_do_not_count(self):
+        points, faces = cube()
+        points = points + [(1e6 + 0.1, 0, 0)]
+        part = write(self.path("part.obj"), (points, faces))
+        for mode in ("outer", "split", "remove"):
+            repair = self.repaired(part, f"--repair={mode}", "-o", f"{mode}.stl")["repair"]
+            self.assertEqual(repair["max_move"]["largest"], 0)
+
     def test_limits_are_kept(self):
         part = write(self.path("part.obj"), together(cube((0.1, 0.2, 0.3)), cube((0.4, 0.5, 0.7)),
                                                      cube((0.2, 0.3, 0.4), 0.25)))

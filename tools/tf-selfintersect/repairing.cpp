@@ -11,6 +11,7 @@
 #include <libmesh/topology.hpp>
 #include <libmesh/volume.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -111,8 +112,9 @@ std::string objection(const findings& result, const repair_settings& settings,
                     ? "; --precision double, in a format that has it, may do"
                     : "");
     if (!repaired.certified)
-        return settings.mode == tf::repair_mode::remove ? "a hole could not be closed"
-                                                        : "coordinates are too large";
+        return settings.mode == tf::repair_mode::remove && std::isfinite(repaired.max_move)
+                   ? "a hole could not be closed"
+                   : "coordinates are too large";
     if (repaired.surface.faces.empty() && repaired.exact_faces > 0)
         return "nothing would be left: all of the exact result, " +
                counted(repaired.exact_faces, "face", "faces") + ", is thinner than " +
