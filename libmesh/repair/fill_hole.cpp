@@ -104,11 +104,14 @@ directed_edges::directed_edges(std::span<const face> faces) {
     });
 }
 
-std::uint32_t directed_edges::face_along(std::uint32_t u, std::uint32_t v) const {
+std::uint32_t directed_edges::face_along(std::uint32_t u, std::uint32_t v,
+                                         std::uint32_t from) const {
     const std::array<std::uint32_t, 2> ends{u, v};
-    const auto at = std::lower_bound(
-        edges_.begin(), edges_.end(), ends,
-        [](const edge& e, const std::array<std::uint32_t, 2>& key) { return e.ends < key; });
+    const auto at =
+        std::lower_bound(edges_.begin(), edges_.end(), ends,
+                         [from](const edge& e, const std::array<std::uint32_t, 2>& key) {
+                             return e.ends != key ? e.ends < key : e.face < from;
+                         });
     return at != edges_.end() && at->ends == ends ? at->face : none;
 }
 

@@ -4,6 +4,7 @@
 #include <libmesh/detail/union_find.hpp>
 #include <libmesh/detail/used_points.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/repair/detail/copies.hpp>
 #include <libmesh/repair/detail/few_of_pairs.hpp>
 #include <libmesh/repair/detail/fill_hole.hpp>
 #include <libmesh/repair/detail/remove_faces.hpp>
@@ -104,7 +105,9 @@ class remover {
             for_neighbors(f, [&](std::uint32_t g) { parts.join(f, g); });
         part_of_.resize(count);
         for (std::uint32_t f = 0; f < count; ++f) part_of_[f] = parts.root(f);
-        drop_copies();
+        const std::vector<std::uint8_t> deleted = copies_to_delete(given_.faces, part_of_, edges_);
+        for (std::uint32_t f = 0; f < count; ++f)
+            if (deleted[f] != 0) fates_[f] = fate::gone;
         build();
         std::vector<std::uint8_t> ends(count, 0);
         const directed_edges edges(now_);
@@ -114,26 +117,6 @@ class remover {
             });
         is_closed_.resize(count);
         for (std::uint32_t f = 0; f < count; ++f) is_closed_[f] = ends[part_of_[f]] == 0;
-    }
-
-    /// Of a part that lies on itself altogether, as a sheet with a back, one copy of each face
-    /// stays.
-    void drop_copies() {
-        std::vector<std::pair<face, std::uint32_t>> faces;  // corners ascending
-        for (std::uint32_t f = 0; f < given_.faces.size(); ++f) {
-            faces.push_back({given_.faces[f], f});
-            std::ranges::sort(faces.back().first);
-        }
-        std::ranges::sort(faces);
-        const auto same = [&](std::size_t i, std::size_t j) {
-            return j < faces.size() && faces[i].first == faces[j].first;
-        };
-        std::vector<std::uint8_t> has_single(faces.size(), 0);  // by part
-        for (std::size_t i = 0; i < faces.size(); ++i)
-            if (!same(i, i - 1) && !same(i, i + 1)) has_single[part_of_[faces[i].second]] = 1;
-        for (std::size_t i = 1; i < faces.size(); ++i)
-            if (const std::uint32_t f = faces[i].second; same(i, i - 1) && !has_single[part_of_[f]])
-                fates_[f] = fate::gone;
     }
 
     /// The faces that stay, and those that fill the holes of patches.
@@ -247,7 +230,7 @@ class remover {
         for (const std::uint32_t p : points) places_.push_back({patch, p});
     }
     /// A face that stays meets what fills a hole: it is as much to blame in the same part or if
-    /// both are closed, it alone if only it has a border.
+    /// both are closed, and goes at once if only it has a border.
     void blame(std::uint32_t patch, std::uint32_t f) {
         const std::uint32_t beside = patches_[patch].front();
         const bool both_closed = is_closed_[beside] != 0 && is_closed_[f] != 0;

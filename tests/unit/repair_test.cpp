@@ -272,6 +272,28 @@ TEST_CASE("repair: of a sheet with a back, or a solid twice, one copy is left") 
     }
 }
 
+TEST_CASE("repair: the copy that is left runs the same way round everywhere, in whatever order") {
+    test::random source(8);
+    for (const bool closed : {false, true})
+        for (int i = 0; i < 10; ++i) {
+            const tf::mesh one = closed ? test::ball(2, 1.0) : test::grid(4);
+            tf::mesh both{one.points, {}};
+            for (const tf::mesh& copies : {one, test::inside_out(one)})
+                for (const tf::face& f : copies.faces)
+                    for (std::size_t k = 0; k <= source.below(2); ++k) both.faces.push_back(f);
+            const tf::mesh mesh = test::shuffled(source, both).mesh;
+            const auto result = tf::repair(mesh, {.mode = mode::remove});
+            CHECK(result.certified);
+            CHECK(result.surface.faces.size() == one.faces.size());
+            CHECK(result.face_of.front() == 0);  // whose way it is
+            CHECK(result.left_open == (closed ? 0 : 16));
+            const auto counts =
+                tf::count_topology(result.surface.points.size(), result.surface.faces);
+            CHECK(counts.misoriented_edges == 0);
+            CHECK(counts.boundary_edges == (closed ? 0 : 16));
+        }
+}
+
 TEST_CASE("repair: of random sheets, what is removed never leaves faces that meet") {
     test::random source(6);
     for (int i = 0; i < 30; ++i) {

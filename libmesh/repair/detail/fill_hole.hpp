@@ -16,8 +16,9 @@ class directed_edges {
   public:
     explicit directed_edges(std::span<const face> faces);
 
-    /// A face that runs from u to v, or none.
-    [[nodiscard]] std::uint32_t face_along(std::uint32_t u, std::uint32_t v) const;
+    /// The lowest face that runs from u to v and is not below `from`, or none.
+    [[nodiscard]] std::uint32_t face_along(std::uint32_t u, std::uint32_t v,
+                                           std::uint32_t from = 0) const;
     [[nodiscard]] bool has(std::uint32_t u, std::uint32_t v) const;
 
     static constexpr std::uint32_t none = 0xFFFFFFFF;
