@@ -2,6 +2,7 @@
 the tools."""
 
 import re
+import struct
 
 from boolean_support import *
 
@@ -294,6 +295,15 @@ class Booleans(CornerTest):
                 self.assertEqual(mesh.vt[vt], affine(mesh.v[v]))  # floats hold these
         self.assertGreater(with_texture, 30)
 
+    def test_wedge_coordinates_that_are_double_stay_double(self):
+        self.put("a.obj", textured_text(box((0, 0, 0), (2, 2, 2)), normals=False))
+        self.run_tool("union", "a.obj", "--ascii", "-o", "single.ply", status=0)
+        text = self.read("single.ply").replace("uchar float texcoord", "uchar double texcoord")
+        self.put("double.ply", text.replace("0.625", "0.6"))
+        self.run_tool("union", "double.ply", "-o", "out.ply", status=0)
+        self.run_tool("union", "out.ply", "-o", "out.obj", status=0)
+        self.assertEqual({vt[0] for vt in self.parsed("out.obj").vt}, {0.125, 0.6, -0.875, -0.375})
+
     def test_repair_carries_them(self):
         points, faces = together(box((0, 0, 0), (2, 2, 2)), box((0.7, 0.9, 1.1), (3, 3.5, 3.7)))
         self.put("part.obj", textured_text((points, faces), head="mtllib a.mtl",
@@ -311,6 +321,39 @@ class Booleans(CornerTest):
                     self.assertEqual(material, "pine")
                 if any(min(mesh.v[v]) < 0.7 for v, _, _ in face):
                     self.assertEqual(material, "oak")
+
+    def repaired(self, *arguments):
+        done = subprocess.run([TOOL, *arguments], cwd=self.folder, capture_output=True)
+        self.assertEqual(done.returncode, 0, msg=done.stderr.decode())
+        return done.stderr.decode()
+
+    def test_repair_carries_them_where_other_points_are_searched_than_the_file_has(self):
+        text = textured_text(together(box((0, 0, 0), (2, 2, 2)), box((0.7, 0.9, 1.1), (3, 3.5, 3.7))),
+                             head="mtllib a.mtl", material=lambda i: "oak" if i < 12 else "pine")
+        self.put("part.obj", text)
+        self.repaired("--repair", "part.obj", "-o", "whole.obj")
+        # A face that is left out, first in the file, with a point that is first, too.
+        shifted = re.sub(r"(?m)(?<=[ f])(\d+)(?=/)", lambda m: str(int(m[1]) + 1), text)
+        self.put("nan.obj", "v nan 0 0\n" + shifted.replace("usemtl", "f 1/1 2/2 3/3\nusemtl", 1))
+        self.put("soup.obj", self.soup())
+        self.repaired("--repair", "nan.obj", "-o", "nan-out.obj")
+        self.assertEqual(self.read("nan-out.obj"), self.read("whole.obj"))
+        warned = self.repaired("--repair", "--vertices", "equal", "soup.obj", "-o", "soup-out.obj")
+        self.assertEqual(warned, "")
+        mesh = self.parsed("soup-out.obj")
+        self.assertEqual(len(mesh.v), 8)
+        self.check_rows(mesh)
+
+    def test_repair_carries_what_faces_of_an_stl_have(self):
+        points, faces = box((0, 0, 0), (2, 2, 2))
+        with open(self.path("part.stl"), "wb") as file:
+            file.write(b" " * 80 + struct.pack("<I", len(faces)))
+            for i, face in enumerate(faces):
+                corners = [x for c in face for x in points[c]]
+                file.write(struct.pack("<12fH", 0, 0, 0, *corners, 7 * i))
+        self.repaired("--repair", "part.stl", "-o", "out.stl")
+        values = [v[12] for v in struct.iter_unpack("<12fH", self.read_bytes("out.stl")[84:])]
+        self.assertEqual(values, [7 * i for i in range(12)])
 
 
 class Weld(CornerTest):

@@ -1,6 +1,7 @@
 #include "tools/common/carried_corners.hpp"
 
 #include "tools/common/face_shares.hpp"
+#include <libmesh/attributes.hpp>
 
 #include <algorithm>
 #include <array>
@@ -185,12 +186,26 @@ std::vector<tf::face> carried(std::span<const property_source> inputs, const tf:
     return rows.empty() ? std::vector<tf::face>{} : all;
 }
 
+/// The list of a PLY that texture coordinates are to be written to, so that doubles stay doubles;
+/// null where floats will do.
+const tf::column* double_list(std::span<const property_source> inputs) {
+    for (const property_source& input : inputs)
+        if (const tf::element* faces = tf::find_element(input.file->attributes, "face"))
+            for (const tf::column& c : faces->columns)
+                if (c.role == tf::column_role::texture && c.type == tf::scalar_type::float64)
+                    return &c;
+    return nullptr;
+}
+
 }  // namespace
 
 void carry_corners(tf::mesh_file& file, std::span<const property_source> inputs,
                    const carried_to& made) {
     tf::corner_values& corners = file.attributes.corners;
     corners.texture_of_corner = carried(inputs, file.mesh, made, corners.texture);
+    if (const tf::column* list = double_list(inputs); list && !corners.texture_of_corner.empty())
+        tf::obtain_element(file.attributes, "face", file.mesh.faces.size())
+            .columns.push_back(*list);
     corners.normal_of_corner = carried(inputs, file.mesh, made, corners.normals);
     corners.has_w = std::any_of(inputs.begin(), inputs.end(), [](const property_source& input) {
         return input.file->attributes.corners.has_w;

@@ -15,7 +15,7 @@ namespace tools {
 ///
 /// Rows of an input stand once in the result, in the order of their first use, so that what shares
 /// one still does. Faces from one face of an input share what lies between at a point that they
-/// share.
+/// share. Where a PLY had texture coordinates as double, they are double in one that is written.
 void carry_corners(tf::mesh_file& file, std::span<const property_source> inputs,
                    const carried_to& made);
 

@@ -158,7 +158,16 @@ void say_result(job& work, const repair_settings& settings, const tf::repaired_m
                            : ""));
 }
 
-/// Where points of the file's mesh are those that were searched, their properties can be carried.
+/// The input with other points than it has in the file, those that were searched; what points have
+/// is left out, for they may stand for several.
+tf::mesh_file with_searched_points(const tf::mesh_file& input, const findings& result) {
+    tf::mesh_file file{
+        .mesh = result.mesh, .stored_face = input.stored_face, .attributes = input.attributes};
+    std::erase_if(file.attributes.elements,
+                  [](const tf::element& e) { return e.name == "vertex"; });
+    return file;
+}
+
 std::vector<tf::operand_element> of_input(const std::vector<std::uint32_t>& indices) {
     std::vector<tf::operand_element> elements;
     elements.reserve(indices.size());
@@ -187,16 +196,13 @@ void write_repaired(job& work, const tf::mesh_file& input, const findings& resul
     file.mesh = std::move(repaired.surface);
     file.stored_faces = file.mesh.faces.size();
     file.stored_as = to_single ? tf::precision::single_ : tf::precision::double_;
-    const property_source source{&input, &result.triangle_of_face};
-    const bool same_points = input.mesh.points.size() == result.mesh.points.size();
-    if (same_points)
-        carry_properties(file, {&source, 1},
-                         {of_input(repaired.face_of), of_input(repaired.point_of)});
-    const tf::corner_values& corners = input.attributes.corners;
-    const bool has_properties = !input.attributes.elements.empty() ||
-                                !corners.texture_of_corner.empty() ||
-                                !corners.normal_of_corner.empty();
-    if ((!same_points && has_properties && input.indexed) || leaves_out_properties({&source, 1}))
+    const property_source whole{&input, &result.triangle_of_face};
+    std::optional<tf::mesh_file> searched;
+    if (input.mesh.points.size() != result.mesh.points.size())
+        searched = with_searched_points(input, result);
+    const property_source source{searched ? &*searched : &input, &result.triangle_of_face};
+    carry_properties(file, {&source, 1}, {of_input(repaired.face_of), of_input(repaired.point_of)});
+    if ((searched && points_have_properties({&whole, 1})) || leaves_out_properties({&whole, 1}))
         work.warn("attributes", "not all properties of the input are carried over");
     add_source_faces(file, result, repaired.face_of);
     const tf::write_result written = write_certified(work, file, form, output);
