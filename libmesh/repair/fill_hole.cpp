@@ -12,9 +12,25 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_for_least_area = 200;
 
-double area(const point3& a, const point3& b, const point3& c) {
-    const point3 u{b.x - a.x, b.y - a.y, b.z - a.z};
-    const point3 v{c.x - a.x, c.y - a.y, c.z - a.z};
+/// By which the rim is scaled before areas are compared: a power of two, and 1 but where products
+/// of coordinates would not be doubles, so that which hole is filled how does not depend on the
+/// unit.
+double scale_of(std::span<const point3> points, const std::vector<std::uint32_t>& rim) {
+    constexpr int most = 400;
+    double largest = 0.0;
+    for (const std::uint32_t p : rim)
+        for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, std::abs(points[p][k]));
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    return std::abs(exponent) <= most ? 1.0 : std::ldexp(1.0, -std::clamp(exponent, -1000, 1000));
+}
+
+double area(const point3& a, const point3& b, const point3& c, double scale) {
+    const auto edge = [scale](const point3& from, const point3& to) {
+        return point3{to.x * scale - from.x * scale, to.y * scale - from.y * scale,
+                      to.z * scale - from.z * scale};
+    };
+    const point3 u = edge(a, b), v = edge(a, c);
     return 0.5 * std::hypot(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
 }
 
@@ -28,6 +44,7 @@ class least_area {
           size_(rim.size()),
           areas_(size_ * size_, infinity),
           middles_(size_ * size_, 0) {
+        const double scale = scale_of(points, rim);
         for (std::size_t i = 0; i + 1 < size_; ++i) areas_[i * size_ + i + 1] = 0.0;
         for (std::size_t gap = 2; gap < size_; ++gap)
             for (std::size_t i = 0; i + gap < size_; ++i) {
@@ -36,7 +53,7 @@ class least_area {
                 if (!is_rim && (edges.has(rim[i], rim[j]) || edges.has(rim[j], rim[i]))) continue;
                 for (std::size_t m = i + 1; m < j; ++m) {
                     const double sum = areas_[i * size_ + m] + areas_[m * size_ + j] +
-                                       area(points[rim[i]], points[rim[m]], points[rim[j]]);
+                                       area(points[rim[i]], points[rim[m]], points[rim[j]], scale);
                     if (sum >= areas_[i * size_ + j]) continue;
                     areas_[i * size_ + j] = sum;
                     middles_[i * size_ + j] = m;
@@ -72,6 +89,7 @@ class least_area {
 std::vector<face> cut_corners(std::span<const point3> points, std::vector<std::uint32_t> rim,
                               const directed_edges& edges) {
     std::vector<face> found;
+    const double scale = scale_of(points, rim);
     while (rim.size() > 3) {
         const std::size_t n = rim.size();
         std::size_t best = n;
@@ -79,7 +97,7 @@ std::vector<face> cut_corners(std::span<const point3> points, std::vector<std::u
         for (std::size_t i = 0; i < n; ++i) {
             const std::uint32_t a = rim[(i + n - 1) % n], b = rim[i], c = rim[(i + 1) % n];
             if (edges.has(a, c) || edges.has(c, a)) continue;
-            const double size = area(points[a], points[b], points[c]);
+            const double size = area(points[a], points[b], points[c], scale);
             if (size >= least) continue;
             least = size;
             best = i;

@@ -296,6 +296,7 @@ TEST_CASE("repair: the copy that is left runs the same way round everywhere, in 
 
 TEST_CASE("repair: of random sheets, what is removed never leaves faces that meet") {
     test::random source(6);
+    int certified = 0;
     for (int i = 0; i < 30; ++i) {
         CAPTURE(i);
         const tf::mesh mesh = i % 3 == 0 ? test::random_soup(source, 40, 0.4)
@@ -305,6 +306,7 @@ TEST_CASE("repair: of random sheets, what is removed never leaves faces that mee
         for (const bool touching : {false, true}) {
             const auto result = tf::repair(mesh, {.mode = mode::remove, .touching = touching});
             if (!result.certified) continue;
+            ++certified;
             for (const tf::face_pair& pair : tf::self_intersections(result.surface).pairs) {
                 CHECK(!touching);
                 CHECK(pair.kind == tf::pair_kind::touching);
@@ -313,6 +315,7 @@ TEST_CASE("repair: of random sheets, what is removed never leaves faces that mee
             }
         }
     }
+    CHECK(certified > 50);  // of 60
 }
 
 TEST_CASE("repair: faces that only touch are deleted on request") {
@@ -393,6 +396,18 @@ TEST_CASE("repair: what cannot be meant is refused") {
             CHECK_THROWS_AS(static_cast<void>(tf::repair(mesh, {.mode = m, .to_float = to_float})),
                             std::invalid_argument);
         }
+}
+
+TEST_CASE("repair: what is removed and filled does not depend on the unit") {
+    tf::mesh mesh = test::ball(4, 1.0);
+    mesh.points[4] = {0.03, 0.02, -1.5};
+    const auto expected = tf::repair(mesh, {.mode = mode::remove});
+    REQUIRE(expected.certified);
+    for (const double size : {0x1p520, 0x1p1020, 0x1p-520, 0x1p-960}) {
+        const auto result = tf::repair(test::scaled(mesh, size), {.mode = mode::remove});
+        CHECK(result.certified);
+        CHECK(result.surface.faces == expected.surface.faces);
+    }
 }
 
 TEST_CASE("repair: progress never goes back, and can stop it in any round") {
