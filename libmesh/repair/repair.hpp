@@ -70,11 +70,11 @@ struct repaired_mesh {
 /// are degenerate, and closes each hole by triangles of the least total area between the points of
 /// its rim, up to where the mesh ended. Where these meet something, the hole becomes wider. In a
 /// part, of faces linked by edges, that has a border, holes stay open (`left_open`) where even that
-/// does not help; then few faces go, of each pair that meets one. Closed parts that parts with a
-/// border pass through stay as they are. Of parts whose every face has a copy, as of a sheet with a
-/// back, one copy stays.
+/// does not help, or where they would go around the border; then few faces go, of each pair that
+/// meets one. Closed parts that parts with a border pass through stay as they are. Of parts whose
+/// every face has a copy, as of a sheet with a back, one copy stays.
 ///
-/// \throws std::invalid_argument as `boolean`
+/// \throws std::invalid_argument as `boolean`; of `remove`, a coordinate may be beyond 2^1000
 /// \cost   as `boolean`; of `remove` a `self_intersections` a round, and O(n^3) for a hole of n <=
 ///         200 points, O(n^2) beyond
 /// \same   on any number of threads

@@ -137,7 +137,7 @@ const char* const epilogue =
     "that cannot be filled becomes wider; in a surface with a border it stays, as\n"
     "small as can be, where that does not help. Faces that only touch are deleted\n"
     "with --touching. Faces that meet nothing stay bit for bit, but where rounding\n"
-    "next to them was mended.\n"
+    "next to them was mended or a hole became wider.\n"
     "\n"
     "Examples:\n"
     "  tf-selfintersect part.stl --curves where.obj\n"
