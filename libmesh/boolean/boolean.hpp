@@ -42,10 +42,10 @@ struct boolean_options {
     inside_rule inside = inside_rule::nonzero;
     /// The coordinates written: rounded to float (then widened), or to double.
     bool to_float = false;
-    /// Steps of mending what rounding has broken before it is reported: two of the surface (see
-    /// `round_surface`), then of the operands, whose faces next to such places are joined where
-    /// they are nearer than 2^-48, 2^-44, 2^-40 ... of the largest coordinate (2^-22, 2^-18, 2^-14
-    /// ... for floats); then all is decided once more, exactly.
+    /// Steps of mending what rounding has broken before it is reported: two of the surface, or more
+    /// while they help (see `round_surface`), then of the operands, whose faces next to such places
+    /// are joined where they are nearer than 2^-48, 2^-44, 2^-40 ... of the largest coordinate
+    /// (2^-22, 2^-18, 2^-14 ... for floats); then all is decided once more, exactly.
     int rounding_steps = 5;
     /// Of the result, faces in one plane are merged: corners go that nothing but such faces, or
     /// faces along one straight edge, has in common, exactly and before rounding.

@@ -34,7 +34,8 @@ struct round_options {
     /// The faces bound a solid, which is behind them, and are to do so when rounded. Otherwise they
     /// are a complex of which every piece stays.
     bool solid = true;
-    /// Steps of mending before what rounding has broken is reported; see `round_surface`.
+    /// Steps of mending before what rounding has broken is reported, and more, to 4, or 12 where
+    /// no points are joined, while each leaves fewer faces that meet; none for 0.
     int steps = 4;
     progress_callback progress{};
 };

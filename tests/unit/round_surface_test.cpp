@@ -172,6 +172,33 @@ TEST_CASE("round: the middle of a piece that was mended lies in the face that it
     }
 }
 
+TEST_CASE("round: mending goes on while each step leaves fewer faces that meet") {
+    // Bricks turned out of their common planes, united in doubles.
+    test::random source(3);
+    int went_on = 0;
+    for (int round = 0; round < 12; ++round) {
+        CAPTURE(round);
+        const tf::point3 axis{source.in(-1, 1), source.in(-1, 1), source.in(0.1, 1)};
+        const double angle = source.in(0, 3);
+        std::vector<tf::mesh> bricks;
+        for (int k = 0; k < 12; ++k) {
+            const auto whole = [&](std::size_t n) { return static_cast<double>(source.below(n)); };
+            const tf::point3 to{whole(6) / 2, whole(4), whole(5)};
+            bricks.push_back(test::turned(moved(box(1 + whole(2), 1, 1), to), axis, angle));
+        }
+        const std::vector<tf::mesh_view> views(bricks.begin(), bricks.end());
+        const auto solid = tf::boolean(views, tf::boolean_expression::union_of(views.size()));
+        REQUIRE(solid.certified);
+        const tf::rounded_surface result =
+            tf::round_surface(exact_of(solid.surface), {.to_float = true, .steps = 1});
+        CHECK(result.steps <= 4);
+        if (!result.certified) continue;
+        CHECK(test::is_clean_solid(result.surface));
+        if (result.steps > 1) ++went_on;
+    }
+    CHECK(went_on > 0);
+}
+
 TEST_CASE("round: mending that makes more and more faces meet is given up") {
     // Two octahedra, all but equal, flat and cut by their own sides; they were found by chance.
     const auto octahedron = [](double x) {
