@@ -140,7 +140,7 @@ class remover {
                 turned.push_back({a, c, b});
             }
             const auto rims = find_rims(turned, directed_edges(turned));
-            is_hopeless_[p] = is_closed_[patches_[p].front()] == 0 && go_around_border(rims, kept);
+            is_hopeless_[p] = is_hopeless(p, rims, kept) ? 1 : 0;
             if (is_hopeless_[p] != 0) continue;
             for (const auto& rim : rims)
                 for (const face& f : fill(given_.points, rim, kept)) {
@@ -151,18 +151,22 @@ class remover {
         }
     }
 
-    /// Whether at one of several rims no face stays: the mesh ended there, and what fills it would
-    /// float in space, or lie on what fills the others.
-    [[nodiscard]] static bool go_around_border(const std::vector<std::vector<std::uint32_t>>& rims,
-                                               const directed_edges& kept) {
-        const auto is_border = [&](const std::vector<std::uint32_t>& rim) {
-            for (std::size_t i = 0; i < rim.size(); ++i) {
-                const std::uint32_t u = rim[i], v = rim[(i + 1) % rim.size()];
-                if (kept.has(u, v) || kept.has(v, u)) return false;
+    /// Where a patch reaches along a border, and what would fill it there would float in space or
+    /// lie on what fills the rest; and where a whole part would go and leave nothing.
+    [[nodiscard]] bool is_hopeless(std::uint32_t patch,
+                                   const std::vector<std::vector<std::uint32_t>>& rims,
+                                   const directed_edges& kept) const {
+        if (is_closed_[patches_[patch].front()] != 0 || rims.size() == 1) return false;
+        const auto has_neighbor = [&](std::span<const std::uint32_t> points) {
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const std::uint32_t u = points[i], v = points[(i + 1) % points.size()];
+                if (kept.has(u, v) || kept.has(v, u)) return true;
             }
-            return true;
+            return false;
         };
-        return rims.size() > 1 && std::ranges::any_of(rims, is_border);
+        if (!rims.empty()) return !std::ranges::all_of(rims, has_neighbor);
+        return std::ranges::none_of(patches_[patch],
+                                    [&](std::uint32_t f) { return has_neighbor(given_.faces[f]); });
     }
 
     /// In the order of their lowest faces.

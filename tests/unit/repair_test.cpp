@@ -294,6 +294,17 @@ TEST_CASE("repair: the copy that is left runs the same way round everywhere, in 
         }
 }
 
+TEST_CASE("repair: a sheet whose back ends before it does not vanish") {
+    tf::mesh both = test::grid(4);
+    const auto count = both.faces.size();
+    for (const tf::face& f : test::inside_out(test::grid(4)).faces) both.faces.push_back(f);
+    both.faces.pop_back();
+    const auto result = tf::repair(both, {.mode = mode::remove});
+    CHECK(result.certified);
+    CHECK(result.surface.faces.size() == count);
+    CHECK(result.lost_components == 0);
+}
+
 TEST_CASE("repair: of random sheets, what is removed never leaves faces that meet") {
     test::random source(6);
     int certified = 0;
