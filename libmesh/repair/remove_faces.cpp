@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -49,19 +50,18 @@ class remover {
     remover(mesh_view given, const repair_options& options)
         : options_(options),
           given_{points_in_use(given), {given.faces.begin(), given.faces.end()}},
-          edges_(given_.faces),
           fates_(given_.faces.size(), fate::stays),
           few_(given_.faces.size(), 0),
           tries_(given_.faces.size(), 0) {
         if (options.to_float) to_floats();
-        find_parts();
     }
 
     repaired_mesh run() {
-        if (!std::isfinite(result_.max_move)) {  // beyond the range of float
-            build();
-            return finished();
-        }
+        keep_all();
+        // Beyond the range of float, or with nothing to be done.
+        if (!std::isfinite(result_.max_move) || !look()) return finished();
+        edges_ = directed_edges(given_.faces);
+        find_parts();
         const int rounds = std::max(options_.removal_rounds, 0);
         for (int round = 0;; ++round) {
             build();
@@ -117,6 +117,13 @@ class remover {
             });
         is_closed_.resize(count);
         for (std::uint32_t f = 0; f < count; ++f) is_closed_[f] = ends[part_of_[f]] == 0;
+    }
+
+    void keep_all() {
+        now_ = given_.faces;
+        kept_ = now_.size();
+        result_.face_of.resize(kept_);
+        std::iota(result_.face_of.begin(), result_.face_of.end(), 0U);
     }
 
     /// The faces that stay, and those that fill the holes of patches.
@@ -248,6 +255,7 @@ class remover {
     /// Edges next to patches that have lost their second face.
     void find_holes() {
         has_hole_ = std::ranges::count(is_hopeless_, 1) > 0;
+        if (patches_.empty()) return;
         const directed_edges edges(now_);
         for (std::uint32_t p = 0; p < patches_.size(); ++p)
             for (const std::uint32_t f : patches_[p])
@@ -305,15 +313,20 @@ class remover {
             }
     }
 
-    /// Without the points that no face uses.
-    repaired_mesh finished() {
-        result_.certified = std::isfinite(result_.max_move) && !result_.cancelled &&
-                            result_.meeting_count == 0 && !has_hole_;
+    void count_left_open() {
+        if (kept_ == given_.faces.size()) return;
         const directed_edges edges(now_);
         for (const face& f : now_)
             for_edges(f, [&](std::uint32_t u, std::uint32_t v) {
                 result_.left_open += !edges.has(v, u) && edges_.has(v, u);
             });
+    }
+
+    /// Without the points that no face uses.
+    repaired_mesh finished() {
+        result_.certified = std::isfinite(result_.max_move) && !result_.cancelled &&
+                            result_.meeting_count == 0 && !has_hole_;
+        count_left_open();
         std::vector<std::uint32_t> number(given_.points.size(), repaired_mesh::none);
         for (const face& f : now_)
             for (const std::uint32_t c : f) number[c] = 0;
@@ -331,7 +344,7 @@ class remover {
 
     const repair_options& options_;
     mesh given_;
-    directed_edges edges_;
+    directed_edges edges_{{}};             ///< of the faces given
     std::vector<std::uint32_t> part_of_;   ///< by face: the lowest face of its part
     std::vector<std::uint8_t> is_closed_;  ///< by face: whether its part has no border
     std::vector<fate> fates_;              ///< by face
