@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// What travels with a mesh beside its points and faces: columns of values for vertices, faces and
-/// further elements, values of corners, names of parts, comments.
+/// further elements, values of corners, names of parts, files of materials and textures, comments.
 
 #include <libmesh/corner_values.hpp>
 #include <libtree/export.hpp>
@@ -167,9 +167,12 @@ struct attributes {
     corner_values corners{};
     std::vector<part> parts{};  ///< by ascending first face; empty when nothing is named
     std::vector<std::string> material_files{};  ///< OBJ `mtllib`, as in the file
-    std::vector<std::string> comments{};        ///< of PLY, one line each
-    std::vector<std::string> obj_info{};        ///< of PLY, one line each
-    std::string header{};                       ///< the 80 bytes ahead of a binary STL
+    /// Of PLY, the lines `comment TextureFile NAME`: what the faces' property "texnumber" counts,
+    /// from 0 on; without it, texture coordinates are those of the first.
+    std::vector<std::string> texture_files{};
+    std::vector<std::string> comments{};  ///< of PLY, one line each, but for those
+    std::vector<std::string> obj_info{};  ///< of PLY, one line each
+    std::string header{};                 ///< the 80 bytes ahead of a binary STL
 
     friend bool operator==(const attributes&, const attributes&) = default;
 };

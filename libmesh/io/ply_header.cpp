@@ -77,7 +77,7 @@ class header_reader {
         const std::string_view keyword = text_.word();
         if (keyword == "end_header") return false;
         if (keyword == "comment")
-            header_.comments.push_back(remark());
+            comment();
         else if (keyword == "obj_info")
             header_.obj_info.push_back(remark());
         else if (keyword == "format")
@@ -105,6 +105,17 @@ class header_reader {
         const char* const first = text_.at;
         text_.skip_line();
         return {first, text_.at};
+    }
+
+    void comment() {
+        const char* const start = text_.at;
+        if (next_word() == texture_file_keyword)
+            if (const std::string_view name = text_.rest_of_line(); !name.empty()) {
+                header_.texture_files.emplace_back(name);
+                return;
+            }
+        text_.at = start;
+        header_.comments.push_back(remark());
     }
 
     [[nodiscard]] std::string_view next_word() {

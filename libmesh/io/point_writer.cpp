@@ -21,6 +21,7 @@ namespace {
     mesh_file head;
     head.format = header.format;
     head.stored_as = header.stored_as;
+    head.attributes.texture_files = header.attributes.texture_files;
     head.attributes.comments = header.attributes.comments;
     head.attributes.obj_info = header.attributes.obj_info;
     for (const element& e : header.attributes.elements) {

@@ -21,7 +21,8 @@ namespace tf {
 /// double. NaN and infinity are kept for the caller to report (`validate`).
 ///
 /// `vt` and `vn` of an OBJ, and the list "texcoord" of the faces of a PLY where it has two numbers
-/// a corner or none, are in `attributes::corners`.
+/// a corner or none, are in `attributes::corners`; its lines `comment TextureFile NAME` are in
+/// `attributes::texture_files`.
 ///
 /// In text without a header a heading names the columns of numbers; columns x, y and z may then
 /// stand anywhere. Of a PCD, a field of several values becomes columns "name[0]", "name[1]", ...,

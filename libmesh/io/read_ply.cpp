@@ -143,6 +143,7 @@ void with_values(const source& in, const ply_header& header, F&& f) {
 }
 
 void take_remarks(ply_header& header, mesh_file& file) {
+    file.attributes.texture_files = std::move(header.texture_files);
     file.attributes.comments = std::move(header.comments);
     file.attributes.obj_info = std::move(header.obj_info);
 }

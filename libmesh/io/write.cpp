@@ -185,6 +185,8 @@ class writing {
             std::any_of(parts.begin(), parts.end(),
                         [](const part& p) { return !p.material.empty(); }))
             warn_of_loss("materials", "materials");
+        if (format_.extension != "ply" && !file_.attributes.texture_files.empty())
+            warn_of_loss("materials", "names of texture files");
     }
 
     void warn_of_loss(const char* code, const std::string& what) {

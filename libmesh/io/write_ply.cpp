@@ -56,6 +56,8 @@ class ply_writer {
         out.put(name_of(encoding_));
         out.put(" 1.0\n");
         for (const auto& line : job_.file.attributes.comments) put_remark("comment", line);
+        for (const auto& name : job_.file.attributes.texture_files)
+            put_remark("comment " + std::string(texture_file_keyword), name);
         for (const auto& line : job_.file.attributes.obj_info) put_remark("obj_info", line);
         for (const element& e : names_) {
             out.put("element " + e.name + ' ' + std::to_string(e.rows) + '\n');

@@ -98,6 +98,7 @@ attributes carry_rows(const attributes& properties, const mesh_weld_result& weld
     attributes result{.corners = gather(properties.corners, welded.face_of_new),
                       .parts = properties.parts,
                       .material_files = properties.material_files,
+                      .texture_files = properties.texture_files,
                       .comments = properties.comments,
                       .obj_info = properties.obj_info,
                       .header = properties.header};

@@ -273,6 +273,48 @@ TEST_CASE("writing: formats that do not hold what corners have say so once") {
     CHECK(warnings(square + "vt 0 0 0\nf 1/1 2/1 3/1\n", "ply").empty());
 }
 
+TEST_CASE(
+    "ply: names of texture files are those of its comments, and come back behind the others") {
+    const auto with = [](const std::string& comments) {
+        return "ply\nformat ascii 1.0\n" + comments +
+               "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+               "element face 1\nproperty list uchar int vertex_indices\n"
+               "end_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n";
+    };
+    using list = std::vector<std::string>;
+    const tf::mesh_file file =
+        read(with("comment TextureFile b c.png\ncomment one\ncomment  TextureFile \t a.png \n"
+                  "comment TextureFile b c.png\ncomment TextureFile\ncomment TextureFile \n"
+                  "comment TextureFiles x\ncomment a TextureFile y\ncomment texturefile z\n"),
+             "a.ply");
+    CHECK(file.attributes.texture_files == list{"b c.png", "a.png", "b c.png"});
+    CHECK(file.attributes.comments == list{"one", "TextureFile", "TextureFile ", "TextureFiles x",
+                                           "a TextureFile y", "texturefile z"});
+    CHECK(written(file, "ply", true) ==
+          with("comment one\ncomment TextureFile\ncomment TextureFile \ncomment TextureFiles x\n"
+               "comment a TextureFile y\ncomment texturefile z\n"
+               "comment TextureFile b c.png\ncomment TextureFile a.png\n"
+               "comment TextureFile b c.png\n"));
+    CHECK(read(written(file, "ply"), "a.ply").attributes == file.attributes);
+}
+
+TEST_CASE("writing: formats that do not hold names of texture files say so") {
+    tf::mesh_file file = read(square + "f 1 2 3\n");
+    file.attributes.texture_files = {"a.png"};
+    for (const char* const format : {"ply", "obj", "stl", "off", "glb"}) {
+        CAPTURE(format);
+        const auto path = std::filesystem::temp_directory_path() /
+                          ("io_corner_values_test_textures." + std::string(format));
+        const auto warnings = tf::write_mesh(path, file, {}).warnings;
+        std::filesystem::remove(path);
+        CHECK(warnings.size() == (format == std::string("ply") ? 0 : 1));
+        for (const auto& w : warnings) {
+            CHECK(w.code == "materials");
+            CHECK(w.text.starts_with("names of texture files left out: "));
+        }
+    }
+}
+
 TEST_CASE("writing: formats that do not hold materials say so") {
     const auto codes = [](std::string_view text, const char* format) {
         std::vector<std::string> all;
@@ -325,11 +367,14 @@ TEST_CASE("writing: no name makes lines of its own") {
     const std::string name = "a\nv 9 9 9\r\nf 1 2 5";
     file.attributes.parts = {{.object = name, .group = name, .material = name}};
     file.attributes.material_files = {name};
+    file.attributes.texture_files = {name};
     const tf::mesh_file again = read(written(file, "obj"));
     CHECK(again.mesh == file.mesh);
     const std::string flat = "a v 9 9 9  f 1 2 5";
     CHECK(again.attributes.parts == std::vector<tf::part>{{flat, flat, flat}});
     CHECK(again.attributes.material_files == std::vector<std::string>{flat});
+    CHECK(read(written(file, "ply"), "a.ply").attributes.texture_files ==
+          again.attributes.material_files);
     const auto parts = read(written(file, "stl", true), "a.stl").attributes.parts;
     CHECK(parts == std::vector<tf::part>{{.object = flat}});
 }

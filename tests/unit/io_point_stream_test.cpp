@@ -103,6 +103,7 @@ tf::mesh_file cloud(std::size_t count, bool single) {
     e.columns.push_back(tf::make_column<std::uint8_t>("red", red));
     e.columns.push_back(tf::make_column<std::int32_t>("id", id));
     file.attributes.comments = {"a cloud"};
+    file.attributes.texture_files = {"a.png"};
     return file;
 }
 

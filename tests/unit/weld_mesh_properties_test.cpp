@@ -257,7 +257,8 @@ TEST_CASE(
                     .normals = {{0, 0, 1}},
                     .texture_of_corner = {{0, 0, 0}, {0, 1, 2}, {2, none, 1}},
                     .normal_of_corner = {{0, 0, 0}, {none, 0, 0}, {0, 0, none}}},
-        .material_files = {"a.mtl"}};
+        .material_files = {"a.mtl"},
+        .texture_files = {"a.png"}};
     const auto welded = tf::weld_mesh(mesh, properties, {});
     CHECK(welded.face_of_new == ids{1, 2});
     tf::attributes expected = properties;

@@ -1,5 +1,7 @@
 #include "tools/common/carried_materials.hpp"
 
+#include "tools/common/console.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -12,6 +14,20 @@ bool has_materials(const property_source& input) {
     const auto& parts = input.file->attributes.parts;
     return std::any_of(parts.begin(), parts.end(),
                        [](const tf::part& p) { return !p.material.empty(); });
+}
+
+std::set<std::string> ambiguous_materials(std::span<const tf::mesh_file* const> inputs) {
+    std::map<std::string, const std::vector<std::string>*> files_of;
+    std::set<std::string> found;
+    for (const tf::mesh_file* input : inputs) {
+        const tf::attributes& all = input->attributes;
+        for (const tf::part& p : all.parts) {
+            if (p.material.empty()) continue;
+            const auto [at, fresh] = files_of.try_emplace(p.material, &all.material_files);
+            if (!fresh && *at->second != all.material_files) found.insert(p.material);
+        }
+    }
+    return found;
 }
 
 }  // namespace
@@ -27,6 +43,8 @@ const std::string& material_of(const property_source& input, std::uint32_t face)
 
 void carry_materials(tf::mesh_file& file, std::span<const property_source> inputs,
                      const carried_to& made) {
+    if (!inputs.empty())
+        file.attributes.texture_files = inputs.front().file->attributes.texture_files;
     std::set<std::string> known;
     for (const property_source& input : inputs)
         for (const std::string& name : input.file->attributes.material_files)
@@ -43,18 +61,14 @@ void carry_materials(tf::mesh_file& file, std::span<const property_source> input
     }
 }
 
-std::vector<std::string> ambiguous_materials(std::span<const property_source> inputs) {
-    std::map<std::string, const std::vector<std::string>*> files_of;
-    std::set<std::string> found;
-    for (const property_source& input : inputs) {
-        const tf::attributes& all = input.file->attributes;
-        for (const tf::part& p : all.parts) {
-            if (p.material.empty()) continue;
-            const auto [at, fresh] = files_of.try_emplace(p.material, &all.material_files);
-            if (!fresh && *at->second != all.material_files) found.insert(p.material);
-        }
-    }
-    return {found.begin(), found.end()};
+void warn_of_ambiguous_materials(job& work, std::span<const tf::mesh_file* const> inputs) {
+    const std::set<std::string> names = ambiguous_materials(inputs);
+    if (names.empty()) return;
+    work.warn("materials", "inputs with different material files name " +
+                               (names.size() == 1 ? "material " + *names.begin()
+                                                  : counted(names.size(), "material", "materials") +
+                                                        ", such as " + *names.begin() + ",") +
+                               " alike; an OBJ has one of a name");
 }
 
 }  // namespace tools

@@ -83,8 +83,9 @@ tf::mesh_file job::read(const std::string& input, json& about) {
         file = tf::read_mesh(input, options.format);
     }
     if (const auto output = mesh_output(options, input)) {
-        auto& names = file.attributes.material_files;
-        names = seen_from_output(std::move(names), input, *output);
+        tf::attributes& all = file.attributes;
+        for (auto* names : {&all.material_files, &all.texture_files})
+            *names = seen_from_output(std::move(*names), input, *output);
     }
     about["format"] = file.format;
     about["sha256"] = digest.empty() ? json(nullptr) : json(digest);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Names of material files, seen from another folder.
+/// Names of material and texture files, seen from another folder.
 
 #include <filesystem>
 #include <string>

@@ -36,7 +36,7 @@ class job {
     /// Reads the input and enters what is known of it in `entry`. \throws failure
     [[nodiscard]] tf::mesh_file read();
     /// Reads `input` and enters format, digest and precision in `about`; says none of its warnings.
-    /// Names of material files are as seen from the output's folder.
+    /// Names of material and texture files are as seen from the output's folder.
     [[nodiscard]] tf::mesh_file read(const std::string& input, json& about);
 
     /// Adds the time from now to the end of the returned object's life to the report's `step`.

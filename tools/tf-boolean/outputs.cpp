@@ -53,13 +53,10 @@ void add_sources(tf::mesh_file& file, const boolean_settings& settings,
                                                " " + solids[i].path);
 }
 
-void warn_of_materials(job& work, const std::vector<std::string>& names) {
-    if (names.empty()) return;
-    work.warn("materials", "inputs with different material files name " +
-                               (names.size() == 1 ? "material " + names.front()
-                                                  : counted(names.size(), "material", "materials") +
-                                                        ", such as " + names.front() + ",") +
-                               " alike; an OBJ has one of a name");
+std::vector<const tf::mesh_file*> files_of(const std::vector<solid>& solids) {
+    std::vector<const tf::mesh_file*> files;
+    for (const solid& s : solids) files.push_back(&s.file);
+    return files;
 }
 
 /// All inputs together give one result, so that none is replaced.
@@ -92,9 +89,8 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
 
 bool writes_single(const job& work, const std::vector<solid>& solids) {
     const common_options& o = work.options;
-    std::vector<const tf::mesh_file*> files;
-    for (const solid& s : solids) files.push_back(&s.file);
-    return writes_single(o, o.output.empty() ? std::nullopt : std::optional(form_of(o)), files);
+    return writes_single(o, o.output.empty() ? std::nullopt : std::optional(form_of(o)),
+                         files_of(solids));
 }
 
 void separate_parts(job& work, tf::solid_result& result) {
@@ -165,7 +161,7 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
         carry_properties(file, sources_of(solids),
                          {result.source_face, result.source_point, result.face_of_cut_point});
     if (!settings.no_attributes && form.format == "obj")
-        warn_of_materials(work, ambiguous_materials(sources_of(solids)));
+        warn_of_ambiguous_materials(work, files_of(solids));
     if (holds_sources(form.format)) add_sources(file, settings, solids, result);
     const tf::write_result written = write_certified(work, file, form, o.output);
     work.entry["output"]["file"] = o.output.string();

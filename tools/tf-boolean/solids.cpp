@@ -3,6 +3,7 @@
 #include "tools/common/arrangeable.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/matrix_file.hpp"
+#include "tools/common/texture_files.hpp"
 #include "tools/common/turned_normals.hpp"
 #include <libmesh/bounding_box.hpp>
 #include <libmesh/validate.hpp>
@@ -94,6 +95,16 @@ std::string reason_of(const tf::solid_check& found, const solid& s) {
            " at face " + std::to_string(s.stored_face(first.face.index));
 }
 
+void settle_textures(job& work, std::vector<solid>& solids) {
+    std::vector<tf::mesh_file*> files;
+    std::vector<std::string> names;
+    for (solid& s : solids) {
+        files.push_back(&s.file);
+        names.push_back(name_of_input(s.path));
+    }
+    for (const tf::io_warning& w : unite_textures(files, names)) work.warn(w.code, w.text);
+}
+
 }  // namespace
 
 std::string in_words(const tf::point3& p) {
@@ -114,6 +125,7 @@ std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
         solids.push_back(read_solid(work, path, settings.matrix_files[i], about));
         forget_sources(solids.back().file, settings.source);
     }
+    if (!settings.check && !settings.no_attributes) settle_textures(work, solids);
     return solids;
 }
 

@@ -1,7 +1,9 @@
 #include "tools/tf-place/outputs.hpp"
 
+#include "tools/common/carried_materials.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
+#include "tools/common/texture_files.hpp"
 #include "tools/common/turned_normals.hpp"
 #include "tools/common/written_form.hpp"
 #include "tools/tf-place/marks.hpp"
@@ -114,18 +116,49 @@ std::vector<tf::part> parts_in_scene(const body& b, std::vector<tf::part> parts)
     return parts;
 }
 
-/// All together, with the parts of their files, what their corners have and its materials. Other
-/// properties are left out.
-tf::mesh_file scene_of(const std::vector<const body*>& bodies) {
+/// Gives the faces of `scene` that come next the numbers that those of `one` have.
+void append_texture_numbers(tf::mesh_file& scene, const tf::mesh_file& one) {
+    const tf::column* const more = texture_numbers(one);
+    if (more == nullptr) return;
+    tf::element& faces = tf::obtain_element(scene.attributes, "face", 0);
+    faces.rows += one.mesh.faces.size();
+    if (faces.columns.empty()) return faces.columns.push_back(*more);
+    auto& values = faces.columns[0].values;
+    values.insert(values.end(), more->values.begin(), more->values.end());
+}
+
+/// Looks at what the names of files stand for in each of them.
+void settle_names(job& work, const std::vector<const body*>& bodies, const std::string& format) {
+    std::vector<tf::mesh_file*> files;
+    std::vector<std::string> names;
+    for (const body* b : bodies) {
+        files.push_back(b->file.get());
+        names.push_back(name_of_input(b->path));
+    }
+    for (const tf::io_warning& w : unite_textures(files, names)) work.warn(w.code, w.text);
+    if (format == "obj")
+        warn_of_ambiguous_materials(work,
+                                    std::vector<const tf::mesh_file*>(files.begin(), files.end()));
+}
+
+/// All together, with the parts of their files, what their corners have, its materials and
+/// textures. Other properties are left out.
+tf::mesh_file scene_of(job& work, const std::vector<const body*>& bodies,
+                       const std::string& format) {
+    settle_names(work, bodies, format);
     tf::mesh_file scene;
     scene.format = bodies[0]->file->format;
     scene.stored_as = bodies[0]->file->stored_as;
+    scene.attributes.texture_files = bodies[0]->file->attributes.texture_files;
     const auto add = [&](const body& b) {
         tf::mesh_file one;
         one.mesh = b.file->mesh;
         one.stored_face = b.file->stored_face;
         one.attributes.parts = b.file->attributes.parts;
+        if (const tf::column* numbers = texture_numbers(*b.file))
+            one.attributes.elements = {{"face", b.file->stored_faces, {*numbers}}};
         tf::split_polygons(one);
+        if (!scene.attributes.texture_files.empty()) append_texture_numbers(scene, one);
         const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
         const auto first_face = static_cast<std::uint32_t>(scene.mesh.faces.size());
         for (tf::part& p : parts_in_scene(b, std::move(one.attributes.parts))) {
@@ -357,7 +390,7 @@ void write_result(job& work, body& moving, const placement& p, const surrounding
     std::vector<const body*> bodies{&moving};
     for (const body& part : among.all())
         if (part.file != bodies.back()->file) bodies.push_back(&part);
-    tf::mesh_file file = settings.scene ? scene_of(bodies) : *moving.file;
+    tf::mesh_file file = settings.scene ? scene_of(work, bodies, form.format) : *moving.file;
     if (classes && settings.scene) color_scene(file, moving, among.all(), *classes);
     if (classes && !settings.scene)
         color_moving(file, moving.cloud, classes->moving, settings.mode == place_mode::measure);
@@ -372,8 +405,8 @@ void write_plate(job& work, const std::vector<body>& bodies, const std::vector<b
     for (std::size_t i = 0; i < bodies.size(); ++i)
         if (placed[i]) there.push_back(&bodies[i]);
     if (there.empty()) return;
-    write_file(work, scene_of(there), *path, form_of(work, *there[0]->file, *path), to_single,
-               true);
+    const written_form form = form_of(work, *there[0]->file, *path);
+    write_file(work, scene_of(work, there, form.format), *path, form, to_single, true);
 }
 
 }  // namespace tools

@@ -1,5 +1,6 @@
 #include "tools/tf-weld/in_memory.hpp"
 
+#include "tools/common/carried_materials.hpp"
 #include "tools/tf-weld/join_files.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/polygons.hpp"
@@ -10,6 +11,14 @@
 
 namespace tools {
 namespace {
+
+void warn_of_materials(job& work, const std::vector<tf::mesh_file>& files) {
+    const auto path = mesh_output(work.options, work.path);
+    if (!path || form_of(work, files.front(), *path).format != "obj") return;
+    std::vector<const tf::mesh_file*> all;
+    for (const tf::mesh_file& file : files) all.push_back(&file);
+    warn_of_ambiguous_materials(work, all);
+}
 
 tf::mesh_file read_all(job& work) {
     const std::vector<std::string> names =
@@ -28,6 +37,7 @@ tf::mesh_file read_all(job& work) {
     const json& first = work.entry["sources"].front();
     for (const char* key : {"format", "sha256"})
         work.entry[key] = files.size() == 1 ? first[key] : json(nullptr);
+    warn_of_materials(work, files);
     tf::mesh_file all =
         files.size() == 1 ? std::move(files.front()) : join_files(std::move(files), names);
     work.entry["precision_in"] = all.stored_as == tf::precision::single_ ? "float" : "double";

@@ -1,6 +1,7 @@
 #include "tools/tf-weld/join_files.hpp"
 
 #include "tools/common/exit_status.hpp"
+#include "tools/common/texture_files.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -86,6 +87,7 @@ class joiner {
 
     tf::mesh_file join() {
         check_sizes();
+        unite_textures();
         join_descriptions();
         join_element("vertex", [](const tf::mesh_file& f) { return f.mesh.points.size(); });
         join_element("face", [](const tf::mesh_file& f) { return f.stored_faces; });
@@ -120,6 +122,13 @@ class joiner {
             throw failure(bad_input, "size",
                           "all inputs together have more points or triangles than 32-bit numbers "
                           "can name");
+    }
+
+    void unite_textures() {
+        std::vector<tf::mesh_file*> files;
+        for (tf::mesh_file& file : files_) files.push_back(&file);
+        for (const tf::io_warning& w : tools::unite_textures(files, names_)) warn(w.code, w.text);
+        all_.attributes.texture_files = files_.front().attributes.texture_files;
     }
 
     void join_descriptions() {

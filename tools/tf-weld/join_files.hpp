@@ -13,8 +13,8 @@ namespace tools {
 ///
 /// Columns of "vertex" and "face" go together by name; those that some files do not have are
 /// filled up with NaN, 0 or empty lists there, and types widened until they hold every value.
-/// Corners keep their texture coordinates and normals. Other elements are left out. `names` stand
-/// for the files in the warnings about all this.
+/// Corners keep their texture coordinates and normals, and their texture files. Other elements are
+/// left out. `names` stand for the files in the warnings about all this.
 ///
 /// \throws failure (bad_input) when a column holds lists in one file and single values in another,
 ///         or no type holds all values; or for more points or triangles than 32-bit numbers can

@@ -1,0 +1,26 @@
+#pragma once
+/// \file
+/// Texture files of several inputs, and the numbers by which their faces name them.
+
+#include <libmesh/io/mesh_file.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+/// The property "texnumber" of faces, a number in `texture_files` each; null where there is none.
+[[nodiscard]] const tf::column* texture_numbers(const tf::mesh_file& file);
+
+/// Gives all `files` one list of texture files, that of the first with the names that further ones
+/// add, and their faces int32 numbers in it. `names` stand for the files in what is warned of.
+///
+/// Faces of a file without numbers have that of its first name. Those that named none have -1, as
+/// all of a file without names; numbers other than -1 that name none are warned of. Faces are given
+/// no numbers where one name is all there is and no file has numbers, or texture coordinates
+/// without a name. A single file stays as it is, and so do files without names.
+[[nodiscard]] std::vector<tf::io_warning> unite_textures(std::span<tf::mesh_file* const> files,
+                                                         std::span<const std::string> names);
+
+}  // namespace tools
