@@ -236,8 +236,20 @@ class Several(TextureTest):
         self.put("a.ply", text.replace("property int", "property list uchar int"))
         for kind, arguments in self.many().items():
             with self.subTest(kind=kind):
-                self.assertEqual(self.run_as(*arguments, "out.ply"), ["textures"])
+                # Scenes have no other properties of faces anyway.
+                warned = ["textures"] if kind in ("boolean", "weld") else []
+                self.assertEqual(self.run_as(*arguments, "out.ply"), warned)
                 self.check("out.ply")
+
+    def test_a_scene_has_no_names_of_one_before(self):
+        self.two()
+        self.put("c.ply", textured_ply(self.LOW, ["d.png"], lambda i: "d.png"))
+        os.makedirs(self.path("out"))
+        self.run_as(PLACE, "measure", "a.ply", "c.ply", "--fixed", "b.ply", "--scene",
+                    "--output-dir", "out")
+        for name, names in (("a", ["a.png", "b c.jpg", "d.png"]), ("c", ["d.png", "b c.jpg"])):
+            mesh, found = self.check(f"out/{name}-place.ply")
+            self.assertEqual((mesh.names, found), (["../" + n for n in names], set(names)))
 
     def test_polygons_have_the_numbers_of_all_their_triangles(self):
         points, _ = self.LOW

@@ -116,66 +116,76 @@ std::vector<tf::part> parts_in_scene(const body& b, std::vector<tf::part> parts)
     return parts;
 }
 
-/// Gives the faces of `scene` that come next the numbers that those of `one` have.
-void append_texture_numbers(tf::mesh_file& scene, const tf::mesh_file& one) {
-    const tf::column* const more = texture_numbers(one);
-    if (more == nullptr) return;
-    tf::element& faces = tf::obtain_element(scene.attributes, "face", 0);
-    faces.rows += one.mesh.faces.size();
-    if (faces.columns.empty()) return faces.columns.push_back(*more);
-    auto& values = faces.columns[0].values;
-    values.insert(values.end(), more->values.begin(), more->values.end());
+/// What a scene takes of a body's file, but for points and faces.
+tf::mesh_file described(const body& b) {
+    tf::mesh_file one{.stored_face = b.file->stored_face, .stored_faces = b.file->stored_faces};
+    const tf::attributes& all = b.file->attributes;
+    one.attributes = {.corners = all.corners,
+                      .parts = all.parts,
+                      .material_files = all.material_files,
+                      .texture_files = all.texture_files};
+    if (const tf::column* numbers = texture_numbers(*b.file))
+        one.attributes.elements = {{"face", one.stored_faces, {*numbers}}};
+    return one;
 }
 
-/// Looks at what the names of files stand for in each of them.
-void settle_names(job& work, const std::vector<const body*>& bodies, const std::string& format) {
-    std::vector<tf::mesh_file*> files;
+/// The files of `bodies` with one list of texture files.
+std::vector<tf::mesh_file> described(job& work, const std::vector<const body*>& bodies,
+                                     const std::string& format) {
+    std::vector<tf::mesh_file> all;
     std::vector<std::string> names;
     for (const body* b : bodies) {
-        files.push_back(b->file.get());
+        all.push_back(described(*b));
         names.push_back(name_of_input(b->path));
     }
+    std::vector<tf::mesh_file*> files;
+    for (tf::mesh_file& one : all) files.push_back(&one);
     for (const tf::io_warning& w : unite_textures(files, names)) work.warn(w.code, w.text);
     if (format == "obj")
         warn_of_ambiguous_materials(work,
                                     std::vector<const tf::mesh_file*>(files.begin(), files.end()));
+    return all;
+}
+
+/// Gives the faces of `scene` that come next, `faces` in number, the numbers of `one`.
+void append_texture_numbers(tf::mesh_file& scene, const tf::mesh_file& one, std::size_t faces) {
+    const tf::column* const more = texture_numbers(one);
+    if (more == nullptr || scene.attributes.texture_files.empty()) return;
+    tf::element& rows = tf::obtain_element(scene.attributes, "face", 0);
+    rows.rows += faces;
+    if (rows.columns.empty()) return rows.columns.push_back(*more);
+    auto& values = rows.columns[0].values;
+    values.insert(values.end(), more->values.begin(), more->values.end());
 }
 
 /// All together, with the parts of their files, what their corners have, its materials and
 /// textures. Other properties are left out.
 tf::mesh_file scene_of(job& work, const std::vector<const body*>& bodies,
                        const std::string& format) {
-    settle_names(work, bodies, format);
     tf::mesh_file scene;
     scene.format = bodies[0]->file->format;
     scene.stored_as = bodies[0]->file->stored_as;
-    scene.attributes.texture_files = bodies[0]->file->attributes.texture_files;
-    const auto add = [&](const body& b) {
-        tf::mesh_file one;
-        one.mesh = b.file->mesh;
-        one.stored_face = b.file->stored_face;
-        one.attributes.parts = b.file->attributes.parts;
-        if (const tf::column* numbers = texture_numbers(*b.file))
-            one.attributes.elements = {{"face", b.file->stored_faces, {*numbers}}};
+    const auto add = [&](const body& b, tf::mesh_file one) {
+        const tf::mesh& mesh = b.file->mesh;
         tf::split_polygons(one);
-        if (!scene.attributes.texture_files.empty()) append_texture_numbers(scene, one);
+        append_texture_numbers(scene, one, mesh.faces.size());
         const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
         const auto first_face = static_cast<std::uint32_t>(scene.mesh.faces.size());
         for (tf::part& p : parts_in_scene(b, std::move(one.attributes.parts))) {
             p.first_face += first_face;
             scene.attributes.parts.push_back(std::move(p));
         }
-        tf::append(scene.attributes.corners, scene.mesh.faces.size(), b.file->attributes.corners,
-                   one.mesh.faces.size());
+        tf::append(scene.attributes.corners, first_face, one.attributes.corners, mesh.faces.size());
         auto& names = scene.attributes.material_files;
-        for (const std::string& name : b.file->attributes.material_files)
+        for (const std::string& name : one.attributes.material_files)
             if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-        scene.mesh.points.insert(scene.mesh.points.end(), one.mesh.points.begin(),
-                                 one.mesh.points.end());
-        for (const tf::face& f : one.mesh.faces)
+        scene.mesh.points.insert(scene.mesh.points.end(), mesh.points.begin(), mesh.points.end());
+        for (const tf::face& f : mesh.faces)
             scene.mesh.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
     };
-    for (const body* b : bodies) add(*b);
+    std::vector<tf::mesh_file> files = described(work, bodies, format);
+    scene.attributes.texture_files = files[0].attributes.texture_files;
+    for (std::size_t i = 0; i < bodies.size(); ++i) add(*bodies[i], std::move(files[i]));
     scene.stored_faces = scene.mesh.faces.size();
     return scene;
 }
