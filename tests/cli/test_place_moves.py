@@ -322,6 +322,12 @@ class Moves(PlaceTest):
         entry = self.placed("lay", "a.obj", "--face-point", "1.5,1,6")
         self.assertEqual(entry["sides"][entry["chosen"]]["normal"], [0, -1, 0])
 
+    def test_what_arrange_leaves_out_is_counted(self):
+        points, faces = box((0, 0, 0), (1, 1, 1))
+        self.mesh("nan.obj", (points + [(math.nan, 0, 0)], faces + [(0, 1, 8), (1, 2, 8)]))
+        entry = self.placed("arrange", "a.obj", "nan.obj", "--size", "9,9", "-n")
+        self.assertEqual(entry["skipped"]["non_finite"], 2)
+
     def test_arrange_puts_all_on_the_plate_or_names_what_does_not_fit(self):
         for i in range(4):
             self.mesh(f"p{i}.stl", box((7 * i, 3, 5), (7 * i + 4, 7, 8)))

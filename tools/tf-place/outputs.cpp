@@ -366,7 +366,7 @@ void enter_report(job& work, const body& moving, const placement& p, const surro
     for (const tf::hull_side& side : p.sides)
         entry["sides"].push_back({{"normal", triple(side.normal)},
                                   {"area", side.area},
-                                  {"centre", triple(side.centre)}});
+                                  {"center", triple(side.centre)}});
     if (!p.sides.empty()) {
         entry["chosen"] = p.chosen;
         entry["tolerance"]["used"] = p.tolerance;

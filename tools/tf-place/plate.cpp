@@ -9,6 +9,7 @@
 #include <libmesh/place/arrange.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace tools {
@@ -16,6 +17,7 @@ namespace {
 
 std::vector<body> read_all(job& work, const tf::transform<3>& start) {
     std::vector<body> bodies;
+    std::uint64_t non_finite = 0;
     for (const std::string& path : work.options.inputs) {
         json about{{"input", path}};
         tf::mesh_file file = work.read(path, about);
@@ -29,8 +31,10 @@ std::vector<body> read_all(job& work, const tf::transform<3>& start) {
                 bad_usage, "usage",
                 bodies.back().label() + ": is a cloud of points; arrange takes meshes only");
         about["faces"] = bodies.back().file->stored_faces;
+        non_finite += bodies.back().non_finite;
         work.entry["parts"].push_back(std::move(about));
     }
+    work.entry["skipped"]["non_finite"] = non_finite;
     return bodies;
 }
 
