@@ -4,11 +4,11 @@ from boolean_support import *
 
 NUMBER = (int, float)
 NULL = type(None)
-FILE = {"input": (str, NULL), "error": NULL, "operation": (str, NULL), "inside": str,
-        "check": bool, "inputs": list, "pairs": (int, NULL), "cut_faces": (int, NULL),
-        "cells": (int, NULL), "volumes": (dict, NULL), "separated_points": (int, NULL),
-        "skipped": dict, "max_move": dict, "output": (dict, NULL),
-        "warnings": list, "exit": int}
+FILE = {"input": (str, NULL), "error": NULL, "warnings": list, "operation": (str, NULL),
+        "inside": str, "check": bool, "inputs": list, "pairs": (int, NULL),
+        "cut_faces": (int, NULL), "cells": (int, NULL), "volumes": (dict, NULL),
+        "separated_points": (int, NULL), "skipped": dict, "max_move": dict,
+        "output": (dict, NULL), "exit": int}
 INPUT = {"file": str, "format": str, "sha256": str, "precision_in": str, "matrix": (str, NULL),
          "faces": int, "triangles": int, "volume": NUMBER, "closed": (bool, NULL),
          "reason": (str, NULL), "open": dict, "skipped": dict}

@@ -107,10 +107,11 @@ class Repair(ToolTest):
         points, faces = cube()
         inside_out = [tuple(reversed(f)) for f in faces]
         part = write(self.path("part.obj"), together((points, faces), (points, inside_out)))
-        run = self.run_tool(part, "--repair", "-o", "out.stl", status=1)
+        run = self.run_tool(part, "--repair", "-o", "out.stl", "-r", "report.json", status=1)
         self.assertIn("nothing would be left", run.text)
         self.assertIn("--repair=split keeps one of each", run.text)
-        self.assertEqual(self.listing(), ["part.obj"])
+        self.assertEqual(self.listing(), ["part.obj", "report.json"])
+        self.assertFalse(json.loads(self.read("report.json"))["files"][0]["repair"]["certified"])
         self.run_tool(part, "--repair=split", "-o", "one.obj", status=0)
         self.assertEqual(len(obj_mesh(self.read("one.obj"))[1]), 12)
 

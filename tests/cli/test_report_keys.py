@@ -148,7 +148,7 @@ class Reports(PlaceTest):
             self.look_at_keys(keys, entry, "", where, entry["error"] is None)
             if entry["error"]:
                 self.assertIn(entry["error"]["code"], self.codes["Errors"])
-            for warning in entry.get("warnings", []):
+            for warning in entry["warnings"]:
                 self.assertIn(warning["code"], self.codes["Warnings"], msg=where)
 
     # ---- reports ----

@@ -49,6 +49,7 @@ job::job(const std::string& input, const common_options& all_options, console& m
       seconds(all_seconds) {
     entry["input"] = input;
     entry["error"] = nullptr;
+    entry["warnings"] = json::array();
     if (!options.joined || options.inputs.size() < 2) return;
     name = std::to_string(options.inputs.size()) + " inputs";
     entry["input"] = nullptr;
@@ -56,7 +57,6 @@ job::job(const std::string& input, const common_options& all_options, console& m
 
 tf::mesh_file job::read() {
     tf::mesh_file file = read(path, entry);
-    entry["warnings"] = json::array();
     for (const tf::io_warning& w : file.warnings) warn(w.code, w.text);
     return file;
 }

@@ -84,7 +84,6 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
         {"given", settings.max_move ? json(settings.max_move->given) : json(nullptr)},
         {"used", nullptr}};
     entry["output"] = nullptr;
-    entry["warnings"] = json::array();
 }
 
 bool writes_single(const job& work, const std::vector<solid>& solids) {

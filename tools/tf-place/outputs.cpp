@@ -293,7 +293,6 @@ void enter_blank_report(job& work, const place_settings& settings) {
     entry["rounding"] = nullptr;
     entry["matrix_file"] = settings.matrix.empty() ? json(nullptr) : json(settings.matrix.string());
     entry["output"] = nullptr;
-    entry["warnings"] = json::array();
 }
 
 void enter_bodies(job& work, const body& moving, const surroundings& among) {

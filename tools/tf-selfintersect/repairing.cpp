@@ -66,9 +66,10 @@ void enter_repair(job& work, const findings& result, const repair_settings& sett
         meeting.push_back({{"faces", {f, g}}, {"near", triple(meeting_place(repaired, f))}});
     const tf::mesh& surface = repaired.surface;
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
+    const bool is_lost = surface.faces.empty() && !result.mesh.faces.empty();
     work.entry["repair"] = {
         {"mode", name_of(settings.mode)},
-        {"certified", repaired.certified},
+        {"certified", repaired.certified && !is_lost},
         {"self_intersections",
          {{"before", result.pairs_that_count()}, {"after", repaired.meeting_count}}},
         {"meeting", meeting},

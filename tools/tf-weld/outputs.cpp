@@ -145,7 +145,6 @@ void enter_blank_report(job& work, const weld_request& request) {
     entry["left_alone"] = nullptr;
     entry["output"] = nullptr;
     for (const char* key : {"map", "removed", "label"}) entry[key] = nullptr;
-    entry["warnings"] = json::array();
 }
 
 void enter_report(job& work, const welding& w, const weld_request& request) {
