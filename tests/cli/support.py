@@ -36,6 +36,13 @@ class ToolTest(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
+    def put(self, name, text):
+        """Writes a file, with the folders that it is in."""
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), "w") as file:
+            file.write(text)
+        return name
+
     def run_tool(self, *arguments, status=None, stdin=b"", timeout=120):
         done = subprocess.run([self.tool, *map(str, arguments)], input=stdin, capture_output=True,
                               cwd=self.folder, timeout=timeout)

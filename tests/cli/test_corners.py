@@ -70,12 +70,6 @@ class Parsed:
 
 
 class CornerTest(BooleanTest):
-    def put(self, name, text):
-        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
-        with open(self.path(name), "w") as file:
-            file.write(text)
-        return name
-
     def parsed(self, name):
         return Parsed(self.read(name))
 

@@ -68,12 +68,6 @@ class Read:
 
 
 class TextureTest(BooleanTest):
-    def put(self, name, text):
-        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
-        with open(self.path(name), "w") as file:
-            file.write(text)
-        return name
-
     def run_as(self, tool, *arguments):
         """Its warnings."""
         self.tool = tool
