@@ -358,6 +358,8 @@ fit_result fit(points_view moving, mesh_view fixed, const fit_options& options) 
     const bool planes = options.method == fit_method::point_to_plane && !fixed.faces.empty();
     if (!work.reach(0.1)) return {.cancelled = true};
     const quality before = judge(start);
+    if (!std::isfinite(before.cost))
+        throw std::overflow_error("tf::fit: the distances are too large to be squared");
     if (!work.reach(0.2)) return {.cancelled = true};
     const search_result found =
         search(scaled, some_of(all, options.samples), start, options, radius, planes, work);

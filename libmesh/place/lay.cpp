@@ -89,7 +89,8 @@ hull_side sum_of(const std::vector<hull_side>& sides, const std::vector<std::uin
     double area = 0.0;
     point3 normal, centre;
     for (const std::uint32_t i : together) {
-        const double share = sides[i].area / sum.area;
+        // Equal ones may be infinite, or zero.
+        const double share = sides[i].area == sum.area ? 1.0 : sides[i].area / sum.area;
         area += share;
         for (std::size_t k = 0; k < 3; ++k) {
             normal[k] += share * sides[i].normal[k];
@@ -257,7 +258,8 @@ std::pair<double, double> turn_to_axes(const std::vector<point3>& edges) {
     double least = 2.0;
     for (const point3& e : edges) {
         const double length = std::hypot(e.x, e.y);
-        if (length == 0.0 || length < longest * (1.0 - equally_good)) continue;
+        if (!(length > 0.0) || std::isinf(length) || length < longest * (1.0 - equally_good))
+            continue;
         double c = e.x / length, s = e.y / length;
         while (!(c > 0.0 && std::abs(s) <= c)) c = std::exchange(s, -c);
         if (std::abs(s) >= least) continue;
@@ -337,7 +339,7 @@ void put_down(laid_mesh& laid, mesh_view mesh, const std::vector<std::uint32_t>&
         if (options.to_single)
             for (std::size_t k = 0; k < 3; ++k) q[k] = detail::nearest_float(q[k]);
         if (!finite(q))
-            throw std::invalid_argument("tf::lay: the coordinates are too large to be turned");
+            throw std::overflow_error("tf::lay: the coordinates are too large to be turned");
         laid.points.push_back(q);
     }
     for (const std::uint32_t i : ids) {

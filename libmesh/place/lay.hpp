@@ -67,7 +67,8 @@ struct laid_mesh {
 ///
 /// \throws std::invalid_argument naming a point that is not finite or a face with a corner that is
 ///         no point; for a direction that is zero where one is needed; for options not
-///         finite, a negative tolerance, and coordinates too large to be turned
+///         finite, and a negative tolerance
+/// \throws std::overflow_error for coordinates too large to be turned
 /// \cost   that of `convex_hull`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<laid_mesh> lay(mesh_view mesh,

@@ -141,7 +141,8 @@ face_pieces::flips face_pieces::flip_once(std::span<const std::array<std::uint32
     for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
         const half_edge &one = edges[e], &two = edges[e + 1];
         const auto same = [&](const half_edge& x) { return x.a == one.a && x.b == one.b; };
-        if (!same(two) || (e > 0 && same(edges[e - 1])) ||
+        // A piece that repeats a corner is on either side of its edge.
+        if (!same(two) || one.piece == two.piece || (e > 0 && same(edges[e - 1])) ||
             (e + 2 < edges.size() && same(edges[e + 2])) || changed[one.piece] ||
             changed[two.piece] ||
             std::binary_search(kept.begin(), kept.end(), std::array{one.a, one.b}))

@@ -88,9 +88,13 @@ class Moves(PlaceTest):
             run = self.run_tool(*arguments, "--bed", "-1e300", "-o", "out.stl", status=2)
             self.assertIn("range of float32", run.err)
         self.mesh("far.obj", box((0, 0, 1e300), (1e300, 1e300, 2e300)))
-        self.assertIn("beyond the range", self.refused("drop", "far.obj", "--output-format", "stl")
-                      ["reason"])
-        self.assertEqual(self.listing(), ["a.obj", "far.obj", "floor.obj", "in.obj"])
+        most = 1.7e308
+        self.mesh("most.obj", box((-most, -most, -most), (most, most, most)))
+        for arguments in (["drop", "far.obj", "--output-format", "stl"], ["lay", "most.obj"],
+                          ["fit", "most.obj", "--fixed", "a.obj"]):
+            self.assertIn("beyond the range", self.refused(*arguments)["reason"])
+        self.assertEqual(self.listing(),
+                         ["a.obj", "far.obj", "floor.obj", "in.obj", "most.obj"])
 
     def test_what_rounding_takes_is_said(self):
         self.mesh("third.obj", box((1 / 3, 1 / 3, 1 / 3), (2 / 3, 2 / 3, 2 / 3)))

@@ -281,6 +281,9 @@ TEST_CASE("fit: what cannot be meant is refused") {
     tf::fit_options start;
     start.start.rows[0][0] = nan;
     refused(start);
+    there[4].x = 1e200;
+    CHECK_THROWS_WITH_AS(static_cast<void>(tf::fit(there, fixed)), doctest::Contains("too large"),
+                         std::overflow_error);
     there[4].x = nan;
     CHECK_THROWS_WITH_AS(static_cast<void>(tf::fit(there, fixed)),
                          doctest::Contains("moving point 4"), std::invalid_argument);

@@ -251,6 +251,28 @@ TEST_CASE("lay: there is no side to a line, a point or nothing") {
     CHECK_FALSE(tf::lay({line, face}));
 }
 
+TEST_CASE("lay: sides whose areas no double holds are joined and laid down like others") {
+    for (const double size : {0x1p1000, 0x1p-1000}) {
+        tf::mesh box = test::box(3, 2, 1);
+        for (tf::point3& p : box.points) p = {p.x * size, p.y * size, p.z * size};
+        box.points[6].z *= 1.0 + 0x1p-50;  // two faces to one side
+        const auto laid = tf::lay(box, {.tolerance = 0x1p-40 * size});
+        REQUIRE(laid);
+        CHECK(laid->on_bed.size() == 4);
+        for (const tf::hull_side& side : laid->sides)
+            CHECK(std::abs(std::hypot(side.normal.x, side.normal.y, side.normal.z) - 1.0) < 1e-12);
+    }
+}
+
+TEST_CASE("lay: edges whose lengths no double holds are not turned along") {
+    constexpr double most = std::numeric_limits<double>::max();
+    const std::vector<tf::point3> points{
+        {most, most, most}, {-most, -most, most}, {-most, most, -most}, {most, -most, -most}};
+    const std::vector<tf::face> faces{{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+    CHECK_THROWS_WITH_AS(static_cast<void>(tf::lay({points, faces})),
+                         doctest::Contains("too large"), std::overflow_error);
+}
+
 TEST_CASE("lay: the same on any number of threads") {
     const tf::mesh ball = test::ball(4, 1.0);
     const auto one = *tf::lay(ball);

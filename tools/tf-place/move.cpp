@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace tools {
@@ -47,8 +48,13 @@ class placing {
     [[nodiscard]] placement run() {
         const bool looks = settings_.mode != place_mode::fit;
         if (looks) look_at_start();
-        find_place();
-        if (result_.placed && !all_finite(result_.points)) {
+        bool in_range = true;
+        try {
+            find_place();
+        } catch (const std::overflow_error&) {
+            in_range = false;
+        }
+        if (!in_range || (result_.placed && !all_finite(result_.points))) {
             forget_place();
             fail(std::string("is beyond the range of ") + (to_single_ ? "float32" : "doubles") +
                  " at its place");
