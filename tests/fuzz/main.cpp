@@ -1,8 +1,8 @@
 /// \file
-/// fuzz_TARGET [-f FIRST] [-n RUNS] [FILE|FOLDER...]: runs a fuzz target, with any compiler, over
-/// the files named and those of the folders; with -n, over so many damaged copies of them instead.
-/// Run r of the same files is the same each time: when it ends badly, its number is printed, and
-/// `-f r -n 1` runs it again.
+/// fuzz_TARGET [-f FIRST] [-n RUNS] [-b BYTES] [FILE|FOLDER...]: runs a fuzz target, with any
+/// compiler, over the files named and those of the folders; with -n, over so many damaged copies of
+/// them instead, cut at -b bytes (4096). Run r of the same files is the same each time: when it
+/// ends badly, its number is printed, and `-f r -n 1` runs it again.
 
 #include <support/stress_random.hpp>
 #include <unistd.h>
@@ -29,7 +29,6 @@ namespace {
 
 using tf::test::random_source;
 using content = std::vector<std::uint8_t>;
-constexpr std::size_t most_bytes = 4096;
 
 content read(const std::filesystem::path& path) {
     std::ifstream in(path, std::ios::binary);
@@ -50,12 +49,13 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
 
 class damage {
   public:
-    damage(const std::vector<content>& seeds, std::uint64_t run) : seeds_(seeds), random_(run) {}
+    damage(const std::vector<content>& seeds, std::size_t most_bytes, std::uint64_t run)
+        : seeds_(seeds), most_bytes_(most_bytes), random_(run) {}
 
     content next() {
         content bytes = any_seed();
         for (std::uint64_t left = random_.below(6); left > 0; --left) change(bytes);
-        bytes.resize(std::min(bytes.size(), most_bytes));
+        bytes.resize(std::min(bytes.size(), most_bytes_));
         return bytes;
     }
 
@@ -103,6 +103,7 @@ class damage {
     }
 
     const std::vector<content>& seeds_;
+    std::size_t most_bytes_;
     random_source random_;
 };
 
@@ -124,6 +125,7 @@ void tell_run(int) {
 void run(int argc, char** argv) {
     std::uint64_t first = 0;
     std::uint64_t runs = 0;
+    std::size_t most_bytes = 4096;
     std::vector<content> seeds;
     for (int i = 1; i < argc; ++i) {
         const std::string argument = argv[i];
@@ -131,6 +133,8 @@ void run(int argc, char** argv) {
             first = std::stoull(argv[++i]);
         else if (argument == "-n" && i + 1 < argc)
             runs = std::stoull(argv[++i]);
+        else if (argument == "-b" && i + 1 < argc)
+            most_bytes = std::stoull(argv[++i]);
         else
             for (const auto& file : files_of(argument)) seeds.push_back(read(file));
     }
@@ -139,7 +143,7 @@ void run(int argc, char** argv) {
     if (seeds.empty()) throw std::runtime_error("no file to begin with");
     std::signal(SIGABRT, tell_run);
     for (current_run = first; current_run < first + runs; ++current_run) {
-        const content input = damage(seeds, current_run).next();
+        const content input = damage(seeds, most_bytes, current_run).next();
         LLVMFuzzerTestOneInput(input.data(), input.size());
     }
 }
