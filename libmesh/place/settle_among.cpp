@@ -38,6 +38,9 @@ class settling {
                 const double product = time * motion_[k];
                 p[k] += product;
                 if (options_.to_single) p[k] = detail::nearest_float(p[k]);
+                if (!std::isfinite(p[k]))
+                    throw std::overflow_error(
+                        "tf::settle_among: the coordinates at the place are too large");
             }
         if (options_.floor) put_on_floor(one.points, rests);
         look_around(one);
@@ -59,8 +62,7 @@ class settling {
         for (std::size_t k = 0; k < 3; ++k) {
             speed = std::max(speed, std::abs(motion_[k]));
             if (motion_[k] == 0.0) continue;
-            for (const point3& p : points)
-                if (std::isfinite(p[k])) largest = std::max(largest, std::abs(p[k]));
+            for (const point3& p : points) largest = std::max(largest, std::abs(p[k]));
         }
         if (largest == 0.0) return std::numeric_limits<double>::denorm_min() / speed;
         const double unit = std::ldexp(1.0, std::ilogb(largest) - (options_.to_single ? 23 : 52));

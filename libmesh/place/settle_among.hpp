@@ -51,6 +51,7 @@ struct settled_among {
 /// \pre    time >= 0
 /// \throws std::invalid_argument as `relation`, and for a motion or time that is not finite, or a
 ///         clearance that is negative or NaN
+/// \throws std::overflow_error for coordinates that are not finite at the place
 /// \cost   a `face_tree` of `a` for each attempt, with `relation` and `mesh_distance` for the parts
 ///         whose boxes are within the clearance of its box
 /// \same   on any number of threads

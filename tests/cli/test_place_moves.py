@@ -90,7 +90,9 @@ class Moves(PlaceTest):
         self.mesh("far.obj", box((0, 0, 1e300), (1e300, 1e300, 2e300)))
         most = 1.7e308
         self.mesh("most.obj", box((-most, -most, -most), (most, most, most)))
-        for arguments in (["drop", "far.obj", "--output-format", "stl"], ["lay", "most.obj"],
+        for arguments in (["drop", "far.obj", "--output-format", "stl"],
+                          ["drop", "far.obj", "--fixed", "a.obj", "--output-format", "stl"],
+                          ["lay", "most.obj"],
                           ["fit", "most.obj", "--fixed", "a.obj"]):
             self.assertIn("beyond the range", self.refused(*arguments)["reason"])
         self.assertEqual(self.listing(),
