@@ -23,8 +23,10 @@ while getopts "s:n:h" option; do
 done
 shift $((OPTIND - 1))
 targets=("$@")
-((${#targets[@]})) || targets=(read_stl read_obj read_ply read_off read_pcd read_xyz read_csv predicates
-    constructed_points triangle_triangle self_intersections boolean repair weld)
+((${#targets[@]})) || targets=(
+    read_stl read_obj read_ply read_off read_pcd read_xyz read_csv read_glb
+    predicates constructed_points triangle_triangle self_intersections boolean repair weld
+    tool_selfintersect tool_weld tool_boolean tool_place)
 
 build=build/fuzz
 [[ -f $build/build.ninja ]] || cmake --preset fuzz >/dev/null
@@ -35,13 +37,19 @@ seeds=$build/tests/fuzz/seeds
 failed=0
 printf '%-20s %12s %9s %8s  %s\n' target runs runs/s inputs outcome
 for target in "${targets[@]}"; do
+    formats=()
+    [[ $target == read_* ]] && formats=("${target#read_}")
+    [[ $target == tool_* ]] && formats=(stl obj ply off pcd xyz csv glb)
     more=()
-    if [[ $target == read_* ]]; then
-        more=("$seeds/files-$target")
-        mkdir -p "${more[0]}"
+    for format in "${formats[@]}"; do
+        files=$seeds/files-$format
+        mkdir -p "$files"
         find data ${TREEFORM_MODELS_DIR:+"$TREEFORM_MODELS_DIR"} -type f -size -64k \
-            -iname "*.${target#read_}" -exec cp -t "${more[0]}" {} +
-    fi
+            -iname "*.$format" -exec cp -t "$files" {} +
+        more+=("$files")
+        [[ $target == tool_* ]] && more+=("$seeds/read_$format")
+    done
+    mkdir -p "$seeds/$target" "$seeds/new/$target"
     log=$build/fuzz-$target.log
     outcome=passed
     "$build/tests/fuzz/fuzz_$target" "$limit" -max_len=65536 -rss_limit_mb=4096 -timeout=60 \

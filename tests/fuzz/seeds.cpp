@@ -25,7 +25,7 @@ namespace {
 
 using tf::test::stress_family;
 
-constexpr std::array formats{"csv", "obj", "off", "pcd", "ply", "stl", "xyz"};
+constexpr std::array formats{"csv", "glb", "obj", "off", "pcd", "ply", "stl", "xyz"};
 constexpr std::array deciders{"predicates",
                               "constructed_points",
                               "triangle_triangle",
