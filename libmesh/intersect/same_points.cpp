@@ -1,45 +1,80 @@
 #include <libmesh/intersect/detail/same_points.hpp>
 #include <libtree/build.hpp>
+#include <libtree/parallel.hpp>
 #include <libtree/search_self.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace tf::detail {
 namespace {
 
-/// The ball's box, rounded outward.
-aabb<double, 3> box_of(const constructed_point& p) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    point3 low = p.centre();
-    point3 high = p.centre();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = std::nextafter(low[axis] - p.radius(), -infinity);
-        high[axis] = std::nextafter(high[axis] + p.radius(), infinity);
-    }
-    aabb<double, 3> box;
-    box.include(low);
-    box.include(high);
-    return box;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Whether the ball is wide beside a coordinate of its centre.
+bool is_wide(const constructed_point& p) {
+    const point3& c = p.centre();
+    return p.radius() > 0x1p-30 * std::min({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
 }
 
-bool boxes_meet(const constructed_point& p, const constructed_point& q) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (std::abs(p.centre()[axis] - q.centre()[axis]) >
-            (p.radius() + q.radius()) * (1.0 + 0x1p-50) + 0x1p-1070)
-            return false;
-    return true;
-}
+/// Boxes that hold the points.
+///
+/// A ball is as wide as the rounding of its largest coordinate. Beside the others that may be much:
+/// of points far out along one axis most would be within most. These are rounded axis by axis.
+class enclosures {
+  public:
+    explicit enclosures(std::span<const constructed_point> points) : points_(points) {
+        if (std::none_of(points.begin(), points.end(), is_wide)) return;
+        rounded_.resize(points.size());
+        for_chunks(points.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end; ++i)
+                if (is_wide(points[i])) rounded_[i] = rounded(points[i]);
+        });
+    }
+
+    [[nodiscard]] aabb<double, 3> box(std::size_t i) const {
+        const constructed_point& p = points_[i];
+        const bool wide = is_wide(p);
+        const point3& centre = wide ? rounded_[i] : p.centre();
+        const double radius = wide ? 0.0 : p.radius();
+        point3 low, high;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            low[axis] = std::nextafter(centre[axis] - radius, -infinity);
+            high[axis] = std::nextafter(centre[axis] + radius, infinity);
+        }
+        aabb<double, 3> box;
+        box.include(low);
+        box.include(high);
+        return box;
+    }
+
+    [[nodiscard]] bool meet(std::size_t i, std::size_t j) const {
+        const aabb<double, 3> a = box(i), b = box(j);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (a.min[axis] > b.max[axis] || b.min[axis] > a.max[axis]) return false;
+        return true;
+    }
+
+  private:
+    std::span<const constructed_point> points_;
+    std::vector<point3> rounded_{};  // of those that are wide; none if none is
+};
 
 }  // namespace
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> equal_pairs(
     std::span<const constructed_point> points) {
-    const tree<3> balls = build(points, box_of);
+    const enclosures about(points);
+    std::vector<std::uint32_t> ids(points.size());
+    std::iota(ids.begin(), ids.end(), 0U);
+    const tree<3> boxes = build(ids, [&](std::uint32_t i) { return about.box(i); });
     std::vector<std::pair<std::uint32_t, std::uint32_t>> result;
-    for (const id_pair& pair : search_self_all(balls, [&](std::uint32_t a, std::uint32_t b) {
-             return boxes_meet(points[a], points[b]) && equal(points[a], points[b]);
+    for (const id_pair& pair : search_self_all(boxes, [&](std::uint32_t a, std::uint32_t b) {
+             return about.meet(a, b) && equal(points[a], points[b]);
          }))
         result.emplace_back(pair.first, pair.second);
     return result;
