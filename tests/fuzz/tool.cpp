@@ -130,7 +130,7 @@ class tool_test {
         write(shop.path(name), content);
         write(shop.path("other.obj"), cube);
         std::istringstream words(command_.words);
-        // Of one thread there is none that a fork would lack.
+        // One thread, since a forked process has no other.
         line_ = {"tool", "-q", "-f", "-j", "1"};
         for (std::string word; words >> word;) {
             if (word == "@in") word = "@" + name;
