@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <memory>
 #include <new>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -185,12 +185,19 @@ constexpr int unwanted = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGEN
     in.fail(plain_reason(reason, in, hint));
 }
 
-/// An importer without the loader of X3D, which does not survive an empty group.
+/// An importer with the loaders of one format only: it would ask all others, too, where those say
+/// no. Never with that of X3D, which does not survive an empty group.
 class scene_importer : public Assimp::Importer {
   public:
-    scene_importer() {
-        const std::unique_ptr<Assimp::BaseImporter> loader(GetImporter("x3d"));
-        UnregisterLoader(loader.get());
+    explicit scene_importer(const std::string& extension) {
+        for (std::size_t i = GetImporterCount(); i-- > 0;) {
+            Assimp::BaseImporter* const loader = GetImporter(i);
+            std::set<std::string> read;
+            loader->GetExtensionList(read);
+            if (read.contains(extension) && !read.contains("x3d")) continue;
+            UnregisterLoader(loader);
+            delete loader;
+        }
     }
 };
 
@@ -200,15 +207,14 @@ bool scene_format(std::string_view extension) {
     // The formats that are read natively are never left to a reader that rounds them.
     constexpr std::array<std::string_view, 4> native{"stl", "obj", "ply", "off"};
     if (std::find(native.begin(), native.end(), extension) != native.end()) return false;
-    const scene_importer importer;
-    return importer.IsExtensionSupported('.' + std::string(extension));
+    return scene_importer(std::string(extension)).GetImporterCount() > 0;
 }
 
 mesh_file read_scene(const source& in, const std::filesystem::path& path,
                      std::string_view extension) {
     const std::string hint(extension);
     if (!scene_format(extension)) in.fail("format '" + hint + "' is not read");
-    scene_importer importer;
+    scene_importer importer(hint);
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unwanted);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     if (hint == "glb" || hint == "gltf" || hint == "vrm") refuse_deep_json(in);

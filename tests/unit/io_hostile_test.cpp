@@ -275,6 +275,12 @@ TEST_CASE(
     CHECK(refusal(wide, "a.gltf").find("nested") == std::string::npos);
 }
 
+TEST_CASE("hostile: what is named as a scene of one format goes to no other's loader") {
+    if (!tf::reads_scenes()) return;
+    for (const char* name : {"a.glb", "a.gltf", "a.3mf", "a.dae", "a.fbx"})
+        CHECK_FALSE(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", name).empty());
+}
+
 TEST_CASE("hostile: glTF whose nodes form an endless chain or a ring is refused") {
     if (!tf::reads_scenes()) return;
     const auto chain = [](int length, int last) {
