@@ -15,6 +15,7 @@
 #include <libmesh/io/read.hpp>
 #include <libmesh/validate.hpp>
 #include <libmesh/weld/equal_points.hpp>
+#include <libtree/parallel.hpp>
 
 #include <nlohmann/json.hpp>
 #include <support/stress_random.hpp>
@@ -130,8 +131,7 @@ class tool_test {
         write(shop.path(name), content);
         write(shop.path("other.obj"), cube);
         std::istringstream words(command_.words);
-        // One thread, since a forked process has no other.
-        line_ = {"tool", "-q", "-f", "-j", "1"};
+        line_ = {"tool", "-q", "-f"};
         for (std::string word; words >> word;) {
             if (word == "@in") word = "@" + name;
             if (word == "@other") word = "@other.obj";
@@ -291,6 +291,7 @@ class tool_test {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const workshop shop;
+    static const tf::thread_scope one(1);  // since a forked process has no other
     const std::string content(data, data + size);
     tool_test(shop, content).run();
     shop.clear();
