@@ -260,12 +260,11 @@ class tool_test {
 
     /// Sent after some part of the time that the first run took, or soon after that.
     void check_signal(int signal, double spent, int status, const files& whole) {
+        const auto handler = std::signal(SIGTERM, SIG_DFL);  // libFuzzer has one
         const pid_t child = fork();
         require(child >= 0, "a process more");
-        if (child == 0) {
-            std::signal(SIGTERM, SIG_DFL);  // libFuzzer has a handler
-            _exit(tool());
-        }
+        if (child == 0) _exit(tool());
+        std::signal(SIGTERM, handler);
         std::this_thread::sleep_for(std::chrono::duration<double>(1.5 * random_.unit() * spent));
         kill(child, signal);
         int how = 0;
