@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -49,12 +50,18 @@ struct passing_edges {
     }
 };
 
-/// `find(i, part)` for 0 <= i < count, in parallel; the parts in order.
+/// `find(i, part)` for 0 <= i < count, in parallel; the parts in order. Of more than `most`, some
+/// that are more than that.
 template <class T, class Find>
-std::vector<T> gather(std::size_t count, const Find& find) {
+std::vector<T> gather(std::size_t count, std::size_t most, const Find& find) {
     std::vector<std::vector<T>> parts(chunk_count(count, grain));
+    std::atomic<std::size_t> total{0};
     for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t i = begin; i < end; ++i) find(i, parts[c]);
+        for (std::size_t i = begin; i < end && total <= most; ++i) {
+            const std::size_t before = parts[c].size();
+            find(i, parts[c]);
+            total += parts[c].size() - before;
+        }
     });
     std::vector<T> all;
     for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
@@ -104,9 +111,13 @@ class joining {
     [[nodiscard]] const mesh& surface() const { return result_.surface; }
     [[nodiscard]] const point3& at(std::uint32_t p) const { return surface().points[p]; }
 
-    /// Whether this many points more in edges and faces would make too many faces.
+    /// How many points more in edges and faces do not make too many faces.
+    [[nodiscard]] std::size_t room() const {
+        const std::size_t faces = surface().faces.size();
+        return faces < most_faces_ ? (most_faces_ - faces) / 2 : 0;
+    }
     bool too_many(std::size_t points) {
-        grows_ = grows_ || surface().faces.size() + 2 * points > most_faces_;
+        grows_ = grows_ || points > room();
         return grows_;
     }
 
@@ -146,33 +157,46 @@ class joining {
         return build(points, [&](std::uint32_t p) { return box_around(at(p), at(p), 0.0); });
     }
 
-    /// Corners within reach become the lower one of two. No chains: what others have joined stays.
+    /// Calls `visit(q)` for the points within reach of p.
+    template <class Visit>
+    void visit_near(std::uint32_t p, const tree<3>& around,
+                    const std::vector<std::uint32_t>& points, const Visit& visit) const {
+        search(around, box_around(at(p), at(p), reach_), [&](std::uint32_t id) {
+            if (length(difference(at(p), at(points[id]))) <= reach_) visit(points[id]);
+        });
+    }
+
+    /// Corners within reach, one of them of an offending face, become the lower one of the two. No
+    /// chains: what others have joined stays. So each goes to the lowest that stays, and whether
+    /// those before it stay is known when its turn comes. Those that stay are out of reach of each
+    /// other: what they visit is not much more than there is, however dense it is.
     bool join_corners() {
-        const std::vector<std::uint32_t> all = used_points(false);
         const std::vector<std::uint32_t> loose = used_points(true);
-        const tree<3> around = tree_of_points(all);
-        using pair = std::tuple<std::uint32_t, std::uint32_t, double>;
-        std::vector<pair> pairs =
-            gather<pair>(loose.size(), [&](std::size_t i, std::vector<pair>& found) {
-                const std::uint32_t p = loose[i];
-                search(around, box_around(at(p), at(p), reach_), [&](std::uint32_t id) {
-                    const std::uint32_t q = all[id];
-                    const double distance = length(difference(at(p), at(q)));
-                    if (p != q && distance <= reach_)
-                        found.emplace_back(std::min(p, q), std::max(p, q), distance);
-                });
-            });
-        if (pairs.empty()) return false;
-        std::sort(pairs.begin(), pairs.end());
+        std::vector<std::uint32_t> fixed = used_points(false);
+        std::erase_if(fixed, [&](std::uint32_t p) {
+            return std::binary_search(loose.begin(), loose.end(), p);
+        });
+        const tree<3> around_loose = tree_of_points(loose), around_fixed = tree_of_points(fixed);
         std::vector<std::uint32_t> now(surface().points.size());
         std::iota(now.begin(), now.end(), 0U);
-        std::vector<std::uint8_t> joined(now.size(), 0);
-        for (const auto& [stays, goes, distance] : pairs) {
-            if (joined[goes] != 0 || now[goes] != goes || now[stays] != stays) continue;
-            now[goes] = stays;
-            joined[stays] = 1;
-            note(distance);
+        for (const std::uint32_t p : loose) {
+            visit_near(p, around_fixed, fixed, [&](std::uint32_t q) {
+                if (q < now[p] && now[q] == q) now[p] = q;
+            });
+            if (now[p] != p) continue;
+            const auto join = [&](std::uint32_t q) {
+                if (q > p && now[q] == q) now[q] = p;
+            };
+            visit_near(p, around_loose, loose, join);
+            visit_near(p, around_fixed, fixed, join);
         }
+        bool any = false;
+        for (std::uint32_t p = 0; p < now.size(); ++p) {
+            if (now[p] == p) continue;
+            any = true;
+            note(length(difference(at(p), at(now[p]))));
+        }
+        if (!any) return false;
         replace_faces([&](std::uint32_t, const face& f, std::vector<face>& pieces) {
             pieces.push_back({now[f[0]], now[f[1]], now[f[2]]});
         });
@@ -193,15 +217,16 @@ class joining {
     [[nodiscard]] std::vector<edge_point> corners_near(const std::vector<edge_name>& edges) const {
         const std::vector<std::uint32_t> all = used_points(false);
         const tree<3> around = tree_of_points(all);
-        return gather<edge_point>(edges.size(), [&](std::size_t i, std::vector<edge_point>& found) {
-            const edge_name& e = edges[i];
-            search(around, box_around(at(e[0]), at(e[1]), near()), [&](std::uint32_t id) {
-                const std::uint32_t p = all[id];
-                if (p == e[0] || p == e[1]) return;
-                const place on = nearest_on(p, e);
-                if (on.distance <= near()) found.push_back({e, on.along, p, on.distance});
+        return gather<edge_point>(
+            edges.size(), room(), [&](std::size_t i, std::vector<edge_point>& found) {
+                const edge_name& e = edges[i];
+                search(around, box_around(at(e[0]), at(e[1]), near()), [&](std::uint32_t id) {
+                    const std::uint32_t p = all[id];
+                    if (p == e[0] || p == e[1]) return;
+                    const place on = nearest_on(p, e);
+                    if (on.distance <= near()) found.push_back({e, on.along, p, on.distance});
+                });
             });
-        });
     }
 
     /// Where the lines through two edges are nearest, if that is inside of both.
@@ -230,7 +255,7 @@ class joining {
         const tree<3> around =
             build(edges, [&](const edge_name& e) { return box_around(at(e[0]), at(e[1]), 0.0); });
         auto all = gather<passing_edges>(
-            edges.size(), [&](std::size_t i, std::vector<passing_edges>& found) {
+            edges.size(), room(), [&](std::size_t i, std::vector<passing_edges>& found) {
                 const edge_name& a = edges[i];
                 search(around, box_around(at(a[0]), at(a[1]), near()), [&](std::uint32_t id) {
                     const edge_name& b = edges[id];
@@ -263,6 +288,7 @@ class joining {
         std::vector<edge_point> in_edges = corners_near(edges);
         const std::size_t first_made = surface().points.size();
         const auto passing = of_operands() ? std::vector<passing_edges>{} : edges_passing(edges);
+        if (too_many(std::max(in_edges.size(), passing.size()))) return false;
         for (const passing_edges& e : passing) {
             const std::uint32_t p = point_for(e, first_made);
             if (p != e.a[0] && p != e.a[1])
@@ -336,7 +362,7 @@ class joining {
         const tree<3> around = tree_of_points(all);
         using in_face = std::tuple<std::uint32_t, std::uint32_t, double>;
         const auto found =
-            gather<in_face>(faces.size(), [&](std::size_t i, std::vector<in_face>& part) {
+            gather<in_face>(faces.size(), room(), [&](std::size_t i, std::vector<in_face>& part) {
                 const face& f = surface().faces[faces[i]];
                 const triangle3 t{at(f[0]), at(f[1]), at(f[2])};
                 aabb<double, 3> box = box_around(t[0], t[1], near());
