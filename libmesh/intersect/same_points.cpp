@@ -13,7 +13,7 @@
 namespace tf::detail {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double most = std::numeric_limits<double>::max();  // trees have finite boxes
 
 /// Whether the ball is wide beside a coordinate of its centre.
 bool is_wide(const constructed_point& p) {
@@ -43,8 +43,8 @@ class enclosures {
         const double radius = wide ? 0.0 : p.radius();
         point3 low, high;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            low[axis] = std::nextafter(centre[axis] - radius, -infinity);
-            high[axis] = std::nextafter(centre[axis] + radius, infinity);
+            low[axis] = std::nextafter(std::clamp(centre[axis] - radius, -most, most), -most);
+            high[axis] = std::nextafter(std::clamp(centre[axis] + radius, -most, most), most);
         }
         aabb<double, 3> box;
         box.include(low);

@@ -186,7 +186,8 @@ constexpr int unwanted = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGEN
 }
 
 /// An importer with the loaders of one format only: it would ask all others, too, where those say
-/// no. Never with that of X3D, which does not survive an empty group.
+/// no. Never with that of X3D, which does not survive an empty group, nor with those of LightWave's
+/// and Irrlicht's scenes, which open what they name with all loaders there are.
 class scene_importer : public Assimp::Importer {
   public:
     explicit scene_importer(const std::string& extension) {
@@ -194,7 +195,9 @@ class scene_importer : public Assimp::Importer {
             Assimp::BaseImporter* const loader = GetImporter(i);
             std::set<std::string> read;
             loader->GetExtensionList(read);
-            if (read.contains(extension) && !read.contains("x3d")) continue;
+            const bool refused =
+                read.contains("x3d") || read.contains("lws") || read.contains("irr");
+            if (read.contains(extension) && !refused) continue;
             UnregisterLoader(loader);
             delete loader;
         }

@@ -143,7 +143,12 @@ class clearing {
     }
 
     /// False, too, when it is to stop.
+    /// What is beyond the range of doubles is not.
     [[nodiscard]] bool is_clear(const point3& offset) {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (!std::isfinite(box_->min[k] + offset[k]) ||
+                !std::isfinite(box_->max[k] + offset[k]))
+                return false;
         std::vector<std::size_t> close;
         for (std::size_t i = 0; i < parts_.size(); ++i)
             if (boxes_within(i, offset)) close.push_back(i);

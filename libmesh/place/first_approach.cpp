@@ -63,10 +63,10 @@ tree<3> widened_tree(mesh_view mesh, double by) {
     return build(mesh.faces, [&](const face& f) {
         aabb<double, 3> box;
         for (const std::uint32_t corner : f) box.include(mesh.points[corner]);
-        constexpr double infinity = std::numeric_limits<double>::infinity();
+        constexpr double most = std::numeric_limits<double>::max();  // trees have finite boxes
         for (std::size_t k = 0; k < 3; ++k) {
-            box.min[k] = std::nextafter(box.min[k] - by, -infinity);
-            box.max[k] = std::nextafter(box.max[k] + by, infinity);
+            box.min[k] = std::nextafter(std::max(box.min[k] - by, -most), -most);
+            box.max[k] = std::nextafter(std::min(box.max[k] + by, most), most);
         }
         return box;
     });

@@ -119,6 +119,9 @@ class target {
         for_chunks(points.size(), block, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) moved[i] = to_point(map(points[i]));
         });
+        for (const point3& p : moved)
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+                throw std::overflow_error("tf::fit: the moving points are too far away");
         const auto found = query_.nearest(moved, radius);
         std::vector<partner> result;
         result.reserve(found.size());
@@ -373,6 +376,8 @@ fit_result fit(points_view moving, mesh_view fixed, const fit_options& options) 
     for (std::size_t k = 0; k < 3; ++k)
         result.pivot_moved[k] = f.centre[k] + map.shift(static_cast<int>(k)) / f.by;
     if (better) result.matrix = matrix_of(f, map, result.pivot_moved);
+    if (!result.matrix.finite())
+        throw std::overflow_error("tf::fit: the coordinates are too large for a matrix");
     result.scale = map.scale;
     result.rms = end.rms / f.by;
     result.rms_at_start = before.rms / f.by;

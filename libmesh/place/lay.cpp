@@ -94,13 +94,13 @@ hull_side sum_of(const std::vector<hull_side>& sides, const std::vector<std::uin
         area += share;
         for (std::size_t k = 0; k < 3; ++k) {
             normal[k] += share * sides[i].normal[k];
-            centre[k] += share * (sides[i].centre[k] - origin[k]);
+            centre[k] += share * (0.5 * sides[i].centre[k] - 0.5 * origin[k]);
         }
     }
     const double length = std::sqrt(dot(normal, normal));
     for (std::size_t k = 0; k < 3; ++k) {
         sum.normal[k] = normal[k] / length;
-        sum.centre[k] = origin[k] + centre[k] / area;
+        sum.centre[k] = origin[k] + 2.0 * (centre[k] / area);
     }
     sum.area *= area;
     return sum;
@@ -370,6 +370,8 @@ std::optional<laid_mesh> lay(mesh_view mesh, const lay_options& options) {
     const hull_side& side = laid.sides[laid.chosen];
     const motion move = find_motion(found, side, options, laid.bed);
     laid.matrix = move.matrix();
+    if (!laid.matrix.finite())
+        throw std::overflow_error("tf::lay: the coordinates are too large for a matrix");
     const face& f = found.hull.faces_of(side)[0];
     const plane_points plane{found.points[f[0]], found.points[f[1]], found.points[f[2]]};
     put_down(laid, mesh, ids, plane, move, options);

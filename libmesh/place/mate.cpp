@@ -2,13 +2,18 @@
 #include <libmesh/place/mate.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace tf {
 
 point3 way_between(const mesh_measure& nearest) {
     const point3 &p = nearest.on_a.point, &q = nearest.on_b.point;
-    return {q.x - p.x, q.y - p.y, q.z - p.z};
+    const point3 way{q.x - p.x, q.y - p.y, q.z - p.z};
+    if (!std::isfinite(way.x) || !std::isfinite(way.y) || !std::isfinite(way.z))
+        throw std::overflow_error("tf::mate: the meshes are too far from each other");
+    return way;
 }
 
 mate_result mate(const mesh_measure& nearest, mesh_view a, const tree<3>& tree_a,

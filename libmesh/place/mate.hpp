@@ -42,6 +42,7 @@ struct mate_result {
 ///
 /// \pre    `tree_a` is `face_tree(a)`
 /// \throws std::invalid_argument as `measure` and `slide`
+/// \throws std::overflow_error where the way is beyond the range of doubles; `way_between` too
 /// \cost   that of `measure` for the parts that may be nearest, and of a `slide`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<mate_result> mate(mesh_view a, const tree<3>& tree_a,

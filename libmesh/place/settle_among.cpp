@@ -20,6 +20,12 @@ bool within(const box3& a, const box3& b, double distance) {
     return true;
 }
 
+bool all_finite(const std::vector<point3>& points) {
+    return std::all_of(points.begin(), points.end(), [](const point3& p) {
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    });
+}
+
 class settling {
   public:
     settling(mesh_view a, std::span<const still_part> parts, const point3& motion,
@@ -38,10 +44,11 @@ class settling {
                 const double product = time * motion_[k];
                 p[k] += product;
                 if (options_.to_single) p[k] = detail::nearest_float(p[k]);
-                if (!std::isfinite(p[k]))
-                    throw std::overflow_error(
-                        "tf::settle_among: the coordinates at the place are too large");
             }
+        if (!all_finite(one.points)) {
+            one.good = false;
+            return one;
+        }
         if (options_.floor) put_on_floor(one.points, rests);
         look_around(one);
         return one;
@@ -143,6 +150,8 @@ settled_among settle_among(mesh_view a, std::span<const still_part> parts, const
     check(motion, time, options);
     settling place(a, parts, motion, options);
     settled_among best = place.at(time, true);
+    if (!all_finite(best.points))
+        throw std::overflow_error("tf::settle_among: the coordinates at the place are too large");
     const double unit = place.unit_of_time(best.points);
     const auto closed_in = [&](settled_among found) {
         const bool wanted = options.close_in && !options.forward && !(options.clearance > 0.0);

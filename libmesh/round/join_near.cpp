@@ -168,8 +168,9 @@ class joining {
 
     /// Corners within reach, one of them of an offending face, become the lower one of the two. No
     /// chains: what others have joined stays. So each goes to the lowest that stays, and whether
-    /// those before it stay is known when its turn comes. Those that stay are out of reach of each
-    /// other: what they visit is not much more than there is, however dense it is.
+    /// those before it stay is known when its turn comes. Of points of offending faces those that
+    /// stay are out of reach of each other: what they visit is not much more than there is, however
+    /// dense it is.
     bool join_corners() {
         const std::vector<std::uint32_t> loose = used_points(true);
         std::vector<std::uint32_t> fixed = used_points(false);

@@ -34,6 +34,9 @@ cmake --build "$build" -- fuzz_seeds "${targets[@]/#/fuzz_}" >/dev/null
 seeds=$build/tests/fuzz/seeds
 "$build/tests/fuzz/fuzz_seeds" "$seeds"
 
+# A tool that crashes in a process of its own, too, ends as by nothing else.
+export ASAN_OPTIONS=abort_on_error=1 UBSAN_OPTIONS=abort_on_error=1
+
 failed=0
 printf '%-20s %12s %9s %8s  %s\n' target runs runs/s inputs outcome
 for target in "${targets[@]}"; do
