@@ -90,13 +90,19 @@ class Moves(PlaceTest):
         self.mesh("far.obj", box((0, 0, 1e300), (1e300, 1e300, 2e300)))
         most = 1.7e308
         self.mesh("most.obj", box((-most, -most, -most), (most, most, most)))
+        self.mesh("left.obj", box((-most, 0, 0), (-1.6e308, 1, 1)))
+        self.mesh("right.obj", box((1.6e308, 0, 0), (most, 1, 1)))
+        self.refused("clear", "most.obj", "--fixed", "a.obj", "--clearance", "1%")
         for arguments in (["drop", "far.obj", "--output-format", "stl"],
+                          ["mate", "left.obj", "--fixed", "right.obj"],
+                          ["fit", "left.obj", "--fixed", "right.obj"],
                           ["drop", "far.obj", "--fixed", "a.obj", "--output-format", "stl"],
                           ["lay", "most.obj"],
                           ["fit", "most.obj", "--fixed", "a.obj"]):
             self.assertIn("beyond the range", self.refused(*arguments)["reason"])
         self.assertEqual(self.listing(),
-                         ["a.obj", "far.obj", "floor.obj", "in.obj", "most.obj"])
+                         ["a.obj", "far.obj", "floor.obj", "in.obj", "left.obj", "most.obj",
+                          "right.obj"])
 
     def test_what_rounding_takes_is_said(self):
         self.mesh("third.obj", box((1 / 3, 1 / 3, 1 / 3), (2 / 3, 2 / 3, 2 / 3)))

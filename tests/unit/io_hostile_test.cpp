@@ -279,6 +279,10 @@ TEST_CASE("hostile: what is named as a scene of one format goes to no other's lo
     if (!tf::reads_scenes()) return;
     for (const char* name : {"a.glb", "a.gltf", "a.3mf", "a.dae", "a.fbx"})
         CHECK_FALSE(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", name).empty());
+    // LightWave's and Irrlicht's scenes would open other files with any loader.
+    for (const char* name : {"a.lws", "a.irr"})
+        CHECK(refusal("LWSC\n3\n\nLoadObjectLayer 1 b.x3d\n", name)
+                  .find("not a format that is read") != std::string::npos);
 }
 
 TEST_CASE("hostile: glTF whose nodes form an endless chain or a ring is refused") {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -35,4 +36,16 @@ TEST_CASE("same points: those of two definitions and no others, however far out 
             return pair.first % 2 == 0 && pair.second == pair.first + 1;
         }));
     }
+}
+
+TEST_CASE("same points: at the ends of the range of doubles, too") {
+    constexpr double most = std::numeric_limits<double>::max();
+    const tf::plane_points plane{{most, 0, 0}, {most, 1, 0}, {most, 0, 1}};
+    std::vector<constructed_point> points;
+    for (const double y : {0.1, 0.3, 0.1})
+        points.push_back(constructed_point::where_line_meets({0, y, 0}, {most, y, 0}, plane));
+    points.push_back(tf::point3{most, 0.1, 0});
+    const auto pairs = tf::detail::equal_pairs(points);
+    CHECK(pairs.size() == 3);
+    for (const auto& [a, b] : pairs) CHECK((a != 1 && b != 1));
 }
