@@ -245,7 +245,7 @@ class Solids(BooleanTest):
         points, faces = box((0, 0, 0), (2, 2, 2))
         points = points + [(float("nan"), 0, 0), (float("inf"), 1, 0)]
         self.mesh("nan.obj", (points, [(0, 1, 8)] + faces + [(9, 8, 8)]))
-        entry = self.made("union", "nan.obj", "b.obj")
+        entry = self.made("union", "nan.obj", "b.obj", "--curves", "curves.obj")
         self.assertEqual(entry["output"]["volume"], 15)
         self.assertEqual(entry["inputs"][0]["skipped"]["non_finite"], 2)
         self.assertIn("non-finite", [w["code"] for w in entry["warnings"]])

@@ -15,6 +15,7 @@
 #include <libmesh/weld/equal_points.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -177,7 +178,10 @@ void write_curves(job& work, const boolean_settings& settings, const std::vector
     for (std::uint32_t i = 0; i < solids.size(); ++i) {
         const tf::mesh& one = solids[i].file.mesh;
         const auto offset = static_cast<std::uint32_t>(all.points.size());
-        all.points.insert(all.points.end(), one.points.begin(), one.points.end());
+        for (const tf::point3& p : one.points) {
+            const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+            all.points.push_back(finite ? p : tf::point3{});  // which none of the faces has
+        }
         for (const auto& [a, b, c] : one.faces) {
             all.faces.push_back({a + offset, b + offset, c + offset});
             mesh_of_face.push_back(i);
