@@ -1,3 +1,4 @@
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/exact/detail/filter.hpp>
 #include <libmesh/exact/predicates.hpp>
 #include <libmesh/validate.hpp>
@@ -14,10 +15,6 @@ namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 15;
 
-bool finite(const point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 bool degenerate(const point3& a, const point3& b, const point3& c) {
     const int known = detail::collinear_filter(a, b, c);
     return known == detail::undecided ? collinear(a, b, c) : known == 0;
@@ -31,7 +28,7 @@ ids find_nonfinite_points(points_view points) {
     std::vector<ids> found(chunk_count(points.size(), grain));
     for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t i = begin; i < end; ++i)
-            if (!finite(points[i])) found[c].push_back(static_cast<std::uint32_t>(i));
+            if (!detail::is_finite(points[i])) found[c].push_back(static_cast<std::uint32_t>(i));
     });
     ids all;
     for (const ids& part : found) append(all, part);
@@ -48,7 +45,7 @@ void look_at(mesh_view mesh, std::size_t i, mesh_defects& found) {
     const point3& a = mesh.points[f[0]];
     const point3& b = mesh.points[f[1]];
     const point3& c = mesh.points[f[2]];
-    if (!(finite(a) && finite(b) && finite(c)))
+    if (!(detail::is_finite(a) && detail::is_finite(b) && detail::is_finite(c)))
         found.nonfinite_faces.push_back(id);
     else if (degenerate(a, b, c))
         found.degenerate_faces.push_back(id);

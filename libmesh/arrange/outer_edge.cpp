@@ -1,4 +1,5 @@
 #include <libmesh/arrange/detail/outer_edge.hpp>
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/exact/constructed_point.hpp>
 #include <libmesh/exact/predicates.hpp>
 #include <libmesh/geometry/detail/flat_triangle.hpp>
@@ -27,17 +28,13 @@ void raise(const mesh_arrangement& cut, std::uint32_t& top, std::uint32_t p) {
         top = p;
 }
 
-bool is_finite(const point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 std::uint32_t greatest_given_point(const mesh_arrangement& cut) {
     const std::vector<point3>& points = cut.given_points;
     std::vector<std::uint32_t> tops(chunk_count(points.size(), grain), no_point);
     for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         std::uint32_t top = no_point;
         for (std::size_t p = begin; p < end; ++p)
-            if ((top == no_point || points[p].x >= points[top].x) && is_finite(points[p]))
+            if ((top == no_point || points[p].x >= points[top].x) && detail::is_finite(points[p]))
                 raise(cut, top, static_cast<std::uint32_t>(p));
         tops[c] = top;
     });

@@ -1,4 +1,5 @@
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/geometry/detail/based_triangle.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
@@ -168,16 +169,12 @@ double largest_of(mesh_view mesh) {
     return largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
 }
 
-bool finite(const point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 double distance_between(const point3& a, const point3& b) {
     return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
 void check_query(const point3& query, const std::string& which) {
-    if (!finite(query))
+    if (!detail::is_finite(query))
         throw std::invalid_argument(std::string("tf::") + name + ": " + which + " is not finite");
 }
 
@@ -231,7 +228,7 @@ closest_point_query::closest_point_query(mesh_view mesh) {
         bool finite = true;
         for (const std::uint32_t corner : f) {
             box.include(mesh.points[corner]);
-            finite &= detail::finite(mesh.points[corner]);
+            finite &= detail::is_finite(mesh.points[corner]);
         }
         return finite ? box : aabb<double, 3>();  // `include` overlooks NaN
     });

@@ -142,8 +142,7 @@ class clearing {
         return best;
     }
 
-    /// False, too, when it is to stop.
-    /// What is beyond the range of doubles is not.
+    /// False, too, beyond the range of doubles and when it is to stop.
     [[nodiscard]] bool is_clear(const point3& offset) {
         for (std::size_t k = 0; k < 3; ++k)
             if (!std::isfinite(box_->min[k] + offset[k]) ||

@@ -1,5 +1,6 @@
 #include <libmesh/bounding_box.hpp>
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/detail/work_progress.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <libmesh/place/fit.hpp>
@@ -119,9 +120,8 @@ class target {
         for_chunks(points.size(), block, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) moved[i] = to_point(map(points[i]));
         });
-        for (const point3& p : moved)
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-                throw std::overflow_error("tf::fit: the moving points are too far away");
+        if (!detail::all_finite(moved))
+            throw std::overflow_error("tf::fit: the moving points are too far away");
         const auto found = query_.nearest(moved, radius);
         std::vector<partner> result;
         result.reserve(found.size());

@@ -1,5 +1,6 @@
 #include <libmesh/bounding_box.hpp>
 #include <libmesh/detail/check_faces.hpp>
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/detail/work_progress.hpp>
 #include <libmesh/exact/predicates.hpp>
@@ -25,18 +26,14 @@ using detail::minus;
 
 constexpr double equally_good = 0x1p-40;
 
-bool finite(const point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 void check(mesh_view mesh, const lay_options& options) {
     detail::check_faces("tf::lay", mesh.points.size(), mesh.faces);
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
-        if (!finite(mesh.points[i]))
+        if (!detail::is_finite(mesh.points[i]))
             throw std::invalid_argument("tf::lay: point " + std::to_string(i) + " is not finite");
     if (!(options.tolerance >= 0.0) || std::isinf(options.tolerance))
         throw std::invalid_argument("tf::lay: the tolerance is negative or not finite");
-    if (!std::isfinite(options.bed) || !finite(options.toward))
+    if (!std::isfinite(options.bed) || !detail::is_finite(options.toward))
         throw std::invalid_argument("tf::lay: the bed, direction or point is not finite");
     if (options.choose == lay_choice::nearest_normal && options.toward == point3{})
         throw std::invalid_argument("tf::lay: the direction is zero");
@@ -338,7 +335,7 @@ void put_down(laid_mesh& laid, mesh_view mesh, const std::vector<std::uint32_t>&
         point3 q = move(p);
         if (options.to_single)
             for (std::size_t k = 0; k < 3; ++k) q[k] = detail::nearest_float(q[k]);
-        if (!finite(q))
+        if (!detail::is_finite(q))
             throw std::overflow_error("tf::lay: the coordinates are too large to be turned");
         laid.points.push_back(q);
     }

@@ -1,8 +1,8 @@
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/detail/work_progress.hpp>
 #include <libmesh/place/mate.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -11,7 +11,7 @@ namespace tf {
 point3 way_between(const mesh_measure& nearest) {
     const point3 &p = nearest.on_a.point, &q = nearest.on_b.point;
     const point3 way{q.x - p.x, q.y - p.y, q.z - p.z};
-    if (!std::isfinite(way.x) || !std::isfinite(way.y) || !std::isfinite(way.z))
+    if (!detail::is_finite(way))
         throw std::overflow_error("tf::mate: the meshes are too far from each other");
     return way;
 }

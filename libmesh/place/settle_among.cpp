@@ -1,4 +1,5 @@
 #include <libmesh/bounding_box.hpp>
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/detail/work_progress.hpp>
 #include <libmesh/face_tree.hpp>
@@ -20,12 +21,6 @@ bool within(const box3& a, const box3& b, double distance) {
     return true;
 }
 
-bool all_finite(const std::vector<point3>& points) {
-    return std::all_of(points.begin(), points.end(), [](const point3& p) {
-        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    });
-}
-
 class settling {
   public:
     settling(mesh_view a, std::span<const still_part> parts, const point3& motion,
@@ -45,7 +40,7 @@ class settling {
                 p[k] += product;
                 if (options_.to_single) p[k] = detail::nearest_float(p[k]);
             }
-        if (!all_finite(one.points)) {
+        if (!detail::all_finite(one.points)) {
             one.good = false;
             return one;
         }
@@ -150,7 +145,7 @@ settled_among settle_among(mesh_view a, std::span<const still_part> parts, const
     check(motion, time, options);
     settling place(a, parts, motion, options);
     settled_among best = place.at(time, true);
-    if (!all_finite(best.points))
+    if (!detail::all_finite(best.points))
         throw std::overflow_error("tf::settle_among: the coordinates at the place are too large");
     const double unit = place.unit_of_time(best.points);
     const auto closed_in = [&](settled_among found) {

@@ -2,6 +2,7 @@
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/detail/at_once.hpp>
 #include <libmesh/detail/compact.hpp>
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/detail/stars.hpp>
 #include <libmesh/detail/used_points.hpp>
@@ -29,10 +30,6 @@ namespace {
 constexpr std::size_t grain = std::size_t{1} << 12;
 constexpr std::size_t point_grain = std::size_t{1} << 7;  // the constructed ones are the last
 constexpr std::size_t most_listed = 100;
-
-bool is_finite(const point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 point3 to_single(const point3& p) {
     return {detail::nearest_float(p.x), detail::nearest_float(p.y), detail::nearest_float(p.z)};
@@ -124,7 +121,7 @@ class rounding {
                        for (std::size_t i = begin; i < end; ++i) {
                            at[i] = rounded_point(points[i]);
                            moves[c] = std::max(moves[c], move_of(points[i], at[i], moves[c]));
-                           if (!is_finite(at[i])) finite = false;
+                           if (!detail::is_finite(at[i])) finite = false;
                        }
                    });
         const double move = *std::max_element(moves.begin(), moves.end());

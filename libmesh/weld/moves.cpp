@@ -1,3 +1,4 @@
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/exact/predicates.hpp>
 #include <libmesh/weld/detail/moves.hpp>
 #include <libmesh/weld/detail/reach.hpp>
@@ -14,10 +15,6 @@ namespace tf::detail {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 15;
-
-bool finite(const point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /// From where to where a point went.
 struct move {
@@ -51,7 +48,9 @@ plane_points corners_of(mesh_view mesh, const face& f) {
     return {mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]};
 }
 
-bool finite(const plane_points& p) { return finite(p.a) && finite(p.b) && finite(p.c); }
+bool finite(const plane_points& p) {
+    return detail::is_finite(p.a) && detail::is_finite(p.b) && detail::is_finite(p.c);
+}
 
 bool is_flipped(const plane_points& before, const plane_points& after) {
     if (before.a == after.a && before.b == after.b && before.c == after.c) return false;
@@ -66,7 +65,7 @@ double largest_move(points_view points, std::span<const std::uint32_t> group_of_
     for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t i = begin; i < end; ++i) {
             const move mine{points[i], places[group_of_point[i]]};
-            if (mine.from == mine.to || !finite(mine.from)) continue;
+            if (mine.from == mine.to || !detail::is_finite(mine.from)) continue;
             if (mine.further_than(furthest[c])) furthest[c] = mine;
         }
     });

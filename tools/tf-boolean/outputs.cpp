@@ -8,6 +8,7 @@
 #include "tools/common/output_file.hpp"
 #include "tools/tf-boolean/words.hpp"
 #include <libmesh/boolean/separate_fans.hpp>
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/intersect/self_intersections.hpp>
 #include <libmesh/round/rounding_harm.hpp>
 #include <libmesh/topology.hpp>
@@ -15,7 +16,6 @@
 #include <libmesh/weld/equal_points.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -178,10 +178,8 @@ void write_curves(job& work, const boolean_settings& settings, const std::vector
     for (std::uint32_t i = 0; i < solids.size(); ++i) {
         const tf::mesh& one = solids[i].file.mesh;
         const auto offset = static_cast<std::uint32_t>(all.points.size());
-        for (const tf::point3& p : one.points) {
-            const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-            all.points.push_back(finite ? p : tf::point3{});  // which none of the faces has
-        }
+        for (const tf::point3& p : one.points)  // none of the faces has one that is not finite
+            all.points.push_back(tf::detail::is_finite(p) ? p : tf::point3{});
         for (const auto& [a, b, c] : one.faces) {
             all.faces.push_back({a + offset, b + offset, c + offset});
             mesh_of_face.push_back(i);

@@ -1,6 +1,7 @@
 #include "tools/tf-place/body.hpp"
 
 #include "tools/common/console.hpp"
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/place/point_faces.hpp>
@@ -17,10 +18,6 @@
 
 namespace tools {
 namespace {
-
-bool finite(const tf::point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 tf::point3 rounded(const tf::point3& p) {
     using tf::detail::nearest_float;
@@ -45,7 +42,7 @@ std::vector<std::uint32_t> usable_faces(const tf::mesh& mesh) {
 std::vector<std::uint32_t> finite_points(const tf::mesh& mesh) {
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t i = 0; i < mesh.points.size(); ++i)
-        if (finite(mesh.points[i])) numbers.push_back(i);
+        if (tf::detail::is_finite(mesh.points[i])) numbers.push_back(i);
     return numbers;
 }
 
@@ -149,7 +146,7 @@ double round_to_single(tf::mesh_file& file) {
     double largest = 0.0;
     for (tf::point3& p : file.mesh.points) {
         const tf::point3 before = std::exchange(p, rounded(p));
-        for (std::size_t k = 0; k < 3 && finite(before); ++k)
+        for (std::size_t k = 0; k < 3 && tf::detail::is_finite(before); ++k)
             largest = std::max(largest, std::abs(p[k] - before[k]));
     }
     return largest;

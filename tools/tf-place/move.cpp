@@ -1,6 +1,7 @@
 #include "tools/tf-place/move.hpp"
 
 #include "tools/common/console.hpp"
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/detail/nearest_float.hpp>
 #include <libmesh/face_tree.hpp>
 #include <libmesh/place/clear.hpp>
@@ -29,12 +30,6 @@ double float_not_below(double x) {
         std::nextafterf(static_cast<float>(nearest), std::numeric_limits<float>::infinity()));
 }
 
-bool all_finite(const std::vector<tf::point3>& points) {
-    return std::all_of(points.begin(), points.end(), [](const tf::point3& p) {
-        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    });
-}
-
 class placing {
   public:
     placing(job& work, body& moving, const surroundings& among, const place_settings& settings,
@@ -54,7 +49,7 @@ class placing {
         } catch (const std::overflow_error&) {
             in_range = false;
         }
-        if (!in_range || (result_.placed && !all_finite(result_.points))) {
+        if (!in_range || (result_.placed && !tf::detail::all_finite(result_.points))) {
             forget_place();
             fail(std::string("is beyond the range of ") + (to_single_ ? "float32" : "doubles") +
                  " at its place");

@@ -1,6 +1,7 @@
 #include "tools/tf-weld/tile_steps.hpp"
 
 #include "tools/common/console.hpp"
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/weld/crowded_chain.hpp>
 #include <libtree/parallel.hpp>
 
@@ -21,10 +22,6 @@ using tf::tile_point;
 using tf::tile_role;
 
 constexpr std::size_t piece = std::size_t{1} << 20;  ///< bytes read or written at a time
-
-bool is_finite(const tf::point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 json to_json(const record_count& c) { return {c.records, c.digest}; }
 record_count count_from(const json& stored) { return {stored.at(0), stored.at(1)}; }
@@ -197,7 +194,7 @@ void tile_steps::scatter(double tolerance) {
     while (reader.read(block, points_a_block)) {
         for (const tf::point3& p : block.points) {
             const std::uint64_t mine = id++;
-            if (!is_finite(p)) continue;
+            if (!tf::detail::is_finite(p)) continue;
             const auto place = slabs.find(p);
             ++tiles_[place.own].own;
             for (std::uint32_t t = place.first; t <= place.last; ++t) {

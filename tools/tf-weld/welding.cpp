@@ -1,6 +1,7 @@
 #include "tools/tf-weld/welding.hpp"
 
 #include "tools/tf-weld/properties.hpp"
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/weld/weld_points.hpp>
 
 #include <algorithm>
@@ -11,10 +12,6 @@
 
 namespace tools {
 namespace {
-
-bool is_finite(const tf::point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /// In two passes through memory: g++ 12 takes a cast to float and back for no operation at times.
 std::vector<tf::point3> in_single(tf::points_view points) {
@@ -111,7 +108,7 @@ welding weld(job& work, tf::mesh_file& file, const weld_settings& settings) {
     w.tolerance = settings.tolerance.used(w.box ? tf::diagonal(*w.box) : 0.0);
     w.non_finite = static_cast<std::uint64_t>(
         std::count_if(file.mesh.points.begin(), file.mesh.points.end(),
-                      [](const tf::point3& p) { return !is_finite(p); }));
+                      [](const tf::point3& p) { return !tf::detail::is_finite(p); }));
     w.polygon_of_triangle = file.stored_face;
     tf::split_polygons(file);
 

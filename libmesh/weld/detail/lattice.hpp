@@ -3,6 +3,7 @@
 /// The box of some points cut into 2^30 steps a side: integers that say where a point is to one
 /// part in a thousand million, and so whether two are within a tolerance nearly always.
 
+#include <libmesh/detail/finite.hpp>
 #include <libmesh/points.hpp>
 
 #include <algorithm>
@@ -12,11 +13,6 @@
 #include <optional>
 
 namespace tf::detail {
-
-[[nodiscard]] inline bool is_finite(const point3& p) {
-    // Differences, not a sum of all: a sum may overflow.
-    return p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0;
-}
 
 /// A point by three of the numbers x, y, z and s, all counted in steps and cut down to integers:
 /// s is where it lies along a line in general position, and stands for the z it leaves out.
