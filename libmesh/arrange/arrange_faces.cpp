@@ -1,18 +1,18 @@
-#include <libmesh/arrange/detail/arrange_pairs.hpp>
-#include <libmesh/arrange/detail/cluster.hpp>
+#include <libmesh/arrange/arrange_pairs.hpp>
+#include <libmesh/arrange/cluster.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/detail/at_once.hpp>
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/part_of_progress.hpp>
-#include <libmesh/detail/stars.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/exact/detail/filter.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/intersect/detail/meetings.hpp>
-#include <libmesh/intersect/detail/pairs_by_tree.hpp>
-#include <libmesh/intersect/detail/same_points.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/at_once.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/exact/filter.hpp>
+#include <libmesh/intersect/meetings.hpp>
+#include <libmesh/intersect/pairs_by_tree.hpp>
+#include <libmesh/intersect/same_points.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +24,13 @@
 #include <string>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
-using detail::cut_cluster;
-using detail::meeting;
-using detail::mesh_meetings;
-using detail::part_of;
+using detail::arrange::cut_cluster;
+using detail::base::part_of;
+using detail::intersect::meeting;
+using detail::intersect::mesh_meetings;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t grain = std::size_t{1} << 14;
@@ -38,10 +38,11 @@ constexpr std::size_t grain = std::size_t{1} << 14;
 constexpr double largest_coordinate = 0x1p1000;
 
 bool is_degenerate(mesh_view mesh, const face& f) {
-    if (!detail::has_three_corners(f)) return true;
+    if (!detail::base::has_three_corners(f)) return true;
     const auto& [a, b, c] = f;
-    const int known = detail::collinear_filter(mesh.points[a], mesh.points[b], mesh.points[c]);
-    if (known != detail::undecided) return known == 0;
+    const int known =
+        detail::exact::collinear_filter(mesh.points[a], mesh.points[b], mesh.points[c]);
+    if (known != detail::exact::undecided) return known == 0;
     return collinear(mesh.points[a], mesh.points[b], mesh.points[c]);
 }
 
@@ -78,7 +79,7 @@ std::vector<std::uint32_t> degenerate_faces(mesh_view mesh) {
     const unfit_faces unfit = find_unfit(mesh);
     for (const std::uint32_t corner : unfit.corner)
         if (corner != none)
-            throw std::invalid_argument("tf::arrange_faces: point " + std::to_string(corner) +
+            throw std::invalid_argument("treeform::arrange_faces: point " + std::to_string(corner) +
                                         " is not finite or beyond 2^1000");
     std::vector<std::uint32_t> all;
     for (const auto& part : unfit.degenerate) all.insert(all.end(), part.begin(), part.end());
@@ -106,7 +107,7 @@ bool spares(const meeting& m, std::uint32_t f) {
 }
 
 clusters gather(std::size_t face_count, const mesh_meetings& met) {
-    detail::union_find sets(face_count);
+    detail::base::union_find sets(face_count);
     std::vector<std::uint32_t> cut;
     for (const meeting& m : met.meetings) {
         if (m.kind == overlap::area) sets.join(m.a, m.b);
@@ -143,14 +144,14 @@ numbering number_points(std::size_t given, std::vector<constructed_point> named,
         result.made_begin.push_back(static_cast<std::uint32_t>(items.size()));
         items.insert(items.end(), c.made.begin(), c.made.end());
     }
-    detail::union_find sets(items.size());
+    detail::base::union_find sets(items.size());
     std::vector<std::uint32_t> given_of(items.size(), none);
     std::vector<std::array<std::uint32_t, 2>> is_given;  // item, given point
     for (const cut_cluster& c : cuts)
         for (auto [a, b] : c.same) {
             if (a > b) std::swap(a, b);
             if (b < given)
-                throw std::invalid_argument("tf::arrange_faces: points " + std::to_string(a) +
+                throw std::invalid_argument("treeform::arrange_faces: points " + std::to_string(a) +
                                             " and " + std::to_string(b) + " are equal");
             const auto item = static_cast<std::uint32_t>(b - given);
             if (a < given)
@@ -158,7 +159,7 @@ numbering number_points(std::size_t given, std::vector<constructed_point> named,
             else
                 sets.join(static_cast<std::uint32_t>(a - given), item);
         }
-    for (const auto& [a, b] : detail::equal_pairs(items)) sets.join(a, b);
+    for (const auto& [a, b] : detail::intersect::equal_pairs(items)) sets.join(a, b);
     for (const auto& [item, point] : is_given) given_of[sets.root(item)] = point;
 
     // Named points that no face kept (they are corners by another name, or lie in faces that a
@@ -228,9 +229,9 @@ class emitter {
 
     void write(mesh_arrangement& out) const {
         const std::size_t faces = begin_.back().face, covers = begin_.back().cover;
-        detail::at_once([&] { out.faces.resize(faces); },
-                        [&] { out.cover_begin.resize(faces + 1); },
-                        [&] { out.covers.resize(covers); }, [&] { out.whole.resize(faces); });
+        detail::base::at_once([&] { out.faces.resize(faces); },
+                              [&] { out.cover_begin.resize(faces + 1); },
+                              [&] { out.covers.resize(covers); }, [&] { out.whole.resize(faces); });
         for_chunks(mesh_.faces.size(), grain,
                    [&](std::size_t begin, std::size_t end, std::size_t c) {
                        write(begin, end, begin_[c], out);
@@ -323,8 +324,8 @@ arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pa
     arrange_faces_result result;
     const std::size_t count = mesh.faces.size();
     result.pairs = pairs.size();
-    mesh_meetings met = detail::meetings_of(mesh, pairs);
-    const detail::meetings_by_face by_face(met.meetings);
+    mesh_meetings met = detail::intersect::meetings_of(mesh, pairs);
+    const detail::arrange::meetings_by_face by_face(met.meetings);
     const clusters groups = gather(count, met);
     result.cut_faces = groups.members.size();
 
@@ -336,7 +337,7 @@ arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pa
                    const auto first = std::make_unique_for_overwrite<std::byte[]>(memory_a_chunk);
                    std::pmr::monotonic_buffer_resource memory(first.get(), memory_a_chunk);
                    for (std::size_t i = begin; i < end; ++i) {
-                       cuts[i] = detail::cut({mesh, &met, groups[i], &by_face, &memory});
+                       cuts[i] = detail::arrange::cut({mesh, &met, groups[i], &by_face, &memory});
                        memory.release();
                    }
                });
@@ -369,17 +370,18 @@ void copy_points(mesh_view mesh, arrange_faces_result& result) {
 
 }  // namespace
 
-arrange_faces_result detail::arrange_pairs(mesh_view mesh, std::span<const face_pair> pairs,
-                                           std::vector<std::uint32_t> degenerate,
-                                           const progress_callback& progress) {
+arrange_faces_result detail::arrange::arrange_pairs(mesh_view mesh,
+                                                    std::span<const face_pair> pairs,
+                                                    std::vector<std::uint32_t> degenerate,
+                                                    const progress_callback& progress) {
     arrange_faces_result result = arrange_known(mesh, pairs, std::move(degenerate), progress);
     copy_points(mesh, result);
     return result;
 }
 
-arrange_faces_result detail::arrange_without_points(mesh_view mesh,
-                                                    const arrange_faces_options& options) {
-    check_faces("arrange_faces", mesh.points.size(), mesh.faces);
+arrange_faces_result detail::arrange::arrange_without_points(mesh_view mesh,
+                                                             const arrange_faces_options& options) {
+    base::check_faces("arrange_faces", mesh.points.size(), mesh.faces);
     std::vector<std::uint32_t> degenerate = degenerate_faces(mesh);
     // Degenerate faces are shut out by hiding them: pairs are looked for among the others only.
     std::vector<face> kept;
@@ -408,24 +410,24 @@ arrange_faces_result detail::arrange_without_points(mesh_view mesh,
                          part_of(options.progress, 0.5, 1.0));
 }
 
-bool detail::can_all_be_arranged(mesh_view mesh) {
+bool detail::arrange::can_all_be_arranged(mesh_view mesh) {
     const unfit_faces unfit = find_unfit(mesh);
     return std::ranges::all_of(unfit.corner, [](std::uint32_t c) { return c == none; }) &&
            std::ranges::all_of(unfit.degenerate, [](const auto& part) { return part.empty(); });
 }
 
-arrange_faces_result detail::arrange_by_tree(mesh_view mesh, tree<3> tree,
-                                             const progress_callback& progress) {
+arrange_faces_result detail::arrange::arrange_by_tree(mesh_view mesh, tree<3> tree,
+                                                      const progress_callback& progress) {
     const self_intersection_result found =
-        pairs_by_tree(mesh, std::move(tree), {.progress = part_of(progress, 0.0, 0.5)});
+        intersect::pairs_by_tree(mesh, std::move(tree), {.progress = part_of(progress, 0.0, 0.5)});
     if (found.cancelled) return cancelled_result({});
     return arrange_known(mesh, found.pairs, {}, part_of(progress, 0.5, 1.0));
 }
 
 arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {
-    arrange_faces_result result = detail::arrange_without_points(mesh, options);
+    arrange_faces_result result = detail::arrange::arrange_without_points(mesh, options);
     copy_points(mesh, result);
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

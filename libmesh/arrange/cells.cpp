@@ -1,13 +1,13 @@
 #include <libmesh/arrange/cells.hpp>
-#include <libmesh/arrange/detail/cells_of.hpp>
-#include <libmesh/arrange/detail/operand_sums.hpp>
-#include <libmesh/arrange/detail/parts.hpp>
-#include <libmesh/arrange/detail/patches.hpp>
-#include <libmesh/arrange/detail/radial_order.hpp>
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/first_bad.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/arrange/cells_of.hpp>
+#include <libmesh/arrange/operand_sums.hpp>
+#include <libmesh/arrange/parts.hpp>
+#include <libmesh/arrange/patches.hpp>
+#include <libmesh/arrange/radial_order.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/first_bad.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -16,18 +16,18 @@
 #include <string>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
-using detail::face_side;
-using detail::first_bad;
-using detail::numbered_sets;
-using detail::surface_patches;
+using detail::arrange::face_side;
+using detail::arrange::numbered_sets;
+using detail::arrange::surface_patches;
+using detail::base::first_bad;
 
 constexpr std::size_t grain = std::size_t{1} << 14;
 
 [[noreturn]] void refuse(const std::string& why) {
-    throw std::invalid_argument("tf::find_cells: " + why);
+    throw std::invalid_argument("treeform::find_cells: " + why);
 }
 
 void check(mesh_view mesh, const mesh_arrangement& cut,
@@ -37,7 +37,8 @@ void check(mesh_view mesh, const mesh_arrangement& cut,
         refuse("not an arrangement of this mesh");
     if (cut.faces.size() > std::numeric_limits<std::uint32_t>::max() / 2)
         refuse("more than 2^31 - 1 faces");
-    detail::check_faces("find_cells", cut.given_points.size() + cut.constructed.size(), cut.faces);
+    detail::base::check_faces("find_cells", cut.given_points.size() + cut.constructed.size(),
+                              cut.faces);
     const std::size_t bad_face = first_bad(cut.faces.size(), [&](std::size_t f) {
         return cut.cover_begin[f] >= cut.cover_begin[f + 1] ||
                cut.cover_begin[f + 1] > cut.covers.size();
@@ -70,11 +71,11 @@ class labels {
     /// Whether what covers the face cancels out, operand by operand.
     [[nodiscard]] bool cancel(std::uint32_t face) const {
         if (cut_.covers_of(face).size() == 1) return false;
-        std::vector<detail::counted_face> counted;
+        std::vector<detail::arrange::counted_face> counted;
         for_each(face, [&](std::uint32_t operand, int sign) {
             counted.push_back({operand, 0, sign});
         });
-        return detail::cancel_out(counted);
+        return detail::arrange::cancel_out(counted);
     }
 
   private:
@@ -93,13 +94,13 @@ class regions {
 
     /// Cells, 0 being that of infinity, then in the order of the lowest sides. The last to be
     /// asked.
-    [[nodiscard]] numbered_sets number() { return detail::number_sets(std::move(sets_)); }
+    [[nodiscard]] numbered_sets number() { return detail::arrange::number_sets(std::move(sets_)); }
 
   private:
     [[nodiscard]] std::uint32_t element(face_side s) const { return patches_.patch_side(s) + 1; }
 
     const surface_patches& patches_;
-    detail::union_find sets_;
+    detail::base::union_find sets_;
 };
 
 /// Neighbours about an edge look into the region between them.
@@ -107,36 +108,36 @@ void join_about_edges(mesh_view mesh, const mesh_arrangement& cut, const surface
                       regions& joined) {
     std::vector<std::optional<std::array<std::uint32_t, 2>>> broken(patches.junctions.size());
     for_chunks(patches.junctions.size(), 1, [&](std::size_t, std::size_t, std::size_t c) {
-        const detail::junction_list& list = patches.junctions[c];
-        detail::radial_order radial(mesh, cut);
+        const detail::arrange::junction_list& list = patches.junctions[c];
+        detail::arrange::radial_order radial(mesh, cut);
         std::vector<face_side> order;
         for (std::size_t e = 0; e < list.edges.size() && !broken[c]; ++e) {
             const auto sides = list.sides_of(e);
             order.assign(sides.begin(), sides.end());
             if (!radial.sort(list.edges[e].points, order)) broken[c] = list.edges[e].points;
             for (std::size_t i = 0; i < order.size(); ++i)
-                joined.join(order[i], detail::other_side(order[(i + 1) % order.size()]));
+                joined.join(order[i], detail::arrange::other_side(order[(i + 1) % order.size()]));
         }
     });
     for (const auto& edge : broken)
         if (edge)
             throw std::logic_error(
-                "tf::find_cells: faces lie on each other at the edge between "
+                "treeform::find_cells: faces lie on each other at the edge between "
                 "points " +
                 std::to_string((*edge)[0]) + " and " + std::to_string((*edge)[1]));
 }
 
 /// The part of each patch: patches are linked by edges.
 numbered_sets find_parts(const surface_patches& patches) {
-    detail::union_find linked(patches.count());
-    for (const detail::junction_list& list : patches.junctions)
+    detail::base::union_find linked(patches.count());
+    for (const detail::arrange::junction_list& list : patches.junctions)
         for (std::size_t e = 0; e < list.edges.size(); ++e) {
             const auto sides = list.sides_of(e);
             for (const face_side side : sides)
-                linked.join(patches.patch[detail::face_of(sides[0])],
-                            patches.patch[detail::face_of(side)]);
+                linked.join(patches.patch[detail::arrange::face_of(sides[0])],
+                            patches.patch[detail::arrange::face_of(side)]);
         }
-    return detail::number_sets(std::move(linked));
+    return detail::arrange::number_sets(std::move(linked));
 }
 
 /// The cells on both sides of each patch, and windings that spread from cell to cell.
@@ -213,8 +214,9 @@ class winding_flood {
                              [&](std::uint32_t operand, int sign) { beyond[operand] += sign; });
             if (seen_[front(p)] == 0 || seen_[behind(p)] == 0 ||
                 !std::equal(beyond.begin(), beyond.end(), row(behind(p))))
-                throw std::logic_error("tf::find_cells: windings contradict each other at face " +
-                                       std::to_string(patches_.first_face(p)));
+                throw std::logic_error(
+                    "treeform::find_cells: windings contradict each other at face " +
+                    std::to_string(patches_.first_face(p)));
         }
     }
 
@@ -234,13 +236,13 @@ arrangement_cells find_cells(mesh_view mesh, const mesh_arrangement& cut,
                              std::span<const std::uint32_t> operand_of_face,
                              std::size_t operand_count) {
     check(mesh, cut, operand_of_face, operand_count);
-    return detail::cells_of(mesh, cut, operand_of_face, operand_count);
+    return detail::arrange::cells_of(mesh, cut, operand_of_face, operand_count);
 }
 
-arrangement_cells detail::cells_of(mesh_view mesh, const mesh_arrangement& cut,
-                                   std::span<const std::uint32_t> operand_of_face,
-                                   std::size_t operand_count) {
-    surface_patches patches = detail::find_patches(cut, operand_of_face);
+arrangement_cells detail::arrange::cells_of(mesh_view mesh, const mesh_arrangement& cut,
+                                            std::span<const std::uint32_t> operand_of_face,
+                                            std::size_t operand_count) {
+    surface_patches patches = detail::arrange::find_patches(cut, operand_of_face);
     arrangement_cells result;
     result.operands = operand_count;
     if (patches.open_count > 0) {
@@ -252,9 +254,10 @@ arrangement_cells detail::cells_of(mesh_view mesh, const mesh_arrangement& cut,
     regions joined(patches);
     for (std::uint32_t p = 0; p < patches.count(); ++p)
         if (const std::uint32_t f = patches.first_face(p); labels.cancel(f))
-            joined.join(detail::front_of(f), detail::behind(f));
+            joined.join(detail::arrange::front_of(f), detail::arrange::behind(f));
     join_about_edges(mesh, cut, patches, joined);
-    for (const auto& [outer, beyond] : detail::place_parts(mesh, cut, patches, find_parts(patches)))
+    for (const auto& [outer, beyond] :
+         detail::arrange::place_parts(mesh, cut, patches, find_parts(patches)))
         if (beyond)
             joined.join(outer, *beyond);
         else
@@ -272,4 +275,4 @@ arrangement_cells detail::cells_of(mesh_view mesh, const mesh_arrangement& cut,
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -4,8 +4,8 @@
 /// winds around them.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/mesh.hpp>
-#include <libtree/export.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/export.hpp>
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace tf {
+namespace treeform {
 
 /// An edge of an arrangement along which an operand's faces run more often one way than the other:
 /// there its surface ends.
@@ -70,4 +70,4 @@ struct arrangement_cells {
 find_cells(mesh_view mesh, const mesh_arrangement& cut,
            std::span<const std::uint32_t> operand_of_face, std::size_t operand_count);
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,8 +1,8 @@
-#include <libmesh/arrange/detail/cluster.hpp>
-#include <libmesh/arrange/detail/planar_box.hpp>
-#include <libmesh/arrange/detail/planar_triangulation.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/detail/features.hpp>
+#include <libmesh/arrange/cluster.hpp>
+#include <libmesh/arrange/planar_box.hpp>
+#include <libmesh/arrange/planar_triangulation.hpp>
+#include <libmesh/geometry/features.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace tf::detail {
+namespace treeform::detail::arrange {
 namespace {
 
 constexpr std::uint32_t none = planar_triangulation::none;
@@ -18,7 +18,7 @@ constexpr std::uint32_t none = planar_triangulation::none;
 /// A line of the plane: along an edge of a member, or where the plane of another face meets it.
 struct line_name {
     bool is_face = false;
-    edge_name of{};  ///< an edge, or a face and 0
+    intersect::edge_name of{};  ///< an edge, or a face and 0
     friend auto operator<=>(const line_name&, const line_name&) = default;
 };
 
@@ -101,21 +101,22 @@ class cutter {
         vector<std::array<std::uint32_t, 3>> crossings(in_.memory);  // from, to, face
         for (const std::uint32_t f : in_.members) {
             for (std::size_t i = 0; i < 3; ++i) {
-                const edge_name e = edge_of(corners(f), i);
+                const intersect::edge_name e = intersect::edge_of(corners(f), i);
                 on.push_back({e[0], {false, e}});
                 on.push_back({e[1], {false, e}});
             }
-            for_meetings(f, [&](const meeting& m) {
+            for_meetings(f, [&](const intersect::meeting& m) {
                 const bool first = m.a == f;
                 const std::uint32_t other = first ? m.b : m.a;
                 for (std::size_t k = 0; k < m.count; ++k) {
-                    const meeting_end& end = m.ends[k];
+                    const intersect::meeting_end& end = m.ends[k];
                     const feature here = first ? end.on_a : end.on_b;
-                    if (is_edge(here))
+                    if (geometry::is_edge(here))
                         on.push_back({end.point,
-                                      {false, edge_of(corners(f),
-                                                      static_cast<std::size_t>(index_of(here)))}});
-                    else if (!is_corner(here))
+                                      {false, intersect::edge_of(corners(f),
+                                                                 static_cast<std::size_t>(
+                                                                     geometry::index_of(here)))}});
+                    else if (!geometry::is_corner(here))
                         points_.push_back(end.point);
                     if (!m.coplanar) on.push_back({end.point, {true, {other, 0}}});
                 }
@@ -156,10 +157,10 @@ class cutter {
         });
         for (const int axis : axes) {
             axis_ = axis;
-            orientation_ = tf::orient2d(axis, p.a, p.b, p.c);
+            orientation_ = treeform::orient2d(axis, p.a, p.b, p.c);
             if (orientation_ != 0) return;
         }
-        throw std::logic_error("tf::arrange_faces: a face without area");
+        throw std::logic_error("treeform::arrange_faces: a face without area");
     }
 
     /// Members with the same three corners, and nothing else there.
@@ -259,16 +260,17 @@ class cutter {
         vector<std::uint32_t> seen(plane.triangle_count(), none, in_.memory);
         for (const std::uint32_t f : in_.members) {
             const plane_points p = plane_of(f);
-            const bool opposite = tf::orient2d(axis_, p.a, p.b, p.c) != orientation_;
-            vector<edge_name> rim(in_.memory);
+            const bool opposite = treeform::orient2d(axis_, p.a, p.b, p.c) != orientation_;
+            vector<intersect::edge_name> rim(in_.memory);
             for (std::size_t i = 0; i < 3; ++i) {
                 const auto& way =
-                    chains_[place_in(lines_, line_name{false, edge_of(corners(f), i)})];
+                    chains_[place_in(lines_, line_name{false, intersect::edge_of(corners(f), i)})];
                 for (std::size_t k = 0; k + 1 < way.size(); ++k)
-                    rim.push_back(edge_between(way[k], way[k + 1]));
+                    rim.push_back(intersect::edge_between(way[k], way[k + 1]));
             }
             std::sort(rim.begin(), rim.end());
-            const auto& way = chains_[place_in(lines_, line_name{false, edge_of(corners(f), 0)})];
+            const auto& way =
+                chains_[place_in(lines_, line_name{false, intersect::edge_of(corners(f), 0)})];
             // The chain runs from the lower to the higher point.
             const bool forward = (corners(f)[0] < corners(f)[1]) != opposite;
             vector<std::uint32_t> stack(
@@ -282,12 +284,12 @@ class cutter {
                 const auto c = plane.corners(t);
                 for (std::size_t i = 0; i < 3; ++i) {
                     if (std::binary_search(rim.begin(), rim.end(),
-                                           edge_between(c[i], c[(i + 1) % 3])))
+                                           intersect::edge_between(c[i], c[(i + 1) % 3])))
                         continue;
                     const std::uint32_t beyond = plane.across(t, i);
                     if (beyond == none)
-                        throw std::logic_error("tf::arrange_faces: face " + std::to_string(f) +
-                                               " has no boundary in its plane");
+                        throw std::logic_error("treeform::arrange_faces: face " +
+                                               std::to_string(f) + " has no boundary in its plane");
                     if (seen[beyond] == f) continue;
                     seen[beyond] = f;
                     stack.push_back(beyond);
@@ -353,7 +355,7 @@ class cutter {
 
 }  // namespace
 
-meetings_by_face::meetings_by_face(const std::vector<meeting>& meetings) {
+meetings_by_face::meetings_by_face(const std::vector<intersect::meeting>& meetings) {
     std::vector<std::array<std::uint32_t, 2>> of_face;
     of_face.reserve(2 * meetings.size());
     for (std::uint32_t i = 0; i < meetings.size(); ++i)
@@ -378,4 +380,4 @@ std::span<const std::uint32_t> meetings_by_face::operator[](std::uint32_t face) 
 
 cut_cluster cut(const cluster_input& input) { return cutter(input).run(); }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::arrange

@@ -1,12 +1,12 @@
-#include <libmesh/arrange/detail/edge_stars.hpp>
-#include <libmesh/detail/stars.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/arrange/edge_stars.hpp>
+#include <libmesh/base/stars.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::arrange {
 namespace {
 
 constexpr std::size_t least_slice = std::size_t{1} << 14;
@@ -18,7 +18,7 @@ void for_lower_corners(std::span<const face> faces, std::size_t begin, std::size
                        const Visit& visit) {
     for (std::size_t i = begin; i < end; ++i) {
         const auto& [a, b, c] = faces[i];
-        if (!has_three_corners(faces[i])) continue;
+        if (!base::has_three_corners(faces[i])) continue;
         const std::uint32_t low = std::min(std::min(a, b), c);
         const std::uint32_t high = std::max(std::max(a, b), c);
         visit(i, low);
@@ -29,7 +29,7 @@ void for_lower_corners(std::span<const face> faces, std::size_t begin, std::size
 }  // namespace
 
 edge_stars::edge_stars(std::size_t point_count, std::span<const face> faces) {
-    const std::size_t points = nameable_points(point_count);
+    const std::size_t points = base::nameable_points(point_count);
     const std::size_t slice = std::max(least_slice, (faces.size() + most_slices - 1) / most_slices);
     // Counts of each slice, then where it puts its next face at each point.
     std::vector<buffer<std::uint32_t>> next(
@@ -53,4 +53,4 @@ edge_stars::edge_stars(std::size_t point_count, std::span<const face> faces) {
     end_ = std::move(next.back());
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::arrange

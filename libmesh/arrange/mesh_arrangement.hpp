@@ -3,16 +3,16 @@
 /// Triangle meshes cut along each other and along themselves, exactly.
 
 #include <libmesh/exact/constructed_point.hpp>
-#include <libmesh/mesh.hpp>
-#include <libtree/export.hpp>
-#include <libtree/progress.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/progress.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace tf {
+namespace treeform {
 
 /// An input face that covers a face of an arrangement.
 struct covering_face {
@@ -76,4 +76,4 @@ struct arrange_faces_result {
 [[nodiscard]] TREEFORM_API arrange_faces_result
 arrange_faces(mesh_view mesh, const arrange_faces_options& options = {});
 
-}  // namespace tf
+}  // namespace treeform

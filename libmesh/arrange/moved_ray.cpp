@@ -1,8 +1,8 @@
-#include <libmesh/arrange/detail/moved_ray.hpp>
+#include <libmesh/arrange/moved_ray.hpp>
 
 #include <cassert>
 
-namespace tf::detail {
+namespace treeform::detail::arrange {
 namespace {
 
 constexpr point3 along_x{1, 0, 0};
@@ -21,10 +21,10 @@ moved_ray::moved_ray(const point3& from, const point3& towards)
       constructed_from_(from),
       constructed_towards_(towards),
       axis_(1),
-      ahead_(tf::compare(1, towards, from)) {
+      ahead_(treeform::compare(1, towards, from)) {
     if (ahead_ != 0) return;
     axis_ = 2;
-    ahead_ = tf::compare(2, towards, from);
+    ahead_ = treeform::compare(2, towards, from);
     assert(ahead_ != 0);
 }
 
@@ -52,4 +52,4 @@ int moved_ray::compare(const crossing& c, const crossing& d) const {
     return -ahead_ * normal_cross(axis_, c.plane, d.plane) * c.faces * d.faces;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::arrange

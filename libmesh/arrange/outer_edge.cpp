@@ -1,9 +1,9 @@
-#include <libmesh/arrange/detail/outer_edge.hpp>
-#include <libmesh/detail/finite.hpp>
+#include <libmesh/arrange/outer_edge.hpp>
+#include <libmesh/base/finite.hpp>
 #include <libmesh/exact/constructed_point.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/detail/flat_triangle.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/geometry/flat_triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::arrange {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 14;
@@ -24,7 +24,8 @@ constexpr auto no_point = std::numeric_limits<std::uint32_t>::max();
 void raise(const mesh_arrangement& cut, std::uint32_t& top, std::uint32_t p) {
     if (p == top || p == no_point) return;
     if (top != no_point && cut.given_points[p].x < cut.given_points[top].x) return;  // nearly all
-    if (top == no_point || lexicographically_less(cut.given_points[top], cut.given_points[p]))
+    if (top == no_point ||
+        geometry::lexicographically_less(cut.given_points[top], cut.given_points[p]))
         top = p;
 }
 
@@ -34,7 +35,8 @@ std::uint32_t greatest_given_point(const mesh_arrangement& cut) {
     for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         std::uint32_t top = no_point;
         for (std::size_t p = begin; p < end; ++p)
-            if ((top == no_point || points[p].x >= points[top].x) && detail::is_finite(points[p]))
+            if ((top == no_point || points[p].x >= points[top].x) &&
+                detail::base::is_finite(points[p]))
                 raise(cut, top, static_cast<std::uint32_t>(p));
         tops[c] = top;
     });
@@ -147,7 +149,8 @@ class edge_finder {
 };
 
 [[noreturn]] void refuse(std::uint32_t point) {
-    throw std::logic_error("tf::find_cells: not an arrangement at point " + std::to_string(point));
+    throw std::logic_error("treeform::find_cells: not an arrangement at point " +
+                           std::to_string(point));
 }
 
 }  // namespace
@@ -225,4 +228,4 @@ outer_edge find_outer_edge(mesh_view mesh, const mesh_arrangement& cut, const pa
     return *edge;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::arrange

@@ -1,11 +1,11 @@
-#include <libmesh/arrange/detail/moved_ray.hpp>
-#include <libmesh/arrange/detail/outer_edge.hpp>
-#include <libmesh/arrange/detail/parts.hpp>
-#include <libmesh/arrange/detail/radial_order.hpp>
-#include <libtree/build.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/ray.hpp>
-#include <libtree/tree.hpp>
+#include <libmesh/arrange/moved_ray.hpp>
+#include <libmesh/arrange/outer_edge.hpp>
+#include <libmesh/arrange/parts.hpp>
+#include <libmesh/arrange/radial_order.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/ray.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace tf::detail {
+namespace treeform::detail::arrange {
 namespace {
 
 constexpr std::size_t grain = 64;  // parts a chunk
@@ -123,7 +123,7 @@ class ray_follower {
             const int faces = passes(ray, a, b, c);
             if (faces != 0) return faces < 0 ? front_of(f) : behind(f);
         }
-        throw std::logic_error("tf::find_cells: the arrangement does not cover face " +
+        throw std::logic_error("treeform::find_cells: the arrangement does not cover face " +
                                std::to_string(g));
     }
 
@@ -164,4 +164,4 @@ std::vector<part_place> place_parts(mesh_view mesh, const mesh_arrangement& cut,
     return places;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::arrange

@@ -1,15 +1,15 @@
-#include <libmesh/arrange/detail/edge_stars.hpp>
-#include <libmesh/arrange/detail/operand_sums.hpp>
-#include <libmesh/arrange/detail/patches.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libtree/detail/buffer.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/arrange/edge_stars.hpp>
+#include <libmesh/arrange/operand_sums.hpp>
+#include <libmesh/arrange/patches.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::arrange {
 namespace {
 
 constexpr std::size_t star_grain = std::size_t{1} << 9;  // points a chunk
@@ -47,7 +47,7 @@ struct chunk_edges {
 class edge_reader {
   public:
     edge_reader(const mesh_arrangement& cut, std::span<const std::uint32_t> operand_of_face,
-                const buffer<short_operand>& sole, union_find& patches, chunk_edges& found)
+                const buffer<short_operand>& sole, base::union_find& patches, chunk_edges& found)
         : cut_(cut),
           operand_of_face_(operand_of_face),
           sole_(sole),
@@ -132,7 +132,7 @@ class edge_reader {
     const mesh_arrangement& cut_;
     std::span<const std::uint32_t> operand_of_face_;
     const buffer<short_operand>& sole_;
-    union_find& patches_;
+    base::union_find& patches_;
     chunk_edges& found_;
     std::vector<std::uint64_t> uses_;
     std::vector<face_side> sides_;
@@ -145,7 +145,7 @@ surface_patches find_patches(const mesh_arrangement& cut,
                              std::span<const std::uint32_t> operand_of_face) {
     const edge_stars stars(cut.given_points.size() + cut.constructed.size(), cut.faces);
     const auto sole = sole_operands(cut, operand_of_face);
-    union_find patches(cut.faces.size());
+    base::union_find patches(cut.faces.size());
     std::vector<chunk_edges> found(chunk_count(stars.size(), star_grain));
     for_chunks(stars.size(), star_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         chunk_edges part;
@@ -170,4 +170,4 @@ surface_patches find_patches(const mesh_arrangement& cut,
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::arrange

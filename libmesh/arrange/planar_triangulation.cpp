@@ -1,4 +1,4 @@
-#include <libmesh/arrange/detail/planar_triangulation.hpp>
+#include <libmesh/arrange/planar_triangulation.hpp>
 
 #include <algorithm>
 #include <deque>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace tf::detail {
+namespace treeform::detail::arrange {
 namespace {
 
 std::array<double, 2> plan_of(const constructed_point& p, int axis) {
@@ -127,7 +127,7 @@ planar_triangulation::half_edge planar_triangulation::side_between(std::uint32_t
 
 std::uint32_t planar_triangulation::left_of(std::uint32_t from, std::uint32_t to) const {
     const half_edge h = find(from, to);
-    if (h == none) throw std::logic_error("tf::planar_triangulation: no such side");
+    if (h == none) throw std::logic_error("treeform::planar_triangulation: no such side");
     return h / 3;
 }
 
@@ -168,7 +168,7 @@ planar_triangulation::place planar_triangulation::locate(std::uint32_t p) {
     }
     for (t = 0; t < triangle_count(); ++t)
         if (side_towards(t, p, 0, none, found) == none) return found;
-    throw std::logic_error("tf::planar_triangulation: point " + std::to_string(p) +
+    throw std::logic_error("treeform::planar_triangulation: point " + std::to_string(p) +
                            " is outside of the triangulation");
 }
 
@@ -331,7 +331,7 @@ std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to
         return met;
     }
     if (crossed == none)
-        throw std::logic_error("tf::planar_triangulation: a segment leads out of the plane");
+        throw std::logic_error("treeform::planar_triangulation: a segment leads out of the plane");
 
     // The sides between here and the next vertex on the way.
     std::pmr::deque<std::array<std::uint32_t, 2>> sides(points_.get_allocator());
@@ -343,7 +343,8 @@ std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to
         sides.push_back({origin_[crossed], target(crossed)});
         const half_edge beyond = twin_[crossed];
         if (beyond == none)
-            throw std::logic_error("tf::planar_triangulation: a segment leads out of the plane");
+            throw std::logic_error(
+                "treeform::planar_triangulation: a segment leads out of the plane");
         const std::uint32_t v = apex(beyond);
         if (v == to) break;
         const int of_v = turn(from, to, v);
@@ -360,7 +361,8 @@ std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to
     while (!sides.empty()) {
         const auto [u, v] = sides.front();
         sides.pop_front();
-        if (++steps > most) throw std::logic_error("tf::planar_triangulation: no end of flips");
+        if (++steps > most)
+            throw std::logic_error("treeform::planar_triangulation: no end of flips");
         const half_edge h = find(u, v);
         if (!can_flip(h)) {
             sides.push_back({u, v});
@@ -376,7 +378,7 @@ std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to
             fresh.push_back({c, d});
     }
     const half_edge h = side_between(from, to);
-    if (h == none) throw std::logic_error("tf::planar_triangulation: a segment was not made");
+    if (h == none) throw std::logic_error("treeform::planar_triangulation: a segment was not made");
     mark(h, line);
     improve(fresh);
     return to;
@@ -411,4 +413,4 @@ std::pmr::vector<std::uint32_t> planar_triangulation::constrain(std::uint32_t fr
     return way;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::arrange

@@ -1,10 +1,10 @@
-#include <libmesh/arrange/detail/radial_order.hpp>
+#include <libmesh/arrange/radial_order.hpp>
 #include <libmesh/exact/constructed_point.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-namespace tf::detail {
+namespace treeform::detail::arrange {
 namespace {
 
 /// A coordinate in which an edge runs up or down, and which of them.
@@ -91,4 +91,4 @@ std::optional<face_side> radial_order::last_before_x(const point3& from, const p
     return best->side;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::arrange

@@ -1,21 +1,21 @@
+#include <libmesh/arrange/arrange_pairs.hpp>
 #include <libmesh/arrange/cells.hpp>
-#include <libmesh/arrange/detail/arrange_pairs.hpp>
-#include <libmesh/arrange/detail/cells_of.hpp>
+#include <libmesh/arrange/cells_of.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/boolean/detail/inside_of_cells.hpp>
-#include <libmesh/boolean/detail/joined_operands.hpp>
-#include <libmesh/boolean/detail/mended_operands.hpp>
-#include <libmesh/boolean/detail/merged_faces.hpp>
-#include <libmesh/boolean/detail/operand_tree.hpp>
-#include <libmesh/boolean/detail/sound_pair.hpp>
-#include <libmesh/detail/at_once.hpp>
-#include <libmesh/detail/part_of_progress.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/round/detail/solid_faces.hpp>
+#include <libmesh/base/at_once.hpp>
+#include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/boolean/inside_of_cells.hpp>
+#include <libmesh/boolean/joined_operands.hpp>
+#include <libmesh/boolean/mended_operands.hpp>
+#include <libmesh/boolean/merged_faces.hpp>
+#include <libmesh/boolean/operand_tree.hpp>
+#include <libmesh/boolean/sound_pair.hpp>
 #include <libmesh/round/round_surface.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/tree.hpp>
+#include <libmesh/round/solid_faces.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -26,11 +26,11 @@
 #include <string>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
-using detail::joined_operands;
-using detail::part_of;
+using detail::base::part_of;
+using detail::boolean::joined_operands;
 
 constexpr std::size_t grain = std::size_t{1} << 14;
 
@@ -42,12 +42,12 @@ struct arranged_operands {
 
 arranged_operands arrange_operands(const char* function, std::span<const mesh_view> operands,
                                    const progress_callback& progress) {
-    detail::check_operands(function, operands);
-    std::optional<tree<3>> tree = detail::tree_of_operands(operands);
-    arranged_operands result{detail::join_operands(operands), {}};
+    detail::boolean::check_operands(function, operands);
+    std::optional<tree<3>> tree = detail::boolean::tree_of_operands(operands);
+    arranged_operands result{detail::boolean::join_operands(operands), {}};
     mesh& all = result.joined.all;
-    result.arranged = tree ? detail::arrange_by_tree(all, *std::move(tree), progress)
-                           : detail::arrange_without_points(all, {.progress = progress});
+    result.arranged = tree ? detail::arrange::arrange_by_tree(all, *std::move(tree), progress)
+                           : detail::arrange::arrange_without_points(all, {.progress = progress});
     result.arranged.cut.given_points = std::move(all.points);
     return result;
 }
@@ -84,7 +84,7 @@ std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uin
                                       const mesh_arrangement& cut, const joined_operands& joined,
                                       const boolean_options& options) {
     if (!options.face_groups.empty() && options.face_groups.size() != joined.all.faces.size())
-        throw std::invalid_argument("tf::boolean: not as many face groups as faces");
+        throw std::invalid_argument("treeform::boolean: not as many face groups as faces");
     std::vector<operand_element> face_of_point(exact.constructed.size());
     for (std::size_t f = exact.faces.size(); f-- > 0;)
         for (const std::uint32_t p : exact.faces[f])
@@ -93,7 +93,7 @@ std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uin
                     joined.face_source(cut.covers_of(face_of[f]).front().face);
     std::vector<std::uint32_t> plane_of;
     for (const std::uint32_t f : face_of) plane_of.push_back(cut.covers_of(f).front().face);
-    detail::merged_faces merged = detail::merge_coplanar(
+    detail::boolean::merged_faces merged = detail::boolean::merge_coplanar(
         exact, {{exact.given, joined.all.faces}, plane_of, options.face_groups});
     std::vector<std::uint8_t> sound(merged.faces.size());
     for (std::size_t f = 0; f < sound.size(); ++f)
@@ -147,8 +147,8 @@ void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact
     result.broken = std::move(r.broken);
     result.lost_parts = r.lost_parts;
     result.lost_places = std::move(r.lost_places);
-    detail::at_once([&] { result.source_face.resize(r.face_of.size()); },
-                    [&] { result.source_point.resize(r.point_of.size()); });
+    detail::base::at_once([&] { result.source_face.resize(r.face_of.size()); },
+                          [&] { result.source_point.resize(r.point_of.size()); });
     for_chunks(r.face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
             result.source_face[f] = joined.face_source(face_of[r.face_of[f]]);
@@ -166,7 +166,7 @@ void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact
 void check_expression(const char* function, std::span<const mesh_view> operands,
                       const boolean_expression& expression) {
     if (expression.operand_count() != operands.size())
-        throw std::invalid_argument("tf::" + std::string(function) + ": the expression has " +
+        throw std::invalid_argument("treeform::" + std::string(function) + ": the expression has " +
                                     std::to_string(expression.operand_count()) +
                                     " operands, given are " + std::to_string(operands.size()));
 }
@@ -216,18 +216,18 @@ void cover_from_both_sides(mesh_arrangement& cut, const std::vector<std::uint32_
 
 /// The faces that the expression keeps, now first covered by the sheet. A piece is in a solid when
 /// one of its sides is.
-detail::solid_faces kept_of_sheet(mesh_arrangement& cut, const arrangement_cells& cells,
-                                  const std::vector<std::uint32_t>& operand_of_face,
-                                  const std::vector<std::uint8_t>& way, std::uint32_t sheet,
-                                  const boolean_expression& expression, inside_rule rule) {
-    detail::solid_faces kept;
+detail::round::solid_faces kept_of_sheet(mesh_arrangement& cut, const arrangement_cells& cells,
+                                         const std::vector<std::uint32_t>& operand_of_face,
+                                         const std::vector<std::uint8_t>& way, std::uint32_t sheet,
+                                         const boolean_expression& expression, inside_rule rule) {
+    detail::round::solid_faces kept;
     const auto in = std::make_unique<bool[]>(cells.operands);
     for (std::size_t f = 0; f < way.size(); ++f) {
         if (way[f] == 0) continue;
         const auto [front, behind] = cells.cell_of_side[f];
         for (std::size_t k = 0; k < cells.operands; ++k)
-            in[k] = k == sheet || detail::is_inside(rule, cells.winding_of(front)[k]) ||
-                    detail::is_inside(rule, cells.winding_of(behind)[k]);
+            in[k] = k == sheet || detail::boolean::is_inside(rule, cells.winding_of(front)[k]) ||
+                    detail::boolean::is_inside(rule, cells.winding_of(behind)[k]);
         if (!expression({in.get(), cells.operands})) continue;
         auto first = cut.covers.begin() + static_cast<std::ptrdiff_t>(cut.cover_begin[f]);
         for (auto at = first; operand_of_face[first->face] != sheet; ++at)
@@ -243,24 +243,26 @@ solid_result boolean_of(std::span<const mesh_view> operands, const boolean_expre
                         const boolean_options& options) {
     check_expression("boolean", operands, expression);
     if (options.sound_operands && operands.size() == 2 && !options.simplify && !options.volumes)
-        if (auto result = detail::boolean_of_sound_pair(operands.first<2>(), expression, options))
+        if (auto result =
+                detail::boolean::boolean_of_sound_pair(operands.first<2>(), expression, options))
             return std::move(*result);
     auto [joined, arranged] =
         arrange_operands("boolean", operands, part_of(options.progress, 0.0, 0.5));
     solid_result result = with_counts(arranged);
     if (result.cancelled) return result;
-    arrangement_cells cells = detail::cells_of(input_of(arranged.cut, joined), arranged.cut,
-                                               joined.operand_of_face(), operands.size());
+    arrangement_cells cells = detail::arrange::cells_of(
+        input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), operands.size());
     if (!cells.open.empty()) {
         result.open = open_edges(cells, arranged.cut, joined);
         result.open_count = cells.open_count;
         return result;
     }
     if (options.volumes && operands.size() == 2)
-        result.volumes = detail::find_volumes(operands, arranged.cut, cells, options.inside);
-    const auto inside = detail::inside_of_cells(cells, options.inside, expression);
+        result.volumes =
+            detail::boolean::find_volumes(operands, arranged.cut, cells, options.inside);
+    const auto inside = detail::boolean::inside_of_cells(cells, options.inside, expression);
     result.cells = inside.size();
-    detail::solid_faces chosen = detail::faces_around(arranged.cut, cells, inside);
+    detail::round::solid_faces chosen = detail::round::faces_around(arranged.cut, cells, inside);
     cells = {};  // nearly as large as the surface
     finish(result, arranged.cut, std::move(chosen.faces), std::move(chosen.face_of), joined, true,
            options);
@@ -270,9 +272,10 @@ solid_result boolean_of(std::span<const mesh_view> operands, const boolean_expre
 solid_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
                      const boolean_expression& expression, const boolean_options& options) {
     check_expression("clip", operands, expression);
-    if (sheet >= operands.size()) throw std::invalid_argument("tf::clip: the sheet is no operand");
+    if (sheet >= operands.size())
+        throw std::invalid_argument("treeform::clip: the sheet is no operand");
     if (!expression.needs(sheet))
-        throw std::invalid_argument("tf::clip: the expression holds more than of the sheet");
+        throw std::invalid_argument("treeform::clip: the expression holds more than of the sheet");
     auto [joined, arranged] =
         arrange_operands("clip", operands, part_of(options.progress, 0.0, 0.5));
     solid_result result = with_counts(arranged);
@@ -282,14 +285,14 @@ solid_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
     const std::vector<std::uint8_t> way = sheet_faces(cut, operand_of_face, sheet);
     cover_from_both_sides(cut, operand_of_face, sheet);
     const arrangement_cells cells =
-        detail::cells_of(input_of(cut, joined), cut, operand_of_face, operands.size());
+        detail::arrange::cells_of(input_of(cut, joined), cut, operand_of_face, operands.size());
     if (!cells.open.empty()) {
         result.open = open_edges(cells, cut, joined);
         result.open_count = cells.open_count;
         return result;
     }
     result.cells = cells.winding.size() / operands.size();
-    detail::solid_faces chosen =
+    detail::round::solid_faces chosen =
         kept_of_sheet(cut, cells, operand_of_face, way, sheet, expression, options.inside);
     finish(result, cut, std::move(chosen.faces), std::move(chosen.face_of), joined, false, options);
     return result;
@@ -314,32 +317,32 @@ solid_result split_of(std::span<const mesh_view> operands, const boolean_options
 
 solid_result boolean(std::span<const mesh_view> operands, const boolean_expression& expression,
                      const boolean_options& options) {
-    return detail::with_mended_operands(operands, options, [&](auto given, const auto& how) {
-        return boolean_of(given, expression, how);
-    });
+    return detail::boolean::with_mended_operands(
+        operands, options,
+        [&](auto given, const auto& how) { return boolean_of(given, expression, how); });
 }
 
 solid_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
                   const boolean_expression& expression, const boolean_options& options) {
-    return detail::with_mended_operands(operands, options, [&](auto given, const auto& how) {
-        return clip_of(given, sheet, expression, how);
-    });
+    return detail::boolean::with_mended_operands(
+        operands, options,
+        [&](auto given, const auto& how) { return clip_of(given, sheet, expression, how); });
 }
 
 solid_result split(std::span<const mesh_view> operands, const boolean_options& options) {
-    return detail::with_mended_operands(
+    return detail::boolean::with_mended_operands(
         operands, options, [](auto given, const auto& how) { return split_of(given, how); });
 }
 
 solid_check check_solid(mesh_view mesh, const progress_callback& progress) {
-    detail::check_operands("check_solid", {&mesh, 1});
-    if (!find_open_edge(detail::join_operands({&mesh, 1}).all)) return {};
+    detail::boolean::check_operands("check_solid", {&mesh, 1});
+    if (!find_open_edge(detail::boolean::join_operands({&mesh, 1}).all)) return {};
     const auto [joined, arranged] =
         arrange_operands("check_solid", {&mesh, 1}, part_of(progress, 0.0, 1.0));
     if (arranged.cancelled) return {.cancelled = true};
-    const arrangement_cells cells =
-        detail::cells_of(input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), 1);
+    const arrangement_cells cells = detail::arrange::cells_of(
+        input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), 1);
     return {.open = open_edges(cells, arranged.cut, joined), .open_count = cells.open_count};
 }
 
-}  // namespace tf
+}  // namespace treeform

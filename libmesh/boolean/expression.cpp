@@ -1,10 +1,10 @@
-#include <libmesh/boolean/expression.hpp>
+#include <treeform/mesh/expression.hpp>
 
 #include <limits>
 #include <stdexcept>
 #include <string>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr std::int32_t add = -1;
@@ -79,8 +79,9 @@ class reader {
     };
 
     [[noreturn]] void refuse(std::size_t at, const std::string& why) const {
-        throw std::invalid_argument("tf::boolean_expression: position " + std::to_string(at + 1) +
-                                    " of \"" + std::string(text_) + "\": " + why);
+        throw std::invalid_argument("treeform::boolean_expression: position " +
+                                    std::to_string(at + 1) + " of \"" + std::string(text_) +
+                                    "\": " + why);
     }
 
     void skip_blanks() {
@@ -163,7 +164,7 @@ boolean_expression::boolean_expression(std::string_view text, std::size_t operan
 boolean_expression::boolean_expression(std::size_t operand_count, std::int32_t operation)
     : operand_count_(operand_count) {
     if (operand_count > std::size_t{std::numeric_limits<std::int32_t>::max()})
-        throw std::invalid_argument("tf::boolean_expression: more than 2^31 - 1 operands");
+        throw std::invalid_argument("treeform::boolean_expression: more than 2^31 - 1 operands");
     for (std::size_t i = 0; i < operand_count; ++i) {
         postfix_.push_back(static_cast<std::int32_t>(i));
         if (i > 0) postfix_.push_back(operation);
@@ -214,4 +215,4 @@ bool boolean_expression::needs(std::size_t operand) const {
     return values.empty() || !values.back().may_be_true;
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,14 +1,14 @@
-#include <libmesh/boolean/detail/inside_of_cells.hpp>
-#include <libmesh/detail/twofold.hpp>
-#include <libmesh/volume.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/twofold.hpp>
+#include <libmesh/boolean/inside_of_cells.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
 
-namespace tf::detail {
+namespace treeform::detail::boolean {
 namespace {
 
 /// The volume of the cells that are inside, from the points as approximated.
@@ -19,18 +19,18 @@ double volume_of(const mesh_arrangement& cut, const arrangement_cells& cells,
     const auto at = [&](std::uint32_t p) {
         return p < given ? cut.given_points[p] : cut.constructed[p - given].centre();
     };
-    std::vector<twofold> parts(chunk_count(cut.faces.size(), grain));
+    std::vector<base::twofold> parts(chunk_count(cut.faces.size(), grain));
     for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t f = begin; f < end; ++f) {
             const auto [front, behind] = cells.cell_of_side[f];
             if (inside[front] == inside[behind]) continue;
             const auto [p, q, r] = cut.faces[f];
-            const twofold cone = determinant(at(p), at(q), at(r));
+            const base::twofold cone = base::determinant(at(p), at(q), at(r));
             parts[c] = parts[c] + (inside[behind] != 0 ? cone : -cone);
         }
     });
-    twofold all;
-    for (const twofold& part : parts) all = all + part;
+    base::twofold all;
+    for (const base::twofold& part : parts) all = all + part;
     return all.high / 6.0;
 }
 
@@ -90,4 +90,4 @@ operand_volumes find_volumes(std::span<const mesh_view> operands, const mesh_arr
     return {volume_of_one(0), volume_of_one(1), volume("a+b"), volume("a*b")};
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::boolean

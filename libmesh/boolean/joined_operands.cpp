@@ -1,9 +1,9 @@
-#include <libmesh/boolean/detail/joined_operands.hpp>
-#include <libmesh/detail/at_once.hpp>
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/used_points.hpp>
-#include <libmesh/weld/detail/few_equal_points.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/at_once.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/used_points.hpp>
+#include <libmesh/boolean/joined_operands.hpp>
+#include <libmesh/weld/few_equal_points.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::boolean {
 namespace {
 
 /// Of an ascending list of where runs begin, the last that is not beyond `number`; empty runs begin
@@ -24,7 +24,7 @@ operand_element element_at(const std::vector<std::uint32_t>& first, std::uint32_
 
 void require_nameable(const char* function, std::size_t count, const char* what) {
     if (count >= operand_element::none)
-        throw std::invalid_argument("tf::" + std::string(function) + ": 2^32 - 1 " + what +
+        throw std::invalid_argument("treeform::" + std::string(function) + ": 2^32 - 1 " + what +
                                     " or more");
 }
 
@@ -68,7 +68,7 @@ void append_all(std::span<const mesh_view> operands, joined_operands& joined) {
 /// Leaves out points that no face uses, which may be anything, also NaN.
 void keep_used(joined_operands& joined) {
     mesh& all = joined.all;
-    std::vector<std::uint32_t> used = used_points(all.points.size(), all.faces);
+    std::vector<std::uint32_t> used = base::used_points(all.points.size(), all.faces);
     if (used.size() == all.points.size()) return;
     std::vector<std::uint32_t> new_of_old(all.points.size(), 0);
     for (std::uint32_t i = 0; i < used.size(); ++i) {
@@ -82,7 +82,7 @@ void keep_used(joined_operands& joined) {
 
 void join_equal(joined_operands& joined) {
     mesh& all = joined.all;
-    const auto equal = few_equal_points(all.points);
+    const auto equal = weld::few_equal_points(all.points);
     if (!equal) return;
     const std::size_t count = equal->first_of_new.size();
     std::vector<std::uint32_t> number = equal->first_of_new;
@@ -115,7 +115,7 @@ std::vector<std::uint32_t> joined_operands::operand_of_face() const {
 void check_operands(const char* function, std::span<const mesh_view> operands) {
     std::size_t points = 0, faces = 0;
     for (const mesh_view& operand : operands) {
-        check_faces(function, operand.points.size(), operand.faces);
+        base::check_faces(function, operand.points.size(), operand.faces);
         points += operand.points.size();
         faces += operand.faces.size();
     }
@@ -131,11 +131,12 @@ joined_operands join_operands(std::span<const mesh_view> operands) {
         points += operand.points.size();
         faces += operand.faces.size();
     }
-    at_once([&] { joined.all.points.resize(points); }, [&] { joined.all.faces.resize(faces); });
+    base::at_once([&] { joined.all.points.resize(points); },
+                  [&] { joined.all.faces.resize(faces); });
     append_all(operands, joined);
     keep_used(joined);
     join_equal(joined);
     return joined;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::boolean

@@ -1,10 +1,10 @@
-#include <libmesh/boolean/detail/joined_operands.hpp>
-#include <libmesh/boolean/detail/mended_operands.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/round/detail/join_near.hpp>
-#include <libmesh/round/detail/reach.hpp>
-#include <libtree/aabb.hpp>
-#include <libtree/search.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/boolean/joined_operands.hpp>
+#include <libmesh/boolean/mended_operands.hpp>
+#include <libmesh/round/join_near.hpp>
+#include <libmesh/round/reach.hpp>
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::boolean {
 namespace {
 
 constexpr int steps_of_surface = 2;
@@ -28,7 +28,7 @@ struct near_operands {
     std::vector<std::vector<std::uint32_t>> face_of;   ///< [k][F] face of all operands as given
     std::vector<std::vector<std::uint32_t>> point_of;  ///< [k][V] point of all, or beyond them
 
-    near_operands(const joined_near& near, const std::vector<std::uint32_t>& operand_of_face,
+    near_operands(const round::joined_near& near, const std::vector<std::uint32_t>& operand_of_face,
                   std::size_t operands)
         : meshes(operands), face_of(meshes.size()), point_of(meshes.size()) {
         constexpr std::uint32_t none = operand_element::none;
@@ -85,8 +85,8 @@ class mending {
     template <class Ask>
     solid_result step(int number, const std::vector<aabb<double, 3>>& broken, const Ask& ask) {
         const double reach =
-            reach_of_bits(given_.all.points, bits_of_step(number, options_.to_float));
-        const joined_near near = join_near(
+            round::reach_of_bits(given_.all.points, bits_of_step(number, options_.to_float));
+        const round::joined_near near = round::join_near(
             given_.all, next_to(broken, given_.all, reach),
             {.reach = reach, .source = source_, .solid = false, .operand = operand_of_face_});
         const near_operands joined(near, operand_of_face_, given_.first_face.size() - 1);
@@ -171,4 +171,4 @@ solid_result with_mended_operands(
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::boolean

@@ -1,9 +1,9 @@
-#include <libmesh/arrange/detail/face_side.hpp>
-#include <libmesh/boolean/detail/merged_faces.hpp>
-#include <libmesh/boolean/detail/region_triangles.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/arrange/face_side.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/boolean/merged_faces.hpp>
+#include <libmesh/boolean/region_triangles.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <limits>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::boolean {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -79,7 +79,7 @@ class merger {
     [[nodiscard]] bool coplanar(std::uint32_t f, std::uint32_t g) const {
         const std::uint32_t p = planes_.plane_of[f], q = planes_.plane_of[g];
         if (p == q) return true;
-        const plane_points plane = detail::plane_of(planes_.mesh, p);
+        const plane_points plane = detail::arrange::plane_of(planes_.mesh, p);
         return std::ranges::all_of(planes_.mesh.faces[q], [&](std::uint32_t corner) {
             return orient3d(plane.a, plane.b, plane.c, planes_.mesh.points[corner]) == 0;
         });
@@ -256,7 +256,7 @@ class merger {
     std::size_t point_count_;
     std::vector<edge_use> uses_;     ///< edge by edge
     std::vector<crease> creases_{};  ///< ascending
-    union_find regions_;             ///< of faces
+    base::union_find regions_;       ///< of faces
     std::vector<std::uint8_t> spare_{};
     std::vector<std::array<std::uint32_t, 2>> next_{};  ///< of spare points of lines, both ways
 };
@@ -267,4 +267,4 @@ merged_faces merge_coplanar(const exact_surface& surface, const face_planes& pla
     return merger(surface, planes).run();
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::boolean

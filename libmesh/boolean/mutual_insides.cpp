@@ -1,11 +1,11 @@
-#include <libmesh/arrange/detail/face_side.hpp>
-#include <libmesh/arrange/detail/radial_order.hpp>
-#include <libmesh/boolean/detail/mutual_insides.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libtree/detail/buffer.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/arrange/face_side.hpp>
+#include <libmesh/arrange/radial_order.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/boolean/mutual_insides.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <tuple>
 
-namespace tf::detail {
+namespace treeform::detail::boolean {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 14;
@@ -29,7 +29,7 @@ constexpr told outside = 1, inside = 2, contradiction = 3;
 /// A face at an edge between points that are on both surfaces.
 struct edge_use {
     std::uint32_t low, high;
-    face_side side;
+    arrange::face_side side;
 
     friend bool operator<(const edge_use& x, const edge_use& y) {
         return std::tie(x.low, x.high, x.side) < std::tie(y.low, y.high, y.side);
@@ -107,18 +107,19 @@ class finder {
     /// The edges between points on both surfaces, in parts, all faces at an edge in one part.
     [[nodiscard]] std::vector<std::vector<edge_use>> shared_edges() const {
         std::vector<std::vector<edge_use>> found(chunk_count(cut_.faces.size(), grain));
-        for_chunks(
-            cut_.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                for (std::size_t f = begin; f < end; ++f)
-                    for (std::size_t i = 0; i < 3; ++i) {
-                        const std::uint32_t a = cut_.faces[f][i];
-                        const std::uint32_t b = cut_.faces[f][i == 2 ? 0 : i + 1];
-                        if (on_[a] != both || on_[b] != both) continue;
-                        const auto id = static_cast<std::uint32_t>(f);
-                        found[chunk].push_back(
-                            {std::min(a, b), std::max(a, b), a < b ? front_of(id) : behind(id)});
-                    }
-            });
+        for_chunks(cut_.faces.size(), grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                       for (std::size_t f = begin; f < end; ++f)
+                           for (std::size_t i = 0; i < 3; ++i) {
+                               const std::uint32_t a = cut_.faces[f][i];
+                               const std::uint32_t b = cut_.faces[f][i == 2 ? 0 : i + 1];
+                               if (on_[a] != both || on_[b] != both) continue;
+                               const auto id = static_cast<std::uint32_t>(f);
+                               found[chunk].push_back(
+                                   {std::min(a, b), std::max(a, b),
+                                    a < b ? arrange::front_of(id) : arrange::behind(id)});
+                           }
+                   });
         std::vector<std::vector<edge_use>> parts(64);
         for (const auto& chunk : found)
             for (const edge_use& use : chunk) parts[use.low % parts.size()].push_back(use);
@@ -136,8 +137,8 @@ class finder {
 
     bool look_at_edges(std::vector<edge_use>& uses) {
         std::sort(uses.begin(), uses.end());
-        radial_order radial(near_.local, cut_);
-        std::vector<face_side> sides;
+        arrange::radial_order radial(near_.local, cut_);
+        std::vector<arrange::face_side> sides;
         for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
             const edge_use& first = uses[begin];
             sides.clear();
@@ -149,37 +150,37 @@ class finder {
     }
 
     /// `sides` are all faces at the edge. False when they contradict each other.
-    bool look_at_edge(const std::array<std::uint32_t, 2>& ends, std::vector<face_side>& sides,
-                      radial_order& radial) {
+    bool look_at_edge(const std::array<std::uint32_t, 2>& ends,
+                      std::vector<arrange::face_side>& sides, arrange::radial_order& radial) {
         operand_set met = 0;
-        for (const face_side side : sides)
-            met = static_cast<operand_set>(met | covered_[face_of(side)]);
+        for (const arrange::face_side side : sides)
+            met = static_cast<operand_set>(met | covered_[arrange::face_of(side)]);
         if (met != both) {
-            for (const face_side side : sides)
-                alike_.join(element(face_of(sides[0])), element(face_of(side)));
+            for (const arrange::face_side side : sides)
+                alike_.join(element(arrange::face_of(sides[0])), element(arrange::face_of(side)));
             return true;
         }
         if (std::none_of(sides.begin(), sides.end(),
-                         [&](face_side side) { return is_alone(face_of(side)); }))
+                         [&](arrange::face_side side) { return is_alone(arrange::face_of(side)); }))
             return true;
         if (!radial.sort(ends, sides)) return false;
         for (std::size_t i = 0; i < sides.size(); ++i) {
-            const std::uint32_t f = face_of(sides[i]);
+            const std::uint32_t f = arrange::face_of(sides[i]);
             if (!is_alone(f)) continue;
             const operand_set other = both ^ covered_[f];
             std::size_t j = i;
             do j = j + 1 == sides.size() ? 0 : j + 1;
-            while ((covered_[face_of(sides[j])] & other) == 0);
-            tell(element(f), behind_cover(other_side(sides[j]), other) ? inside : outside);
+            while ((covered_[arrange::face_of(sides[j])] & other) == 0);
+            tell(element(f), behind_cover(arrange::other_side(sides[j]), other) ? inside : outside);
         }
         return true;
     }
 
     /// Whether a side of a face looks into operand `other`, which covers it.
-    [[nodiscard]] bool behind_cover(face_side side, operand_set other) const {
-        for (const covering_face& cover : cut_.covers_of(face_of(side)))
+    [[nodiscard]] bool behind_cover(arrange::face_side side, operand_set other) const {
+        for (const covering_face& cover : cut_.covers_of(arrange::face_of(side)))
             if (1U << near_.operand_of(cover.face) == other)
-                return is_behind(side) != cover.opposite;
+                return arrange::is_behind(side) != cover.opposite;
         return false;
     }
 
@@ -275,7 +276,7 @@ class finder {
     std::size_t points_;
     buffer<operand_set> on_;       ///< by point
     buffer<operand_set> covered_;  ///< by face
-    union_find alike_;             ///< of points, then faces
+    base::union_find alike_;       ///< of points, then faces
     std::vector<told> told_;       ///< by element; in the end, by the lowest of a set
 };
 
@@ -287,4 +288,4 @@ std::optional<std::vector<std::uint8_t>> find_insides(std::span<const mesh_view,
     return finder(operands, near, cut).run();
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::boolean

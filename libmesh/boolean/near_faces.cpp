@@ -1,16 +1,16 @@
-#include <libmesh/boolean/detail/near_faces.hpp>
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/compact.hpp>
-#include <libmesh/weld/detail/few_equal_points.hpp>
-#include <libtree/detail/buffer.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/compact.hpp>
+#include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/weld/few_equal_points.hpp>
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
 
-namespace tf::detail {
+namespace treeform::detail::boolean {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 15;
@@ -75,7 +75,7 @@ class reach_test {
 
   private:
     static outcode code_of(const point3& p, const box& reach) {
-        unsigned code = detail::can_be_used(p) ? 0 : unusable;
+        unsigned code = treeform::detail::boolean::can_be_used(p) ? 0 : unusable;
         for (std::size_t k = 0; k < 3; ++k)
             code |= (p[k] < reach.min[k] ? 1U : 0U) << 2 * k | (p[k] > reach.max[k] ? 2U : 0U)
                                                                    << 2 * k;
@@ -130,7 +130,7 @@ void append(mesh_view mesh, const ids& faces, std::uint32_t points_before,
                 std::atomic_ref(number[corner]).store(1, std::memory_order_relaxed);
     });
     const std::size_t points = result.local.points.size();
-    compact(
+    base::compact(
         number.size(), [&](std::size_t p) { return number[p] != 0; },
         [&](std::size_t count) {
             result.local.points.resize(points + count);
@@ -159,7 +159,7 @@ bool join_equal(const box& common, std::uint32_t points_of_a, near_faces& near) 
     mesh& local = near.local;
     ids inside;  // points that can equal one of the other operand
     std::vector<point3> at;
-    compact(
+    base::compact(
         local.points.size(),
         [&](std::size_t p) {
             box point;
@@ -174,7 +174,7 @@ bool join_equal(const box& common, std::uint32_t points_of_a, near_faces& near) 
             inside[place] = static_cast<std::uint32_t>(p);
             at[place] = local.points[p];
         });
-    const auto equal = few_equal_points(at);
+    const auto equal = weld::few_equal_points(at);
     if (!equal) return true;
     ids same(local.points.size());
     for (std::uint32_t p = 0; p < same.size(); ++p) same[p] = p;
@@ -206,7 +206,7 @@ bool join_equal(const box& common, std::uint32_t points_of_a, near_faces& near) 
 std::optional<near_faces> find_near_faces(std::span<const mesh_view, 2> operands) {
     near_faces result;
     for (const mesh_view& operand : operands)
-        check_faces("boolean", operand.points.size(), operand.faces);
+        base::check_faces("boolean", operand.points.size(), operand.faces);
     for (std::size_t k = 0; k < 2; ++k) result.box[k] = box_of(operands[k].points);
     box reach;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -224,4 +224,4 @@ std::optional<near_faces> find_near_faces(std::span<const mesh_view, 2> operands
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::boolean

@@ -1,19 +1,19 @@
-#include <libmesh/arrange/detail/arrange_pairs.hpp>
-#include <libmesh/boolean/detail/operand_tree.hpp>
-#include <libtree/aabb.hpp>
-#include <libtree/build.hpp>
-#include <libtree/detail/numbers.hpp>
+#include <libmesh/arrange/arrange_pairs.hpp>
+#include <libmesh/boolean/operand_tree.hpp>
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/detail/numbers.hpp>
 
 #include <cstddef>
 #include <cstdint>
 
-namespace tf::detail {
+namespace treeform::detail::boolean {
 
 std::optional<tree<3>> tree_of_operands(std::span<const mesh_view> operands) {
     if (operands.empty() || operands.size() > 2) return std::nullopt;
     std::size_t count = 0;
     for (const mesh_view& operand : operands) {
-        if (!can_all_be_arranged(operand)) return std::nullopt;
+        if (!arrange::can_all_be_arranged(operand)) return std::nullopt;
         count += operand.faces.size();
     }
     if (count > tree<3>::max_size) return std::nullopt;
@@ -29,4 +29,4 @@ std::optional<tree<3>> tree_of_operands(std::span<const mesh_view> operands) {
     });
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::boolean

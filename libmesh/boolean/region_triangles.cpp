@@ -1,6 +1,6 @@
-#include <libmesh/arrange/detail/planar_box.hpp>
-#include <libmesh/arrange/detail/planar_triangulation.hpp>
-#include <libmesh/boolean/detail/region_triangles.hpp>
+#include <libmesh/arrange/planar_box.hpp>
+#include <libmesh/arrange/planar_triangulation.hpp>
+#include <libmesh/boolean/region_triangles.hpp>
 #include <libmesh/exact/constructed_point.hpp>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::boolean {
 namespace {
 
 constexpr std::uint32_t frame_size = 3;  ///< vertices that hold the region, and are not of it
@@ -25,7 +25,7 @@ class triangulator {
 
     std::vector<face> run() {
         project();
-        planar_triangulation plane = start();
+        arrange::planar_triangulation plane = start();
         for (std::uint32_t i = 0; i < ids_.size(); ++i)
             if (plane.insert(frame_size + i) != frame_size + i) fail();
         force_rim(plane);
@@ -36,7 +36,7 @@ class triangulator {
     using edge = std::array<std::uint32_t, 2>;
 
     [[noreturn]] static void fail() {
-        throw std::logic_error("tf::boolean: a flat part of the surface has no rim");
+        throw std::logic_error("treeform::boolean: a flat part of the surface has no rim");
     }
 
     [[nodiscard]] constructed_point point(std::uint32_t p) const {
@@ -71,7 +71,7 @@ class triangulator {
         fail();
     }
 
-    planar_triangulation start() {
+    arrange::planar_triangulation start() {
         std::pmr::vector<constructed_point> points;
         points.reserve(frame_size + ids_.size());
         points.resize(frame_size);
@@ -108,13 +108,13 @@ class triangulator {
 
     /// A triangle that strictly holds all points in projection, wherever in their balls they are.
     [[nodiscard]] std::array<point3, 3> frame(std::span<const constructed_point> points) const {
-        planar_box box(axis_);
+        arrange::planar_box box(axis_);
         for (std::size_t i = frame_size; i < points.size(); ++i)
             box.include(points[i].centre(), 2 * points[i].radius());
         return box.triangle_around(orientation_);
     }
 
-    void force_rim(planar_triangulation& plane) {
+    void force_rim(arrange::planar_triangulation& plane) {
         for (std::size_t s = 0; s < region_.rim.size(); ++s) {
             const auto way = plane.constrain(vertex_of(region_.rim[s].from),
                                              vertex_of(region_.rim[s].to), line_of_side_[s]);
@@ -129,7 +129,7 @@ class triangulator {
     }
 
     /// What is reached from the left of the rim without crossing it.
-    [[nodiscard]] std::vector<face> inside(const planar_triangulation& plane) const {
+    [[nodiscard]] std::vector<face> inside(const arrange::planar_triangulation& plane) const {
         std::vector<std::uint8_t> seen(plane.triangle_count(), 0);
         std::vector<std::uint32_t> open;
         const auto enter = [&](std::uint32_t t) {
@@ -144,7 +144,7 @@ class triangulator {
             for (std::size_t i = 0; i < 3; ++i) {
                 if (is_rim(corners[i], corners[(i + 1) % 3])) continue;
                 const std::uint32_t beyond = plane.across(t, i);
-                if (beyond == planar_triangulation::none) fail();
+                if (beyond == arrange::planar_triangulation::none) fail();
                 enter(beyond);
             }
         }
@@ -177,4 +177,4 @@ std::vector<face> triangles_of(const exact_surface& surface, const flat_region& 
     return triangulator(surface, region).run();
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::boolean

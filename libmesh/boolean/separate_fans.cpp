@@ -1,8 +1,8 @@
-#include <libmesh/arrange/detail/radial_order.hpp>
+#include <libmesh/arrange/radial_order.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/union_find.hpp>
 #include <libmesh/boolean/separate_fans.hpp>
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/weld/detail/edge_uses.hpp>
+#include <libmesh/weld/edge_uses.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,10 +11,10 @@
 #include <numeric>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
-using detail::face_side;
+using detail::arrange::face_side;
 
 /// An edge of more than two faces.
 struct touching_edge {
@@ -30,7 +30,7 @@ class few_faces {
   public:
     few_faces(mesh_view solid, const std::vector<touching_edge>& edges) {
         for (const touching_edge& e : edges)
-            for (const face_side side : e.sides) ids_.push_back(detail::face_of(side));
+            for (const face_side side : e.sides) ids_.push_back(detail::arrange::face_of(side));
         std::sort(ids_.begin(), ids_.end());
         ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
         for (const std::uint32_t f : ids_) {
@@ -63,7 +63,7 @@ class few_faces {
 
   private:
     std::vector<std::uint32_t> ids_;
-    tf::mesh mesh_;
+    treeform::mesh mesh_;
     mesh_arrangement cut_;
 };
 
@@ -71,12 +71,12 @@ class separator {
   public:
     explicit separator(mesh_view solid)
         : solid_(solid),
-          edges_(solid.points.size(), solid.faces, detail::repeated_corners::left_out) {}
+          edges_(solid.points.size(), solid.faces, detail::weld::repeated_corners::left_out) {}
 
     separated_fans run() {
         find_touching_edges();
         sort_around_edges();
-        detail::union_find fans = find_fans();
+        detail::base::union_find fans = find_fans();
         std::uint64_t shared = count_shared(fans);
         constexpr int most_rounds = 8;
         for (int round = 0; round < most_rounds && shared > 0; ++round)
@@ -93,13 +93,13 @@ class separator {
 
     void find_touching_edges() {
         std::vector<std::vector<touching_edge>> found(edges_.chunks());
-        edges_.for_each([&](const detail::used_edge& edge, std::size_t chunk) {
+        edges_.for_each([&](const detail::weld::used_edge& edge, std::size_t chunk) {
             if (edge.uses.size() <= 2) return;
             touching_edge e{edge.low, edge.high, {}};
             for (std::size_t i = 0; i < edge.uses.size(); ++i) {
                 const std::uint32_t f = edge.face(i);
-                e.sides.push_back(runs_up(f, e.low, e.high) ? detail::front_of(f)
-                                                            : detail::behind(f));
+                e.sides.push_back(runs_up(f, e.low, e.high) ? detail::arrange::front_of(f)
+                                                            : detail::arrange::behind(f));
             }
             found[chunk].push_back(std::move(e));
         });
@@ -110,27 +110,28 @@ class separator {
 
     void sort_around_edges() {
         const few_faces few(solid_, touching_);
-        detail::radial_order radial(few.mesh(), few.cut());
+        detail::arrange::radial_order radial(few.mesh(), few.cut());
         for (touching_edge& e : touching_) {
             std::vector<face_side> sides;
             for (const face_side side : e.sides)
-                sides.push_back(2 * few.number(detail::face_of(side)) + (side & 1U));
-            const std::uint32_t f = detail::face_of(e.sides[0]);
+                sides.push_back(2 * few.number(detail::arrange::face_of(side)) + (side & 1U));
+            const std::uint32_t f = detail::arrange::face_of(e.sides[0]);
             const std::array<std::uint32_t, 2> ends{few.corner(f, i_of(f, e.low)),
                                                     few.corner(f, i_of(f, e.high))};
             if (!radial.sort(ends, sides) || !alternate(sides)) continue;
             // What looks on from a face that is seen from behind is a wedge of the solid.
-            if (!detail::is_behind(sides[0]))
+            if (!detail::arrange::is_behind(sides[0]))
                 std::rotate(sides.begin(), sides.begin() + 1, sides.end());
             for (std::size_t i = 0; i < sides.size(); ++i)
-                e.sides[i] = 2 * few.face_of(detail::face_of(sides[i])) + (sides[i] & 1U);
+                e.sides[i] = 2 * few.face_of(detail::arrange::face_of(sides[i])) + (sides[i] & 1U);
             e.alternates = true;
         }
     }
 
     static bool alternate(const std::vector<face_side>& sides) {
         for (std::size_t i = 0; i < sides.size(); ++i)
-            if (detail::is_behind(sides[i]) == detail::is_behind(sides[(i + 1) % sides.size()]))
+            if (detail::arrange::is_behind(sides[i]) ==
+                detail::arrange::is_behind(sides[(i + 1) % sides.size()]))
                 return false;
         return true;
     }
@@ -148,18 +149,19 @@ class separator {
     static void for_each_pair(const touching_edge& e, const Visit& visit) {
         const std::size_t count = e.sides.size();
         for (std::size_t i = e.by_space ? 1 : 0; i < count; i += 2)
-            visit(detail::face_of(e.sides[i]), detail::face_of(e.sides[(i + 1) % count]));
+            visit(detail::arrange::face_of(e.sides[i]),
+                  detail::arrange::face_of(e.sides[(i + 1) % count]));
     }
 
     /// Sets of the 3 F corners: those that become one point.
-    [[nodiscard]] detail::union_find find_fans() const {
-        detail::union_find fans(3 * solid_.faces.size());
+    [[nodiscard]] detail::base::union_find find_fans() const {
+        detail::base::union_find fans(3 * solid_.faces.size());
         const auto join = [&](std::uint32_t f, std::uint32_t g, std::uint32_t low,
                               std::uint32_t high) {
             fans.join(corner(f, low), corner(g, low));
             fans.join(corner(f, high), corner(g, high));
         };
-        edges_.for_each([&](const detail::used_edge& edge, std::size_t) {
+        edges_.for_each([&](const detail::weld::used_edge& edge, std::size_t) {
             if (edge.uses.size() == 2) join(edge.face(0), edge.face(1), edge.low, edge.high);
         });
         for (const touching_edge& e : touching_) {
@@ -168,13 +170,14 @@ class separator {
                               [&](std::uint32_t f, std::uint32_t g) { join(f, g, e.low, e.high); });
             else
                 for (const face_side side : e.sides)
-                    join(detail::face_of(e.sides[0]), detail::face_of(side), e.low, e.high);
+                    join(detail::arrange::face_of(e.sides[0]), detail::arrange::face_of(side),
+                         e.low, e.high);
         }
         return fans;
     }
 
     /// Whether more than two faces have the edge between the same points.
-    [[nodiscard]] bool is_shared(const touching_edge& e, detail::union_find& fans) const {
+    [[nodiscard]] bool is_shared(const touching_edge& e, detail::base::union_find& fans) const {
         if (!e.alternates) return true;
         std::vector<std::array<std::uint32_t, 2>> ends;
         for_each_pair(e, [&](std::uint32_t f, std::uint32_t) {
@@ -184,7 +187,7 @@ class separator {
         return std::adjacent_find(ends.begin(), ends.end()) != ends.end();
     }
 
-    [[nodiscard]] std::uint64_t count_shared(detail::union_find& fans) const {
+    [[nodiscard]] std::uint64_t count_shared(detail::base::union_find& fans) const {
         return static_cast<std::uint64_t>(
             std::count_if(touching_.begin(), touching_.end(),
                           [&](const touching_edge& e) { return is_shared(e, fans); }));
@@ -192,7 +195,7 @@ class separator {
 
     /// Turns what stays together at edges that are shared, at all of them or else at one of the
     /// first; false where none of that leaves fewer of them.
-    [[nodiscard]] bool turn_shared(detail::union_find& fans, std::uint64_t& shared) {
+    [[nodiscard]] bool turn_shared(detail::base::union_find& fans, std::uint64_t& shared) {
         constexpr std::size_t most_tried = 16;
         std::vector<std::vector<touching_edge*>> choices(1);
         for (touching_edge& e : touching_) {
@@ -202,7 +205,7 @@ class separator {
         }
         for (const auto& choice : choices) {
             for (touching_edge* const e : choice) e->by_space = !e->by_space;
-            detail::union_find turned = find_fans();
+            detail::base::union_find turned = find_fans();
             if (const std::uint64_t then = count_shared(turned); then < shared) {
                 fans = std::move(turned);
                 shared = then;
@@ -214,7 +217,7 @@ class separator {
     }
 
     /// A point's first fan keeps its number.
-    [[nodiscard]] separated_fans number_points(detail::union_find& fans,
+    [[nodiscard]] separated_fans number_points(detail::base::union_find& fans,
                                                std::uint64_t shared_edges) const {
         separated_fans result;
         mesh& surface = result.surface;
@@ -244,15 +247,15 @@ class separator {
     }
 
     mesh_view solid_;
-    detail::edge_uses edges_;
+    detail::weld::edge_uses edges_;
     std::vector<touching_edge> touching_{};
 };
 
 }  // namespace
 
 separated_fans separate_fans(mesh_view solid) {
-    detail::check_faces("separate_fans", solid.points.size(), solid.faces);
+    detail::base::check_faces("separate_fans", solid.points.size(), solid.faces);
     return separator(solid).run();
 }
 
-}  // namespace tf
+}  // namespace treeform

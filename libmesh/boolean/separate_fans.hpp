@@ -2,13 +2,13 @@
 /// \file
 /// Solids that touch themselves, with points and edges of their own for each part.
 
-#include <libmesh/mesh.hpp>
-#include <libtree/export.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/export.hpp>
 
 #include <cstdint>
 #include <vector>
 
-namespace tf {
+namespace treeform {
 
 struct separated_fans {
     mesh surface;                         ///< points of before, then those that were doubled
@@ -34,4 +34,4 @@ struct separated_fans {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API separated_fans separate_fans(mesh_view solid);
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,14 +1,14 @@
-#include <libmesh/arrange/detail/arrange_pairs.hpp>
-#include <libmesh/boolean/detail/mutual_insides.hpp>
-#include <libmesh/boolean/detail/near_faces.hpp>
-#include <libmesh/boolean/detail/sound_pair.hpp>
-#include <libmesh/detail/compact.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/detail/classify_pair.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/arrange/arrange_pairs.hpp>
+#include <libmesh/base/compact.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/boolean/mutual_insides.hpp>
+#include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/sound_pair.hpp>
+#include <libmesh/intersect/classify_pair.hpp>
 #include <libmesh/round/round_surface.hpp>
-#include <libtree/detail/buffer.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 #include <limits>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::boolean {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 15;
@@ -36,7 +36,7 @@ std::vector<face_pair> meeting_pairs(const near_faces& near) {
         pair.b += near.first_of_b;
         const face &f = local.faces[pair.a], &g = local.faces[pair.b];
         if (std::find_first_of(f.begin(), f.end(), g.begin(), g.end()) != f.end()) {
-            const auto kind = classify_pair(local.points, f, g, counters);
+            const auto kind = intersect::classify_pair(local.points, f, g, counters);
             if (!kind) continue;
             pair.kind = *kind;
         }
@@ -99,7 +99,7 @@ chosen_faces choose(const near_faces& near, const mesh_arrangement& cut,
         return choice_of(near, cut, f, inside[f] != 0, choice);
     };
     chosen_faces result;
-    compact(
+    base::compact(
         cut.faces.size(), [&](std::size_t f) { return kept_of(f) != kept::no; },
         [&](std::size_t count) {
             result.faces.resize(count);
@@ -280,7 +280,7 @@ std::optional<solid_result> boolean_of_sound_pair(std::span<const mesh_view, 2> 
     if (!goes_on(0.2)) return result;
     const auto pairs = meeting_pairs(*near);
     if (!goes_on(0.4)) return result;
-    arrange_faces_result arranged = arrange_pairs(near->local, pairs, {}, {});
+    arrange_faces_result arranged = arrange::arrange_pairs(near->local, pairs, {}, {});
     mesh_arrangement& cut = arranged.cut;
     auto inside = find_insides(operands, *near, cut);
     if (!inside) return std::nullopt;
@@ -320,4 +320,4 @@ std::optional<solid_result> boolean_of_sound_pair(std::span<const mesh_view, 2> 
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::boolean

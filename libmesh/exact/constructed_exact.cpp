@@ -1,7 +1,7 @@
-#include <libmesh/exact/detail/constructed_exact.hpp>
-#include <libmesh/exact/detail/exact_place.hpp>
-#include <libmesh/exact/detail/filter.hpp>
-#include <libmesh/exact/detail/lattice.hpp>
+#include <libmesh/exact/constructed_exact.hpp>
+#include <libmesh/exact/exact_place.hpp>
+#include <libmesh/exact/filter.hpp>
+#include <libmesh/exact/lattice.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::exact {
 namespace {
 
 using origin = constructed_point::origin;
@@ -208,4 +208,4 @@ std::array<rounded_quotient, 3> rounded_exactly(const constructed_point& p,
     });
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::exact

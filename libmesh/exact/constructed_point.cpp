@@ -1,8 +1,8 @@
+#include <libmesh/exact/constructed_exact.hpp>
+#include <libmesh/exact/constructed_filter.hpp>
 #include <libmesh/exact/constructed_point.hpp>
-#include <libmesh/exact/detail/constructed_exact.hpp>
-#include <libmesh/exact/detail/constructed_filter.hpp>
-#include <libmesh/exact/detail/constructed_polynomials.hpp>
-#include <libmesh/exact/detail/exact_sign.hpp>
+#include <libmesh/exact/constructed_polynomials.hpp>
+#include <libmesh/exact/exact_sign.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,17 +11,17 @@
 #include <limits>
 #include <optional>
 
-namespace tf {
+namespace treeform {
 namespace {
 
-using detail::ball;
-using detail::ball_of;
-using detail::count_factor;
-using detail::sum;
-using detail::term;
-using detail::undecided;
-using detail::vector3;
-using detail::vector_of;
+using detail::exact::ball;
+using detail::exact::ball_of;
+using detail::exact::count_factor;
+using detail::exact::sum;
+using detail::exact::term;
+using detail::exact::undecided;
+using detail::exact::vector3;
+using detail::exact::vector_of;
 
 constexpr double u = 0x1p-52;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -49,7 +49,7 @@ struct estimate {
 /// and the computed q^ is off q by u |q|. All is counted with fewer than eight roundings.
 template <class Polynomial>
 estimate ratio(const sum& num, const sum& den) {
-    constexpr double factor = detail::error_factor<Polynomial> + u;
+    constexpr double factor = detail::exact::error_factor<Polynomial> + u;
     constexpr double lost = 0x1p-600;
     const double num_error = factor * num.magnitude + lost;
     const double den_error = factor * den.magnitude + lost;
@@ -86,7 +86,7 @@ ball displaced(const point3& base, const estimate& x, const estimate& y, const e
 
 template <class Vector, std::size_t Count>
 auto terms_of(const std::array<Vector, Count>& differences) {
-    return detail::transform(differences, [](double x) { return term{x}; });
+    return detail::exact::transform(differences, [](double x) { return term{x}; });
 }
 
 double size_of(const vector3<double>& v) {
@@ -102,13 +102,14 @@ ball on_line(const point3& a, const point3& b, const estimate& t) {
 constexpr ball nowhere{{}, infinity};
 
 ball lines_ball(const point3& a, const point3& b, const point3& c, const point3& d) {
-    using polynomial = detail::lines_polynomial;
-    std::optional<detail::vector2<sum>> steepest;
+    using polynomial = detail::exact::lines_polynomial;
+    std::optional<detail::exact::vector2<sum>> steepest;
     for (int axis = 0; axis < 3; ++axis) {
         const auto differences = polynomial::differences(
-            std::array{detail::projection(axis, a), detail::projection(axis, b),
-                       detail::projection(axis, c), detail::projection(axis, d)});
-        if (!(detail::largest_magnitude(differences) <= detail::largest_difference<3>))
+            std::array{detail::exact::projection(axis, a), detail::exact::projection(axis, b),
+                       detail::exact::projection(axis, c), detail::exact::projection(axis, d)});
+        if (!(detail::exact::largest_magnitude(differences) <=
+              detail::exact::largest_difference<3>))
             return nowhere;
         const auto t = polynomial::value(terms_of(differences));
         if (!steepest || std::abs(t.y.value) > std::abs(steepest->y.value)) steepest = t;
@@ -117,21 +118,23 @@ ball lines_ball(const point3& a, const point3& b, const point3& c, const point3&
 }
 
 ball line_plane_ball(const point3& a, const point3& b, const plane_points& p) {
-    using polynomial = detail::line_plane_polynomial;
+    using polynomial = detail::exact::line_plane_polynomial;
     const auto differences = polynomial::differences(
         std::array{vector_of(a), vector_of(b), vector_of(p.a), vector_of(p.b), vector_of(p.c)});
-    if (!(detail::largest_magnitude(differences) <= detail::largest_difference<polynomial::degree>))
+    if (!(detail::exact::largest_magnitude(differences) <=
+          detail::exact::largest_difference<polynomial::degree>))
         return nowhere;
     const auto t = polynomial::value(terms_of(differences));
     return on_line(a, b, ratio<polynomial>(t.x, t.y));
 }
 
 ball planes_ball(const plane_points& p, const plane_points& q, const plane_points& r) {
-    using polynomial = detail::planes_polynomial;
+    using polynomial = detail::exact::planes_polynomial;
     const auto d = polynomial::differences(
         std::array{vector_of(p.a), vector_of(p.b), vector_of(p.c), vector_of(q.a), vector_of(q.b),
                    vector_of(q.c), vector_of(r.a), vector_of(r.b), vector_of(r.c)});
-    if (!(detail::largest_magnitude(d) <= detail::largest_difference<polynomial::degree>))
+    if (!(detail::exact::largest_magnitude(d) <=
+          detail::exact::largest_difference<polynomial::degree>))
         return nowhere;
     const auto way = polynomial::value(terms_of(d));
     const double size =
@@ -151,7 +154,7 @@ bool is_centre(const constructed_point& p) { return p.radius() == 0.0; }
 /// that is normal. A denormal radius might be read as zero: 2^-1022 instead.
 ball exact_ball(const constructed_point& p) {
     ball result{};
-    const auto coordinates = detail::rounded_exactly(p, detail::double_format);
+    const auto coordinates = detail::exact::rounded_exactly(p, detail::exact::double_format);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double value = coordinates[axis].value;
         if (std::isinf(value)) {
@@ -203,14 +206,14 @@ std::optional<double> certain_float(double centre, double radius) {
 }
 
 point3 turned(int axis, const point3& p) {
-    const detail::vector2<double> others = detail::projection(axis, p);
+    const detail::exact::vector2<double> others = detail::exact::projection(axis, p);
     return {others.x, others.y, p[static_cast<std::size_t>(axis)]};
 }
 
 }  // namespace
 
 constructed_point::constructed_point(origin kind, const std::array<point3, 9>& definition,
-                                     const detail::ball& about)
+                                     const detail::exact::ball& about)
     : centre_(about.centre), radius_(about.radius), kind_(kind), definition_(definition) {
     if (radius_ < infinity) return;
     const ball exact = exact_ball(*this);
@@ -238,9 +241,9 @@ int compare(int axis, const constructed_point& a, const constructed_point& b,
     const auto i = static_cast<std::size_t>(axis);
     const bool known = is_centre(a) && is_centre(b);
     const int sign = known ? compare_bits(a.centre()[i], b.centre()[i])
-                           : detail::compare_filter(axis, ball_of(a), ball_of(b));
+                           : detail::exact::compare_filter(axis, ball_of(a), ball_of(b));
     count(counters, sign == undecided);
-    return sign != undecided ? sign : detail::compare_exact(axis, a, b, counters);
+    return sign != undecided ? sign : detail::exact::compare_exact(axis, a, b, counters);
 }
 
 bool equal(const constructed_point& a, const constructed_point& b, predicate_counters* counters) {
@@ -252,28 +255,28 @@ bool equal(const constructed_point& a, const constructed_point& b, predicate_cou
     }
     const ball p = ball_of(a);
     const ball q = ball_of(b);
-    const bool open = detail::compare_filter(0, p, q) == undecided &&
-                      detail::compare_filter(1, p, q) == undecided &&
-                      detail::compare_filter(2, p, q) == undecided;
+    const bool open = detail::exact::compare_filter(0, p, q) == undecided &&
+                      detail::exact::compare_filter(1, p, q) == undecided &&
+                      detail::exact::compare_filter(2, p, q) == undecided;
     count(counters, open);
     if (!open) return false;
-    return detail::equal_exact(a, b, counters);
+    return detail::exact::equal_exact(a, b, counters);
 }
 
 int orient2d(int axis, const constructed_point& a, const constructed_point& b,
              const constructed_point& c, predicate_counters* counters) {
     if (is_centre(a) && is_centre(b) && is_centre(c))
         return orient2d(axis, a.centre(), b.centre(), c.centre(), counters);
-    const int sign = detail::orient2d_filter(axis, ball_of(a), ball_of(b), ball_of(c));
+    const int sign = detail::exact::orient2d_filter(axis, ball_of(a), ball_of(b), ball_of(c));
     count(counters, sign == undecided);
-    return sign != undecided ? sign : detail::orient2d_exact(axis, a, b, c, counters);
+    return sign != undecided ? sign : detail::exact::orient2d_exact(axis, a, b, c, counters);
 }
 
 int side(const plane_points& p, const constructed_point& d, predicate_counters* counters) {
     if (is_centre(d)) return orient3d(p.a, p.b, p.c, d.centre(), counters);
-    const int sign = detail::side_filter(p, ball_of(d));
+    const int sign = detail::exact::side_filter(p, ball_of(d));
     count(counters, sign == undecided);
-    return sign != undecided ? sign : detail::side_exact(p, d, counters);
+    return sign != undecided ? sign : detail::exact::side_exact(p, d, counters);
 }
 
 point3 rounded(const constructed_point& p) {
@@ -281,7 +284,7 @@ point3 rounded(const constructed_point& p) {
     // A radius above zero is never below half a unit in the last place of the largest coordinate.
     if (is_centre(p))
         return {without_negative_zero(c.x), without_negative_zero(c.y), without_negative_zero(c.z)};
-    const auto exact = detail::rounded_exactly(p, detail::double_format);
+    const auto exact = detail::exact::rounded_exactly(p, detail::exact::double_format);
     return {exact[0].value, exact[1].value, exact[2].value};
 }
 
@@ -290,7 +293,7 @@ point3 rounded_to_float(const constructed_point& p) {
     const auto y = certain_float(p.centre().y, p.radius());
     const auto z = certain_float(p.centre().z, p.radius());
     if (x && y && z) return {*x, *y, *z};
-    const auto exact = detail::rounded_exactly(p, detail::float_format_32);
+    const auto exact = detail::exact::rounded_exactly(p, detail::exact::float_format_32);
     return {exact[0].value, exact[1].value, exact[2].value};
 }
 
@@ -298,14 +301,14 @@ int normal_cross(int axis, const plane_points& p, const plane_points& q,
                  predicate_counters* counters) {
     const std::array points{turned(axis, p.a), turned(axis, p.b), turned(axis, p.c),
                             turned(axis, q.a), turned(axis, q.b), turned(axis, q.c)};
-    using polynomial = detail::normal_cross_polynomial;
+    using polynomial = detail::exact::normal_cross_polynomial;
     const auto& [a, b, c, d, e, f] = points;
-    const int sign = detail::filter_sign<polynomial>(a, b, c, d, e, f);
+    const int sign = detail::exact::filter_sign<polynomial>(a, b, c, d, e, f);
     count(counters, sign == undecided);
     if (sign != undecided) return sign;
-    return detail::exact_sign<polynomial>(
+    return detail::exact::exact_sign<polynomial>(
         {vector_of(a), vector_of(b), vector_of(c), vector_of(d), vector_of(e), vector_of(f)},
         counters);
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -15,17 +15,17 @@
 /// \source the kinds of points: Attene, Indirect Predicates for Geometric Constructions, CAD 126
 ///         (2020); their balls: the error analyses in libmesh/exact/constructed_point.cpp
 
-#include <libmesh/exact/counters.hpp>
-#include <libmesh/exact/point.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libtree/export.hpp>
+#include <treeform/mesh/counters.hpp>
+#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tree/export.hpp>
 
 #include <array>
 #include <cstdint>
 
-namespace tf {
+namespace treeform {
 
-namespace detail {
+namespace detail::exact {
 struct ball;
 }
 
@@ -72,7 +72,7 @@ class TREEFORM_API constructed_point {
   private:
     /// Looks for a better ball where the radius is infinite.
     constructed_point(origin kind, const std::array<point3, 9>& definition,
-                      const detail::ball& about);
+                      const detail::exact::ball& about);
 
     point3 centre_{};
     double radius_ = 0.0;
@@ -111,4 +111,4 @@ class TREEFORM_API constructed_point {
 [[nodiscard]] TREEFORM_API int normal_cross(int axis, const plane_points& p, const plane_points& q,
                                             predicate_counters* counters = nullptr);
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,6 +1,6 @@
-#include <libmesh/exact/detail/dyadic.hpp>
-#include <libmesh/exact/detail/lattice.hpp>
-#include <libmesh/exact/detail/word.hpp>
+#include <libmesh/exact/dyadic.hpp>
+#include <libmesh/exact/lattice.hpp>
+#include <libmesh/exact/word.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::exact {
 namespace {
 
 /// Adds the limbs to those at `to`, which has room for the carry.
@@ -287,4 +287,4 @@ rounded_quotient quotient(const dyadic& a, const dyadic& b, int shift, const flo
     return rounded_digit(q, lowest, a.sign() != b.sign(), format);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::exact

@@ -1,13 +1,13 @@
-#include <libmesh/exact/detail/exact_sign.hpp>
-#include <libmesh/exact/detail/filter.hpp>
-#include <libmesh/exact/detail/stages.hpp>
-#include <libmesh/exact/predicates.hpp>
+#include <libmesh/exact/exact_sign.hpp>
+#include <libmesh/exact/filter.hpp>
+#include <libmesh/exact/stages.hpp>
+#include <treeform/mesh/predicates.hpp>
 
-namespace tf {
+namespace treeform {
 namespace {
 
-using detail::undecided;
-using detail::vector_of;
+using detail::exact::undecided;
+using detail::exact::vector_of;
 
 void count(predicate_counters* counters, bool open) {
     if (!counters) return;
@@ -17,24 +17,24 @@ void count(predicate_counters* counters, bool open) {
 
 /// The exact stage, called with references: the filter's caller stores no copies for it.
 template <class Polynomial, class... Points>
-[[gnu::noinline]] int exact(predicate_counters* counters, const Points&... points) {
-    return detail::exact_sign<Polynomial>({vector_of(points)...}, counters);
+[[gnu::noinline]] int sign_by_integers(predicate_counters* counters, const Points&... points) {
+    return detail::exact::exact_sign<Polynomial>({vector_of(points)...}, counters);
 }
 
 template <class Polynomial, class... Points>
 int staged(predicate_counters* counters, const Points&... points) {
-    const int sign = detail::filter_sign<Polynomial>(points...);
+    const int sign = detail::exact::filter_sign<Polynomial>(points...);
     count(counters, sign == undecided);
-    return sign != undecided ? sign : exact<Polynomial>(counters, points...);
+    return sign != undecided ? sign : sign_by_integers<Polynomial>(counters, points...);
 }
 
 }  // namespace
 
-namespace detail {
+namespace detail::exact {
 
 int orient2d_exact(const point2& a, const point2& b, const point2& c,
                    predicate_counters* counters) {
-    return exact<orient2d_polynomial>(counters, a, b, c);
+    return sign_by_integers<orient2d_polynomial>(counters, a, b, c);
 }
 
 int orient2d_exact(int axis, const point3& a, const point3& b, const point3& c,
@@ -45,57 +45,58 @@ int orient2d_exact(int axis, const point3& a, const point3& b, const point3& c,
 
 int orient3d_exact(const point3& a, const point3& b, const point3& c, const point3& d,
                    predicate_counters* counters) {
-    return exact<orient3d_polynomial>(counters, a, b, c, d);
+    return sign_by_integers<orient3d_polynomial>(counters, a, b, c, d);
 }
 
-}  // namespace detail
+}  // namespace detail::exact
 
 int orient2d(const point2& a, const point2& b, const point2& c, predicate_counters* counters) {
-    return staged<detail::orient2d_polynomial>(counters, a, b, c);
+    return staged<detail::exact::orient2d_polynomial>(counters, a, b, c);
 }
 
 int orient2d(int axis, const point3& a, const point3& b, const point3& c,
              predicate_counters* counters) {
-    const int sign = detail::orient2d_filter(axis, a, b, c);
+    const int sign = detail::exact::orient2d_filter(axis, a, b, c);
     count(counters, sign == undecided);
-    return sign != undecided ? sign : detail::orient2d_exact(axis, a, b, c, counters);
+    return sign != undecided ? sign : detail::exact::orient2d_exact(axis, a, b, c, counters);
 }
 
 int orient3d(const point3& a, const point3& b, const point3& c, const point3& d,
              predicate_counters* counters) {
-    return staged<detail::orient3d_polynomial>(counters, a, b, c, d);
+    return staged<detail::exact::orient3d_polynomial>(counters, a, b, c, d);
 }
 
 bool collinear(const point3& a, const point3& b, const point3& c, predicate_counters* counters) {
-    const int differs = detail::collinear_filter(a, b, c);
+    const int differs = detail::exact::collinear_filter(a, b, c);
     count(counters, differs == undecided);
     if (differs != undecided) return differs == 0;
-    return exact<detail::normal_polynomial>(counters, a, b, c) == 0;
+    return sign_by_integers<detail::exact::normal_polynomial>(counters, a, b, c) == 0;
 }
 
 int compare_along(const point3& a, const point3& b, const point3& c, const point3& d,
                   predicate_counters* counters) {
-    return staged<detail::compare_along_polynomial>(counters, a, b, c, d);
+    return staged<detail::exact::compare_along_polynomial>(counters, a, b, c, d);
 }
 
 int compare_distance(const point3& a, const point3& b, const point3& c, const point3& d,
                      predicate_counters* counters) {
-    return staged<detail::compare_distance_polynomial>(counters, a, b, c, d);
+    return staged<detail::exact::compare_distance_polynomial>(counters, a, b, c, d);
 }
 
 int normal_dot(const plane_points& p, const plane_points& q, predicate_counters* counters) {
-    return staged<detail::normal_dot_polynomial>(counters, p.a, p.b, p.c, q.a, q.b, q.c);
+    return staged<detail::exact::normal_dot_polynomial>(counters, p.a, p.b, p.c, q.a, q.b, q.c);
 }
 
 int normal_turn(const plane_points& p, const plane_points& q, const point3& a, const point3& b,
                 predicate_counters* counters) {
-    return staged<detail::normal_turn_polynomial>(counters, p.a, p.b, p.c, q.a, q.b, q.c, a, b);
+    return staged<detail::exact::normal_turn_polynomial>(counters, p.a, p.b, p.c, q.a, q.b, q.c, a,
+                                                         b);
 }
 
 int normal_determinant(const plane_points& p, const plane_points& q, const plane_points& r,
                        predicate_counters* counters) {
-    return staged<detail::normal_determinant_polynomial>(counters, p.a, p.b, p.c, q.a, q.b, q.c,
-                                                         r.a, r.b, r.c);
+    return staged<detail::exact::normal_determinant_polynomial>(counters, p.a, p.b, p.c, q.a, q.b,
+                                                                q.c, r.a, r.b, r.c);
 }
 
-}  // namespace tf
+}  // namespace treeform

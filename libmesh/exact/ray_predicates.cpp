@@ -1,30 +1,30 @@
-#include <libmesh/exact/detail/exact_ratio.hpp>
-#include <libmesh/exact/detail/exact_sign.hpp>
-#include <libmesh/exact/detail/filter.hpp>
-#include <libmesh/exact/detail/ray_polynomials.hpp>
-#include <libmesh/exact/ray_predicates.hpp>
+#include <libmesh/exact/exact_ratio.hpp>
+#include <libmesh/exact/exact_sign.hpp>
+#include <libmesh/exact/filter.hpp>
+#include <libmesh/exact/ray_polynomials.hpp>
+#include <treeform/mesh/ray_predicates.hpp>
 
 #include <array>
 #include <cmath>
 
-namespace tf {
+namespace treeform {
 namespace {
 
-using detail::vector2;
-using detail::vector3;
-using detail::vector_of;
+using detail::exact::vector2;
+using detail::exact::vector3;
+using detail::exact::vector_of;
 
 constexpr point3 zero{};
 
 template <class Polynomial, class... Points>
 [[gnu::noinline]] int exact(predicate_counters* counters, const Points&... points) {
-    return detail::exact_sign<Polynomial>({vector_of(points)...}, counters);
+    return detail::exact::exact_sign<Polynomial>({vector_of(points)...}, counters);
 }
 
 template <class Polynomial, class... Points>
 int staged(predicate_counters* counters, const Points&... points) {
-    const int sign = detail::filter_sign<Polynomial>(points...);
-    const bool open = sign == detail::undecided;
+    const int sign = detail::exact::filter_sign<Polynomial>(points...);
+    const bool open = sign == detail::exact::undecided;
     if (counters) {
         ++counters->calls;
         counters->undecided += open;
@@ -33,24 +33,24 @@ int staged(predicate_counters* counters, const Points&... points) {
 }
 
 /// Whether the filter's bound puts the value's relative error below 2^-42.
-bool is_accurate(const detail::sum& s) {
-    return detail::error_factor<detail::cut_polynomial> * s.magnitude <=
+bool is_accurate(const detail::exact::sum& s) {
+    return detail::exact::error_factor<detail::exact::cut_polynomial> * s.magnitude <=
                0x1p-42 * std::abs(s.value) &&
-           s.magnitude >= detail::least_permanent;
+           s.magnitude >= detail::exact::least_permanent;
 }
 
 }  // namespace
 
 int direction_side(const point3& a, const point3& b, const point3& c, const point3& d,
                    predicate_counters* counters) {
-    return staged<detail::direction_side_polynomial>(counters, a, b, c, d, zero);
+    return staged<detail::exact::direction_side_polynomial>(counters, a, b, c, d, zero);
 }
 
 int line_side(int axis, const point3& o, const point3& d, const point3& p,
               predicate_counters* counters) {
-    return staged<detail::line_side_polynomial>(
-        counters, detail::projection(axis, o), detail::projection(axis, p),
-        detail::projection(axis, d), detail::projection(axis, zero));
+    return staged<detail::exact::line_side_polynomial>(
+        counters, detail::exact::projection(axis, o), detail::exact::projection(axis, p),
+        detail::exact::projection(axis, d), detail::exact::projection(axis, zero));
 }
 
 int compare_cuts(const point3& o, const point3& d, const cutting_plane& p, const cutting_plane& q,
@@ -60,30 +60,31 @@ int compare_cuts(const point3& o, const point3& d, const cutting_plane& p, const
 
 int compare_cuts(const point3& d, const point3& o, const cutting_plane& p, const point3& r,
                  const cutting_plane& q, predicate_counters* counters) {
-    return staged<detail::compare_cuts_polynomial>(counters, o, d, zero, p.at, p.u_from, p.u_to,
-                                                   p.v_from, p.v_to, q.at, q.u_from, q.u_to,
-                                                   q.v_from, q.v_to, r);
+    return staged<detail::exact::compare_cuts_polynomial>(counters, o, d, zero, p.at, p.u_from,
+                                                          p.u_to, p.v_from, p.v_to, q.at, q.u_from,
+                                                          q.u_to, q.v_from, q.v_to, r);
 }
 
 int compare_cut(const point3& o, const point3& d, const cutting_plane& p, double s,
                 predicate_counters* counters) {
-    return staged<detail::compare_cut_polynomial>(counters, o, d, zero, p.at, p.u_from, p.u_to,
-                                                  p.v_from, p.v_to, point3{s, 1.0, 0.0});
+    return staged<detail::exact::compare_cut_polynomial>(
+        counters, o, d, zero, p.at, p.u_from, p.u_to, p.v_from, p.v_to, point3{s, 1.0, 0.0});
 }
 
 double cut_parameter(const point3& o, const point3& d, const cutting_plane& p) {
-    using polynomial = detail::cut_polynomial;
+    using polynomial = detail::exact::cut_polynomial;
     const std::array points{vector_of(o),        vector_of(d),        vector_of(zero),
                             vector_of(p.at),     vector_of(p.u_from), vector_of(p.u_to),
                             vector_of(p.v_from), vector_of(p.v_to)};
     const auto differences = polynomial::differences(points);
-    const auto value =
-        polynomial::value(detail::transform(differences, [](double x) { return detail::term{x}; }));
+    const auto value = polynomial::value(
+        detail::exact::transform(differences, [](double x) { return detail::exact::term{x}; }));
     // Two relative errors below 2^-42 and a rounding come to less than 2^-40.
     if (is_accurate(value.x) && is_accurate(value.y) &&
-        detail::largest_magnitude(differences) <= detail::largest_difference<polynomial::degree>)
+        detail::exact::largest_magnitude(differences) <=
+            detail::exact::largest_difference<polynomial::degree>)
         return value.x.value / value.y.value;
-    return detail::exact_ratio<polynomial>(points);
+    return detail::exact::exact_ratio<polynomial>(points);
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,16 +1,16 @@
+#include <libmesh/geometry/based_triangle.hpp>
 #include <libmesh/geometry/closest_point.hpp>
-#include <libmesh/geometry/detail/based_triangle.hpp>
 
 #include <cstddef>
 
 // One triangle needs no lanes: the baseline of the processor will do.
 #undef HWY_TARGET_INCLUDE
-#include <libmesh/geometry/detail/closest_lanes-inl.hpp>
+#include <libmesh/geometry/closest_lanes-inl.hpp>
 
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace tf::detail::HWY_NAMESPACE {
+namespace treeform::detail::geometry::HWY_NAMESPACE {
 namespace {
 
 closest_on_triangle closest_on_one(const based_triangle& t, const point3& p) {
@@ -31,13 +31,14 @@ closest_on_triangle closest_on_one(const based_triangle& t, const point3& p) {
 }
 
 }  // namespace
-}  // namespace tf::detail::HWY_NAMESPACE
+}  // namespace treeform::detail::geometry::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-namespace tf {
+namespace treeform {
 
 closest_on_triangle closest_point(const triangle3& t, const point3& p) {
-    return detail::HWY_STATIC_DISPATCH(closest_on_one)(detail::based_triangle(t), p);
+    return detail::geometry::HWY_STATIC_DISPATCH(closest_on_one)(
+        detail::geometry::based_triangle(t), p);
 }
 
-}  // namespace tf
+}  // namespace treeform

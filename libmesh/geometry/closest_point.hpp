@@ -2,11 +2,11 @@
 /// \file
 /// The point of a triangle that is nearest to a given point.
 
-#include <libmesh/exact/point.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libtree/export.hpp>
+#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tree/export.hpp>
 
-namespace tf {
+namespace treeform {
 
 struct closest_on_triangle {
     point3 point;                   ///< on the triangle, rounded
@@ -24,4 +24,4 @@ struct closest_on_triangle {
 /// \cost   some 70 operations, no allocation
 [[nodiscard]] TREEFORM_API closest_on_triangle closest_point(const triangle3& t, const point3& p);
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,15 +1,15 @@
 #include <libmesh/geometry/contact_point.hpp>
-#include <libmesh/geometry/detail/features.hpp>
+#include <libmesh/geometry/features.hpp>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-namespace tf {
+namespace treeform {
 namespace {
 
-using detail::index_of;
-using detail::next;
+using detail::geometry::index_of;
+using detail::geometry::next;
 
 struct segment {
     point3 from;
@@ -29,8 +29,9 @@ struct box {
 box box_of(const triangle3& t, feature f) {
     const auto [p, q] = edge_of(t, f);
     // The third corner, unless the point is on an edge.
-    const point3& r =
-        detail::is_edge(f) ? p : t[static_cast<std::size_t>(detail::previous(index_of(f)))];
+    const point3& r = detail::geometry::is_edge(f)
+                          ? p
+                          : t[static_cast<std::size_t>(detail::geometry::previous(index_of(f)))];
     box result;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         result.low[axis] = std::min({p[axis], q[axis], r[axis]});
@@ -110,14 +111,14 @@ int scale_exponent(const triangle3& a, const triangle3& b) {
 
 /// A contact on no corner, coordinates in safe range.
 point3 crossing_point(const triangle3& a, const triangle3& b, contact c) {
-    if (!detail::is_edge(c.on_a)) {
-        assert(detail::is_edge(c.on_b));
+    if (!detail::geometry::is_edge(c.on_a)) {
+        assert(detail::geometry::is_edge(c.on_b));
         const segment s = edge_of(b, c.on_b);
         return along(s, fraction_to_plane(s, a));
     }
     const segment s = edge_of(a, c.on_a);
-    return along(s, detail::is_edge(c.on_b) ? fraction_to_line(s, edge_of(b, c.on_b))
-                                            : fraction_to_plane(s, b));
+    return along(s, detail::geometry::is_edge(c.on_b) ? fraction_to_line(s, edge_of(b, c.on_b))
+                                                      : fraction_to_plane(s, b));
 }
 
 point3 clamped(point3 p, const box& to) {
@@ -129,8 +130,8 @@ point3 clamped(point3 p, const box& to) {
 }  // namespace
 
 point3 approximate_point(const triangle3& a, const triangle3& b, contact c) {
-    if (detail::is_corner(c.on_a)) return a[static_cast<std::size_t>(index_of(c.on_a))];
-    if (detail::is_corner(c.on_b)) return b[static_cast<std::size_t>(index_of(c.on_b))];
+    if (detail::geometry::is_corner(c.on_a)) return a[static_cast<std::size_t>(index_of(c.on_a))];
+    if (detail::geometry::is_corner(c.on_b)) return b[static_cast<std::size_t>(index_of(c.on_b))];
     const int exponent = scale_exponent(a, b);
     const point3 p =
         exponent == 0
@@ -139,4 +140,4 @@ point3 approximate_point(const triangle3& a, const triangle3& b, contact c) {
     return clamped(clamped(p, box_of(a, c.on_a)), box_of(b, c.on_b));
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -2,11 +2,11 @@
 /// \file
 /// Where a named contact of two triangles is, for pictures and reports.
 
-#include <libmesh/exact/point.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libtree/export.hpp>
+#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tree/export.hpp>
 
-namespace tf {
+namespace treeform {
 
 /// Coordinates of the contact `c` of `a` and `b`, rounded.
 ///
@@ -20,4 +20,4 @@ namespace tf {
 [[nodiscard]] TREEFORM_API point3 approximate_point(const triangle3& a, const triangle3& b,
                                                     contact c);
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,10 +1,10 @@
-#include <libmesh/exact/detail/filter.hpp>
-#include <libmesh/exact/detail/ray_polynomials.hpp>
-#include <libmesh/geometry/detail/features.hpp>
-#include <libmesh/geometry/detail/flat_triangle.hpp>
-#include <libmesh/geometry/detail/plane_interval.hpp>
-#include <libmesh/geometry/detail/view_axis.hpp>
-#include <libmesh/geometry/ray_triangle.hpp>
+#include <libmesh/exact/filter.hpp>
+#include <libmesh/exact/ray_polynomials.hpp>
+#include <libmesh/geometry/features.hpp>
+#include <libmesh/geometry/flat_triangle.hpp>
+#include <libmesh/geometry/plane_interval.hpp>
+#include <libmesh/geometry/view_axis.hpp>
+#include <treeform/mesh/ray_triangle.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 using signs = std::array<int, 3>;
@@ -49,9 +49,9 @@ class line {
 
     /// `direction_side` of origin, p and q.
     [[nodiscard]] int passes(const point3& p, const point3& q) const {
-        const int sign =
-            detail::filter_sign<detail::direction_side_polynomial>(origin, p, q, direction, zero);
-        if (sign != detail::undecided) {
+        const int sign = detail::exact::filter_sign<detail::exact::direction_side_polynomial>(
+            origin, p, q, direction, zero);
+        if (sign != detail::exact::undecided) {
             if (counters_) ++counters_->calls;
             return sign;
         }
@@ -126,14 +126,15 @@ std::optional<ray_contact> clipped(const line& l, const span_end& enter, const s
 /// A triangle with area, and a line in its plane. With up to the left of the direction, the line
 /// runs from west to east on a triangle that is seen counter-clockwise.
 std::optional<ray_contact> meet_in_plane(const line& l, const triangle3& t,
-                                         const detail::view_axis& view) {
+                                         const detail::geometry::view_axis& view) {
     const auto [axis, turn] = view;
     const signs side{l.side_of(t[0], axis), l.side_of(t[1], axis), l.side_of(t[2], axis)};
     if (side[0] != 0 && side[0] == side[1] && side[1] == side[2]) return std::nullopt;
-    const detail::plane_interval& ends = detail::plane_intervals[detail::side_key(side)];
-    const auto end_of = [&, seen_along = axis](const detail::interval_end& end) {
-        if (detail::is_corner(end.name))
-            return end_at(l, at(t, detail::index_of(end.name)), end.name);
+    const detail::geometry::plane_interval& ends =
+        detail::geometry::plane_intervals[detail::geometry::side_key(side)];
+    const auto end_of = [&, seen_along = axis](const detail::geometry::interval_end& end) {
+        if (detail::geometry::is_corner(end.name))
+            return end_at(l, at(t, detail::geometry::index_of(end.name)), end.name);
         return end_between(at(t, end.below), at(t, end.above), seen_along, end.name);
     };
     const span_end west = end_of(ends.west);
@@ -144,7 +145,7 @@ std::optional<ray_contact> meet_in_plane(const line& l, const triangle3& t,
 /// A segment, or a point, that lies in one plane with the line. The vectors direction x (from -
 /// origin) and direction x (to - origin) are multiples of one vector, the plane's normal, and both
 /// zero only on the line.
-std::optional<ray_contact> meet_segment(const line& l, const detail::named_segment& s) {
+std::optional<ray_contact> meet_segment(const line& l, const detail::geometry::named_segment& s) {
     for (const int axis : {0, 1, 2}) {
         const int from = l.side_of(s.from, axis);
         const int to = l.side_of(s.to, axis);
@@ -176,7 +177,7 @@ std::optional<ray_contact> joined(const ray3& ray, const std::optional<ray_conta
 
 std::optional<ray_contact> meet_flat(const ray3& ray, const line& l, const triangle3& t,
                                      predicate_counters* counters) {
-    const detail::flat_triangle flat = detail::flatten(t);
+    const detail::geometry::flat_triangle flat = detail::geometry::flatten(t);
     const auto first = meet_segment(l, flat.parts[0]);
     if (flat.part_count == 1) return first;
     return joined(ray, first, meet_segment(l, flat.parts[1]), counters);
@@ -195,13 +196,14 @@ std::optional<ray_contact> intersect(const ray3& ray, const triangle3& triangle,
     // The three values add up to normal . direction; all zero, every edge is coplanar with the
     // line.
     if (about == signs{0, 0, 0}) {
-        const auto view = detail::find_view_axis(triangle, counters);
+        const auto view = detail::geometry::find_view_axis(triangle, counters);
         return view ? meet_in_plane(l, triangle, *view) : meet_flat(ray, l, triangle, counters);
     }
-    const std::optional<feature> name = detail::locate(about);
+    const std::optional<feature> name = detail::geometry::locate(about);
     if (!name) return std::nullopt;
     const bool along_normal = about[0] > 0 || about[1] > 0 || about[2] > 0;
-    const point3& base = detail::is_corner(*name) ? at(triangle, detail::index_of(*name)) : a;
+    const point3& base =
+        detail::geometry::is_corner(*name) ? at(triangle, detail::geometry::index_of(*name)) : a;
     const cutting_plane cut =
         along_normal ? cutting_plane{base, a, b, a, c} : cutting_plane{base, a, c, a, b};
     const double t = l.parameter(cut);
@@ -221,4 +223,4 @@ int compare(const ray3& ray, const ray_contact& a, const ray_contact& b,
     });
 }
 
-}  // namespace tf
+}  // namespace treeform

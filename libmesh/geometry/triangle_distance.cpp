@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 point3 minus(const point3& p, const point3& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
@@ -91,4 +91,4 @@ closest_between_triangles closest_points(const triangle3& a, const triangle3& b)
     return {common, common, 0.0};
 }
 
-}  // namespace tf
+}  // namespace treeform

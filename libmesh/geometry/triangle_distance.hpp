@@ -2,11 +2,11 @@
 /// \file
 /// The distance of two triangles, and where they are nearest.
 
-#include <libmesh/exact/point.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libtree/export.hpp>
+#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tree/export.hpp>
 
-namespace tf {
+namespace treeform {
 
 struct closest_between_triangles {
     point3 on_a;  ///< rounded, as is `on_b`
@@ -27,4 +27,4 @@ struct closest_between_triangles {
 [[nodiscard]] TREEFORM_API closest_between_triangles closest_points(const triangle3& a,
                                                                     const triangle3& b);
 
-}  // namespace tf
+}  // namespace treeform

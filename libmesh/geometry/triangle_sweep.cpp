@@ -1,5 +1,5 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/triangle_sweep.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/triangle_sweep.hpp>
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr feature corner(std::size_t i) { return static_cast<feature>(i); }
@@ -181,4 +181,4 @@ int compare(const point3& d, const sweep_contact& a, const sweep_contact& b,
     return compare_cuts(d, a.from, a.until, b.from, b.until, counters);
 }
 
-}  // namespace tf
+}  // namespace treeform

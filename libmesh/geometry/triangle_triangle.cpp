@@ -1,24 +1,24 @@
-#include <libmesh/geometry/detail/coplanar.hpp>
-#include <libmesh/geometry/detail/degenerate.hpp>
-#include <libmesh/geometry/detail/features.hpp>
-#include <libmesh/geometry/detail/plane_interval.hpp>
-#include <libmesh/geometry/detail/signs.hpp>
-#include <libmesh/geometry/detail/view_axis.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <libmesh/geometry/coplanar.hpp>
+#include <libmesh/geometry/degenerate.hpp>
+#include <libmesh/geometry/features.hpp>
+#include <libmesh/geometry/plane_interval.hpp>
+#include <libmesh/geometry/signs.hpp>
+#include <libmesh/geometry/view_axis.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <optional>
 
-namespace tf {
+namespace treeform {
 namespace {
 
-using detail::interval_end;
-using detail::plane_interval;
+using detail::geometry::interval_end;
+using detail::geometry::plane_interval;
 using signs = std::array<int, 3>;
 
 signs sides_of_plane(const triangle3& plane, const triangle3& t, predicate_counters* counters) {
-    return {detail::orient3d_sign(plane[0], plane[1], plane[2], t[0], counters),
-            detail::orient3d_sign(plane[0], plane[1], plane[2], t[1], counters),
-            detail::orient3d_sign(plane[0], plane[1], plane[2], t[2], counters)};
+    return {detail::geometry::orient3d_sign(plane[0], plane[1], plane[2], t[0], counters),
+            detail::geometry::orient3d_sign(plane[0], plane[1], plane[2], t[1], counters),
+            detail::geometry::orient3d_sign(plane[0], plane[1], plane[2], t[2], counters)};
 }
 
 bool strictly_on_one_side(const signs& s) { return s[0] != 0 && s[0] == s[1] && s[1] == s[2]; }
@@ -43,12 +43,12 @@ class line_intervals {
                    predicate_counters* counters)
         : a_(a),
           b_(b),
-          on_a_(detail::plane_intervals[detail::side_key(of_a)]),
-          on_b_(detail::plane_intervals[detail::side_key(of_b)]),
+          on_a_(detail::geometry::plane_intervals[detail::geometry::side_key(of_a)]),
+          on_b_(detail::geometry::plane_intervals[detail::geometry::side_key(of_b)]),
           counters_(counters) {}
 
-    [[nodiscard]] detail::contact_list common() const {
-        detail::contact_list ends;
+    [[nodiscard]] detail::geometry::contact_list common() const {
+        detail::geometry::contact_list ends;
         const int gap_after_a = order(on_a_.east, on_b_.east);
         if (gap_after_a < 0) return ends;
         const int gap_before_a = gap_after_a == 0 ? -1 : order(on_a_.west, on_b_.west);
@@ -67,12 +67,12 @@ class line_intervals {
   private:
     /// Sign of p - q on the line, for an end of `a` and one of `b`.
     [[nodiscard]] int order(const interval_end& p, const interval_end& q) const {
-        return detail::orient3d_sign(at(a_, p.below), at(a_, p.above), at(b_, q.below),
-                                     at(b_, q.above), counters_);
+        return detail::geometry::orient3d_sign(at(a_, p.below), at(a_, p.above), at(b_, q.below),
+                                               at(b_, q.above), counters_);
     }
     /// Adds `p` of `a` or `q` of `b`, whichever the other triangle holds: `inner` < 0 says that it
     /// is p, > 0 that it is q, and 0 that they are one point.
-    void add_inner(detail::contact_list& ends, int inner, const interval_end& p,
+    void add_inner(detail::geometry::contact_list& ends, int inner, const interval_end& p,
                    const interval_end& q) const {
         ends.add(inner > 0 ? on_a_.inside : p.name, inner < 0 ? on_b_.inside : q.name);
     }
@@ -87,10 +87,12 @@ class line_intervals {
 /// For pairs of which a plane holds all corners of one triangle: coplanar, or one is degenerate.
 triangle_contact intersect_flat(const triangle3& a, const triangle3& b,
                                 predicate_counters* counters) {
-    const std::optional<detail::view_axis> of_a = detail::find_view_axis(a, counters);
-    const std::optional<detail::view_axis> of_b = detail::find_view_axis(b, counters);
-    if (of_a && of_b) return detail::intersect_coplanar(a, *of_a, b, counters);
-    return detail::intersect_degenerate(a, of_a, b, of_b, counters);
+    const std::optional<detail::geometry::view_axis> of_a =
+        detail::geometry::find_view_axis(a, counters);
+    const std::optional<detail::geometry::view_axis> of_b =
+        detail::geometry::find_view_axis(b, counters);
+    if (of_a && of_b) return detail::geometry::intersect_coplanar(a, *of_a, b, counters);
+    return detail::geometry::intersect_degenerate(a, of_a, b, of_b, counters);
 }
 
 }  // namespace
@@ -104,10 +106,10 @@ triangle_contact intersect(const triangle3& a, const triangle3& b, predicate_cou
     if (all_zero(of_a) || all_zero(of_b)) return intersect_flat(a, b, counters);
 
     const line_intervals intervals(a, of_a, b, of_b, counters);
-    triangle_contact result = detail::contact_of(intervals.common(), false);
+    triangle_contact result = detail::geometry::contact_of(intervals.common(), false);
     result.crossing = result.kind == overlap::segment && strictly_on_both_sides(of_a) &&
                       strictly_on_both_sides(of_b);
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

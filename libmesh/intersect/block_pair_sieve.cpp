@@ -1,9 +1,9 @@
-#include <libmesh/intersect/detail/block_pair_sieve.hpp>
+#include <libmesh/intersect/block_pair_sieve.hpp>
 
 #include <algorithm>
 #include <bit>
 
-namespace tf::detail {
+namespace treeform::detail::intersect {
 
 void block_pair_sieve::add(const candidate_block& block) {
     constexpr std::size_t ahead = 24;
@@ -12,7 +12,7 @@ void block_pair_sieve::add(const candidate_block& block) {
     // The search hands out all candidates of two leaf blocks in a row.
     for (std::size_t i = 0; i < count;) {
         const std::uint32_t block_a = block.first[i] / 8, block_b = block.second[i] / 8;
-        slot_pairs pairs{};
+        nearness::slot_pairs pairs{};
         for (; i < count && block.first[i] / 8 == block_a && block.second[i] / 8 == block_b; ++i)
             pairs[block.first[i] % 8] |= 1U << block.second[i] % 8;
         const std::size_t later = std::min(i + ahead, count - 1);
@@ -23,7 +23,8 @@ void block_pair_sieve::add(const candidate_block& block) {
     decider_.finish();
 }
 
-void block_pair_sieve::look_at(std::uint32_t block_a, std::uint32_t block_b, slot_pairs& pairs) {
+void block_pair_sieve::look_at(std::uint32_t block_a, std::uint32_t block_b,
+                               nearness::slot_pairs& pairs) {
     load(block_a, block_b);
     drop_beyond_planes(planes_a_, planes_b_, pairs);
     for (std::size_t i = 0; i < 8; ++i) {
@@ -49,4 +50,4 @@ void block_pair_sieve::load(std::uint32_t block_a, std::uint32_t block_b) {
     at_b_ = block_b;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::intersect

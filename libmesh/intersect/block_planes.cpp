@@ -1,4 +1,4 @@
-#include <libmesh/intersect/detail/block_planes.hpp>
+#include <libmesh/intersect/block_planes.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace tf::detail::HWY_NAMESPACE {
+namespace treeform::detail::intersect::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -35,7 +35,7 @@ HWY_INLINE vec dot(const vec3& a, const vec3& b) {
                    hn::Mul(a.of[2], b.of[2]));
 }
 
-void find_eight(const eight_triangles& from, const point3& origin, block_planes& to) {
+void find_eight(const nearness::eight_triangles& from, const point3& origin, block_planes& to) {
     const lanes_tag d;
     const vec3 centre{{hn::Set(d, origin.x), hn::Set(d, origin.y), hn::Set(d, origin.z)}};
     vec reach = hn::Zero(d);
@@ -108,7 +108,7 @@ HWY_INLINE vec3 broadcast(const double (&corner)[3][8], std::size_t slot) {
         {hn::Set(d, corner[0][slot]), hn::Set(d, corner[1][slot]), hn::Set(d, corner[2][slot])}};
 }
 
-void drop_eight(const block_planes& a, const block_planes& b, slot_pairs& pairs) {
+void drop_eight(const block_planes& a, const block_planes& b, nearness::slot_pairs& pairs) {
     const lanes_tag d;
     const double reach = a.reach + b.reach;
     if (!(reach <= 0x1p100)) return;  // nothing is dropped for NaN
@@ -139,11 +139,11 @@ void drop_eight(const block_planes& a, const block_planes& b, slot_pairs& pairs)
 }
 
 }  // namespace
-}  // namespace tf::detail::HWY_NAMESPACE
+}  // namespace treeform::detail::intersect::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tf::detail {
+namespace treeform::detail::intersect {
 namespace {
 
 HWY_EXPORT(find_eight);
@@ -151,13 +151,13 @@ HWY_EXPORT(drop_eight);
 
 }  // namespace
 
-void find_planes(const eight_triangles& from, const point3& origin, block_planes& to) {
+void find_planes(const nearness::eight_triangles& from, const point3& origin, block_planes& to) {
     HWY_DYNAMIC_DISPATCH(find_eight)(from, origin, to);
 }
 
-void drop_beyond_planes(const block_planes& a, const block_planes& b, slot_pairs& pairs) {
+void drop_beyond_planes(const block_planes& a, const block_planes& b, nearness::slot_pairs& pairs) {
     HWY_DYNAMIC_DISPATCH(drop_eight)(a, b, pairs);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::intersect
 #endif

@@ -1,12 +1,12 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/detail/classify_pair.hpp>
+#include <libmesh/intersect/classify_pair.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::intersect {
 namespace {
 
 bool has_corner(const face& f, std::uint32_t corner) {
@@ -130,7 +130,7 @@ std::optional<pair_kind> classify_pair(points_view points, const face& a, const 
         return std::nullopt;
     const triangle3 ta = corners_of(points, a);
     const triangle3 tb = corners_of(points, b);
-    const triangle_contact common = intersect(ta, tb, &counters);
+    const triangle_contact common = treeform::intersect(ta, tb, &counters);
     if (!reaches_beyond(points, a, common, shared)) return std::nullopt;
     if (collinear(ta[0], ta[1], ta[2], &counters) || collinear(tb[0], tb[1], tb[2], &counters))
         return pair_kind::degenerate;
@@ -141,4 +141,4 @@ std::optional<pair_kind> classify_pair(points_view points, const face& a, const 
     return pair_kind::touching;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::intersect

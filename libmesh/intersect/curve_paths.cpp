@@ -1,13 +1,13 @@
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/intersect/curve_paths.hpp>
-#include <libmesh/intersect/detail/meetings.hpp>
-#include <libmesh/intersect/detail/same_points.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/intersect/meetings.hpp>
+#include <libmesh/intersect/same_points.hpp>
+#include <treeform/mesh/curve_paths.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 /// A segment of two points, the lower first.
@@ -19,8 +19,9 @@ struct segment {
 /// The points that meetings end in, equal ones as one.
 class point_table {
   public:
-    point_table(mesh_view mesh, const detail::mesh_meetings& met) : given_(mesh.points.size()) {
-        for (const detail::meeting& m : met.meetings)
+    point_table(mesh_view mesh, const detail::intersect::mesh_meetings& met)
+        : given_(mesh.points.size()) {
+        for (const detail::intersect::meeting& m : met.meetings)
             for (std::size_t k = 0; k < m.count; ++k) ids_.push_back(m.ends[k].point);
         std::sort(ids_.begin(), ids_.end());
         ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
@@ -28,8 +29,8 @@ class point_table {
         for (const std::uint32_t id : ids_)
             exact.push_back(id < given_ ? constructed_point(mesh.points[id])
                                         : met.points[id - given_]);
-        detail::union_find sets(ids_.size());
-        for (const auto& [a, b] : detail::equal_pairs(exact)) sets.join(a, b);
+        detail::base::union_find sets(ids_.size());
+        for (const auto& [a, b] : detail::intersect::equal_pairs(exact)) sets.join(a, b);
         number_.resize(ids_.size());
         for (std::uint32_t i = 0; i < ids_.size(); ++i) {
             const std::uint32_t root = sets.root(i);
@@ -50,11 +51,11 @@ class point_table {
     std::vector<curve_point> points;
 
   private:
-    [[nodiscard]] curve_point named(std::uint32_t id, const detail::mesh_meetings& met,
+    [[nodiscard]] curve_point named(std::uint32_t id, const detail::intersect::mesh_meetings& met,
                                     const point3& position) const {
         if (id < given_) return {curve_point::origin::corner, {id, id}, {id, id}, position};
-        const detail::point_name& name = met.names[id - given_];
-        const bool by_edges = name.kind == detail::point_name::origin::edges;
+        const detail::intersect::point_name& name = met.names[id - given_];
+        const bool by_edges = name.kind == detail::intersect::point_name::origin::edges;
         return {by_edges ? curve_point::origin::edges : curve_point::origin::edge_face, name.edge,
                 name.by, position};
     }
@@ -115,12 +116,12 @@ class path_walker {
 }  // namespace
 
 curve_network intersection_paths(mesh_view mesh, std::span<const face_pair> pairs) {
-    const detail::mesh_meetings met = detail::meetings_of(mesh, pairs);
+    const detail::intersect::mesh_meetings met = detail::intersect::meetings_of(mesh, pairs);
     point_table table(mesh, met);
     std::vector<segment> segments;
     std::vector<std::array<std::uint32_t, 2>> touched;  // point, pair
     for (std::uint32_t i = 0; i < met.meetings.size(); ++i) {
-        const detail::meeting& m = met.meetings[i];
+        const detail::intersect::meeting& m = met.meetings[i];
         const std::size_t sides = m.count < 3 ? m.count - (m.count != 0) : m.count;
         for (std::size_t k = 0; k < sides; ++k) {
             const std::uint32_t u = table[m.ends[k].point];
@@ -148,4 +149,4 @@ curve_network intersection_paths(mesh_view mesh, std::span<const face_pair> pair
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,9 +1,9 @@
 #include <libmesh/geometry/contact_point.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
 #include <libmesh/intersect/curves.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tree/parallel.hpp>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 triangle3 corners(mesh_view mesh, std::uint32_t f) {
@@ -40,4 +40,4 @@ std::vector<curve_segment> intersection_curves(mesh_view mesh, std::span<const f
     return segments;
 }
 
-}  // namespace tf
+}  // namespace treeform

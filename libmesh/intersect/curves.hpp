@@ -2,16 +2,16 @@
 /// \file
 /// The lines along which faces meet, as segments to draw.
 
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/mesh.hpp>
-#include <libtree/export.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tree/export.hpp>
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace tf {
+namespace treeform {
 
 struct curve_segment {
     std::array<point3, 2> ends{};  ///< equal when the faces meet in a point
@@ -32,4 +32,4 @@ struct curve_segment {
 [[nodiscard]] TREEFORM_API std::vector<curve_segment> intersection_curves(
     mesh_view mesh, std::span<const face_pair> pairs);
 
-}  // namespace tf
+}  // namespace treeform

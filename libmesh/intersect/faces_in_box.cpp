@@ -1,13 +1,13 @@
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/faces_in_box.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/faces_in_box.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 bool inside(const point3& p, const point3& min, const point3& max) {
@@ -73,4 +73,4 @@ std::vector<std::uint32_t> faces_in_box(mesh_view mesh, const point3& min, const
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

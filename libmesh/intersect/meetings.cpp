@@ -1,12 +1,12 @@
-#include <libmesh/geometry/detail/features.hpp>
-#include <libmesh/intersect/detail/meetings.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/geometry/features.hpp>
+#include <libmesh/intersect/meetings.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::intersect {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 7;
@@ -16,14 +16,14 @@ triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
     return {mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]};
 }
 
-std::size_t place_of(feature f) { return static_cast<std::size_t>(index_of(f)); }
+std::size_t place_of(feature f) { return static_cast<std::size_t>(geometry::index_of(f)); }
 
 /// The name of an end that is no corner.
 point_name name_of(mesh_view mesh, std::uint32_t a, std::uint32_t b, contact at) {
-    if (!is_edge(at.on_a))
+    if (!geometry::is_edge(at.on_a))
         return {point_name::origin::edge_face, edge_of(mesh.faces[b], place_of(at.on_b)), {a, 0}};
     const edge_name edge = edge_of(mesh.faces[a], place_of(at.on_a));
-    if (!is_edge(at.on_b)) return {point_name::origin::edge_face, edge, {b, 0}};
+    if (!geometry::is_edge(at.on_b)) return {point_name::origin::edge_face, edge, {b, 0}};
     const edge_name other = edge_of(mesh.faces[b], place_of(at.on_b));
     return {point_name::origin::edges, std::min(edge, other), std::max(edge, other)};
 }
@@ -54,15 +54,16 @@ mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs) {
     for_chunks(pairs.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto [a, b, kind] = pairs[i];
-            const triangle_contact common = intersect(triangle_of(mesh, a), triangle_of(mesh, b));
+            const triangle_contact common =
+                treeform::intersect(triangle_of(mesh, a), triangle_of(mesh, b));
             meeting& m = result.meetings[i];
             m = {a, b, common.kind, common.coplanar, common.count, {}};
             for (std::uint8_t k = 0; k < common.count; ++k) {
                 const contact at = common.ends[k];
                 m.ends[k] = {0, at.on_a, at.on_b};
-                if (is_corner(at.on_a))
+                if (geometry::is_corner(at.on_a))
                     m.ends[k].point = mesh.faces[a][place_of(at.on_a)];
-                else if (is_corner(at.on_b))
+                else if (geometry::is_corner(at.on_b))
                     m.ends[k].point = mesh.faces[b][place_of(at.on_b)];
                 else
                     open_of[chunk].push_back({name_of(mesh, a, b, at), i, k});
@@ -87,4 +88,4 @@ mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs) {
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::intersect

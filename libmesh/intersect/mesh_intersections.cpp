@@ -1,12 +1,12 @@
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/detail/block_pair_sieve.hpp>
-#include <libmesh/intersect/detail/join_outputs.hpp>
-#include <libmesh/intersect/detail/mesh_pair_sieve.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/intersect/block_pair_sieve.hpp>
+#include <libmesh/intersect/join_outputs.hpp>
+#include <libmesh/intersect/mesh_pair_sieve.hpp>
 #include <libmesh/nearness/distance_model.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/search_pair.hpp>
-#include <libtree/transformed.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search_pair.hpp>
+#include <treeform/tree/transformed.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 void check_tree(const char* function, const char* which, mesh_view mesh, const tree<3>& tree) {
@@ -25,17 +25,17 @@ void check_tree(const char* function, const char* which, mesh_view mesh, const t
                                     std::to_string(mesh.faces.size()) + " faces");
 }
 
-void check_faces_met(const char* function, const detail::bad_faces& bad) {
+void check_faces_met(const char* function, const detail::intersect::bad_faces& bad) {
     const auto refuse = [&](const char* which, std::uint32_t face) {
         throw std::invalid_argument(std::string(function) + ": face " + std::to_string(face) +
                                     " of the " + which +
                                     " mesh has a corner that is no point or not finite");
     };
-    if (bad.in_a != detail::bad_faces::none) refuse("first", bad.in_a);
-    if (bad.in_b != detail::bad_faces::none) refuse("second", bad.in_b);
+    if (bad.in_a != detail::intersect::bad_faces::none) refuse("first", bad.in_a);
+    if (bad.in_b != detail::intersect::bad_faces::none) refuse("second", bad.in_b);
 }
 
-void add(const detail::bad_faces& more, detail::bad_faces& bad) {
+void add(const detail::intersect::bad_faces& more, detail::intersect::bad_faces& bad) {
     bad.in_a = std::min(bad.in_a, more.in_a);
     bad.in_b = std::min(bad.in_b, more.in_b);
 }
@@ -45,14 +45,14 @@ template <class Sieve, class Input>
 mesh_intersection_result sieved(const pair_search<3>& search, const Input& input,
                                 const mesh_intersection_options& options) {
     const std::size_t chunks = search.chunks();
-    std::vector<detail::sieve_output> found(chunks);
-    std::vector<detail::bad_faces> bad(chunks);
+    std::vector<detail::intersect::sieve_output> found(chunks);
+    std::vector<detail::intersect::bad_faces> bad(chunks);
     std::vector<search_statistics> searched(chunks);
-    detail::search_progress progress(options.progress, chunks);
+    detail::intersect::search_progress progress(options.progress, chunks);
     std::atomic<std::size_t> last{chunks};  // the first chunk that found enough
     for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t, std::size_t) {
         const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
-        detail::sieve_output mine;  // outputs of neighbours share cache lines
+        detail::intersect::sieve_output mine;  // outputs of neighbours share cache lines
         const auto satisfied = [&] { return options.first_only && !mine.pairs.empty(); };
         Sieve sieve(input, mine, bad[chunk]);
         searched[chunk] = search.visit(chunk, [&](const candidate_block& block) {
@@ -64,15 +64,15 @@ mesh_intersection_result sieved(const pair_search<3>& search, const Input& input
         found[chunk] = std::move(mine);
         progress.chunk_done();
     });
-    detail::bad_faces met;
+    detail::intersect::bad_faces met;
     mesh_intersection_result result;
     for (std::size_t chunk = 0; chunk < std::min(last.load() + 1, chunks); ++chunk) {
         add(bad[chunk], met);
         result.searched += searched[chunk];
     }
-    check_faces_met("tf::mesh_intersections", met);
-    if (options.first_only) detail::keep_first(found);
-    detail::join_outputs(found, options.limit, result);
+    check_faces_met("treeform::mesh_intersections", met);
+    if (options.first_only) detail::intersect::keep_first(found);
+    detail::intersect::join_outputs(found, options.limit, result);
     result.cancelled = progress.cancelled();
     return result;
 }
@@ -82,23 +82,23 @@ mesh_intersection_result sieved(const pair_search<3>& search, const Input& input
 mesh_intersection_result mesh_intersections(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                             const tree<3>& tree_b,
                                             const mesh_intersection_options& options) {
-    check_tree("tf::mesh_intersections", "first", a, tree_a);
-    check_tree("tf::mesh_intersections", "second", b, tree_b);
+    check_tree("treeform::mesh_intersections", "first", a, tree_a);
+    check_tree("treeform::mesh_intersections", "second", b, tree_b);
     const pair_search<3> search(transformed(tree_a, options.move_a),
                                 transformed(tree_b, options.move_b), turned_boxes::both_ways);
-    const detail::mesh_pair_input input{
+    const detail::intersect::mesh_pair_input input{
         {a, tree_a, options.move_a}, {b, tree_b, options.move_b}, options.kinds};
-    return sieved<detail::mesh_pair_sieve>(search, input, options);
+    return sieved<detail::intersect::mesh_pair_sieve>(search, input, options);
 }
 
 mesh_intersection_result mesh_intersections(const distance_model& a, const distance_model& b,
                                             const mesh_intersection_options& options) {
     const pair_search<3> search(transformed(a.tree_, options.move_a),
                                 transformed(b.tree_, options.move_b), turned_boxes::both_ways);
-    const detail::block_pair_input input{{a.triangles_, a.tree_, options.move_a},
-                                         {b.triangles_, b.tree_, options.move_b},
-                                         options.kinds};
-    return sieved<detail::block_pair_sieve>(search, input, options);
+    const detail::intersect::block_pair_input input{{a.triangles_, a.tree_, options.move_a},
+                                                    {b.triangles_, b.tree_, options.move_b},
+                                                    options.kinds};
+    return sieved<detail::intersect::block_pair_sieve>(search, input, options);
 }
 
 mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
@@ -108,19 +108,19 @@ mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
 
 bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
                 const mesh_positions& positions) {
-    check_tree("tf::intersects", "first", a, tree_a);
-    check_tree("tf::intersects", "second", b, tree_b);
+    check_tree("treeform::intersects", "first", a, tree_a);
+    check_tree("treeform::intersects", "second", b, tree_b);
     mesh_intersection_options all;
-    const detail::mesh_pair_input input{
+    const detail::intersect::mesh_pair_input input{
         {a, tree_a, positions.move_a}, {b, tree_b, positions.move_b}, all.kinds};
     std::mutex mutex;  // taken for a bad face only
-    detail::bad_faces bad;
+    detail::intersect::bad_faces bad;
     const bool found = search_any_broad(
         transformed(tree_a, positions.move_a), transformed(tree_b, positions.move_b),
         [&](const candidate_block& block) {
-            detail::sieve_output output;
-            detail::bad_faces met;
-            detail::mesh_pair_sieve(input, output, met).add(block);
+            detail::intersect::sieve_output output;
+            detail::intersect::bad_faces met;
+            detail::intersect::mesh_pair_sieve(input, output, met).add(block);
             if (met.in_a != met.none || met.in_b != met.none) {
                 const std::lock_guard lock(mutex);
                 add(met, bad);
@@ -128,7 +128,7 @@ bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& 
             return !output.pairs.empty();
         },
         turned_boxes::both_ways);
-    check_faces_met("tf::intersects", bad);
+    check_faces_met("treeform::intersects", bad);
     return found;
 }
 
@@ -136,4 +136,4 @@ bool intersects(mesh_view a, mesh_view b, const mesh_positions& positions) {
     return intersects(a, face_tree(a), b, face_tree(b), positions);
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,8 +1,8 @@
-#include <libmesh/intersect/detail/mesh_pair_sieve.hpp>
+#include <libmesh/intersect/mesh_pair_sieve.hpp>
 
 #include <algorithm>
 
-namespace tf::detail {
+namespace treeform::detail::intersect {
 
 void mesh_pair_sieve::add(const candidate_block& block) {
     output_.box_pairs += block.first.size();
@@ -35,4 +35,4 @@ void mesh_pair_sieve::add_pair(const face_numbers& pair) {
     if (has_a_ && has_b) decider_.add(pair, corners_of_a_, b);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::intersect

@@ -1,12 +1,12 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/intersect/detail/pair_decider.hpp>
+#include <libmesh/intersect/pair_decider.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 
-namespace tf::detail {
+namespace treeform::detail::intersect {
 namespace {
 
 /// Whether no coordinate is NaN or larger in magnitude than `limit`.
@@ -67,7 +67,7 @@ triangle3 pair_decider::batched(std::size_t i, std::size_t first_corner) const {
 
 void pair_decider::decide(const face_numbers& pair, const triangle3& a, const triangle3& b) {
     ++output_.exact_pairs;
-    const triangle_contact common = intersect(a, b, &output_.predicates);
+    const triangle_contact common = treeform::intersect(a, b, &output_.predicates);
     if (common.kind == overlap::none) return;
     if (collinear(a[0], a[1], a[2], &output_.predicates) ||
         collinear(b[0], b[1], b[2], &output_.predicates))
@@ -85,4 +85,4 @@ void pair_decider::record(const face_numbers& pair, pair_kind kind) {
     output_.pairs.push_back({pair.a, pair.b, kind});
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::intersect

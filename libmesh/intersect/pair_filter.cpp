@@ -1,5 +1,5 @@
-#include <libmesh/exact/detail/filter.hpp>
-#include <libmesh/intersect/detail/pair_filter.hpp>
+#include <libmesh/exact/filter.hpp>
+#include <libmesh/intersect/pair_filter.hpp>
 
 #include <array>
 #include <bit>
@@ -11,7 +11,7 @@
 
 #ifndef TREEFORM_PAIR_FILTER_ONCE
 #define TREEFORM_PAIR_FILTER_ONCE
-namespace tf::detail {
+namespace treeform::detail::intersect {
 namespace {
 
 /// Class and corners by the equality of corner numbers: bit 3r + i of the index says that corner i
@@ -47,11 +47,11 @@ constexpr auto sharing_of = [] {
 }();
 
 }  // namespace
-}  // namespace tf::detail
+}  // namespace treeform::detail::intersect
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace tf::detail::HWY_NAMESPACE {
+namespace treeform::detail::intersect::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -139,8 +139,9 @@ class plane {
         const lanes_tag d;
         const lanes value = dot(normal_, w);
         const lanes permanent = dot(permanent_, abs(w));
-        const lanes error = hn::Mul(hn::Set(d, error_factor<orient3d_polynomial>), permanent);
-        const lanes_mask known = hn::Ge(permanent, hn::Set(d, least_permanent));
+        const lanes error =
+            hn::Mul(hn::Set(d, exact::error_factor<exact::orient3d_polynomial>), permanent);
+        const lanes_mask known = hn::Ge(permanent, hn::Set(d, exact::least_permanent));
         return {hn::And(known, hn::Gt(value, error)),
                 hn::And(known, hn::Lt(value, hn::Neg(error)))};
     }
@@ -155,8 +156,9 @@ class plane {
   private:
     static sides turn(lanes value, lanes permanent) {
         const lanes_tag d;
-        const lanes error = hn::Mul(hn::Set(d, error_factor<orient2d_polynomial>), permanent);
-        const lanes_mask known = hn::Ge(permanent, hn::Set(d, least_permanent));
+        const lanes error =
+            hn::Mul(hn::Set(d, exact::error_factor<exact::orient2d_polynomial>), permanent);
+        const lanes_mask known = hn::Ge(permanent, hn::Set(d, exact::least_permanent));
         return {hn::And(known, hn::Gt(value, error)),
                 hn::And(known, hn::Lt(value, hn::Neg(error)))};
     }
@@ -354,11 +356,11 @@ batch_verdict separate_pairs(const pair_batch<6>& batch, std::size_t count) {
 }
 
 }  // namespace
-}  // namespace tf::detail::HWY_NAMESPACE
+}  // namespace treeform::detail::intersect::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tf::detail {
+namespace treeform::detail::intersect {
 
 HWY_EXPORT(sort_candidates);
 HWY_EXPORT(edge_pairs);
@@ -379,5 +381,5 @@ batch_verdict filter_separate_pairs(const pair_batch<6>& batch, std::size_t coun
     return HWY_DYNAMIC_DISPATCH(separate_pairs)(batch, count);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::intersect
 #endif

@@ -1,10 +1,10 @@
-#include <libmesh/intersect/detail/classify_pair.hpp>
-#include <libmesh/intersect/detail/pair_sieve.hpp>
+#include <libmesh/intersect/classify_pair.hpp>
+#include <libmesh/intersect/pair_sieve.hpp>
 
 #include <algorithm>
 #include <bit>
 
-namespace tf::detail {
+namespace treeform::detail::intersect {
 namespace {
 
 constexpr std::size_t vector_pairs = 8;  // at most in a vector of the filter
@@ -114,4 +114,4 @@ void pair_sieve::record(const candidate& pair, pair_kind kind) {
     output_.pairs.push_back({low, high, kind});
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::intersect

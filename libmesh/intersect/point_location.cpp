@@ -1,13 +1,13 @@
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/stars.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/detail/flat_triangle.hpp>
-#include <libmesh/geometry/detail/signs.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libtree/build.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/ray.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/geometry/flat_triangle.hpp>
+#include <libmesh/geometry/signs.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/ray.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +17,15 @@
 #include <string>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr std::size_t grain = 256;                        // points a chunk
 constexpr std::size_t star_grain = std::size_t{1} << 14;  // points of the mesh a chunk
 
-[[noreturn]] void refuse(const std::string& why) { throw std::invalid_argument("tf::" + why); }
+[[noreturn]] void refuse(const std::string& why) {
+    throw std::invalid_argument("treeform::" + why);
+}
 
 bool is_finite(const point2& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 bool is_finite(const point3& p) {
@@ -47,7 +49,8 @@ struct tally {
 int order(double a, double b) {
     const point3 p{a, 0, 0};
     const point3 q{b, 0, 0};
-    return detail::lexicographically_less(q, p) - detail::lexicographically_less(p, q);
+    return detail::geometry::lexicographically_less(q, p) -
+           detail::geometry::lexicographically_less(p, q);
 }
 
 // Faces, seen along x: a face is passed through when the point, moved to y + eps, z + eps^2, lies
@@ -156,9 +159,9 @@ void check_edges(const char* function, curve_view curves) {
 }  // namespace
 
 std::optional<std::array<std::uint32_t, 2>> find_open_edge(mesh_view mesh) {
-    detail::check_faces("find_open_edge", mesh.points.size(), mesh.faces);
-    const std::size_t count = detail::nameable_points(mesh.points.size());
-    const detail::stars stars(count, mesh.faces);
+    detail::base::check_faces("find_open_edge", mesh.points.size(), mesh.faces);
+    const std::size_t count = detail::base::nameable_points(mesh.points.size());
+    const detail::base::stars stars(count, mesh.faces);
     using edge = std::array<std::uint32_t, 2>;
     std::vector<std::optional<edge>> first(chunk_count(stars.size(), star_grain));
     for_chunks(stars.size(), star_grain,
@@ -242,4 +245,4 @@ std::vector<point_location> curve_locator::locate(std::span<const point2> points
     return locate_all(*this, points, "curve_locator");
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,7 +1,7 @@
-#include <libmesh/geometry/detail/features.hpp>
-#include <libmesh/intersect/ray_query.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/ray.hpp>
+#include <libmesh/geometry/features.hpp>
+#include <treeform/mesh/ray_query.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/ray.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr std::size_t grain = 256;  // rays a chunk
@@ -27,7 +27,8 @@ void check(const ray3& ray, std::size_t number) {
                       : std::isnan(ray.t_min) || std::isnan(ray.t_max)
                           ? " has a parameter that is not a number"
                           : nullptr;
-    if (why) throw std::invalid_argument("tf::ray_query: ray " + std::to_string(number) + why);
+    if (why)
+        throw std::invalid_argument("treeform::ray_query: ray " + std::to_string(number) + why);
 }
 
 void check(std::span<const ray3> rays) {
@@ -44,10 +45,10 @@ struct face_contact {
 std::array<std::uint32_t, 2> place_of(mesh_view mesh, const face_contact& c) {
     constexpr auto none = std::numeric_limits<std::uint32_t>::max();
     const face& f = mesh.faces[c.face];
-    const auto i = static_cast<std::size_t>(detail::index_of(c.contact.at));
-    if (detail::is_corner(c.contact.at)) return {f[i], f[i]};
+    const auto i = static_cast<std::size_t>(detail::geometry::index_of(c.contact.at));
+    if (detail::geometry::is_corner(c.contact.at)) return {f[i], f[i]};
     // In a plane, the ray may enter an edge anywhere on it.
-    if (!detail::is_edge(c.contact.at) || c.contact.coplanar) return {c.face, none};
+    if (!detail::geometry::is_edge(c.contact.at) || c.contact.coplanar) return {c.face, none};
     const std::uint32_t j = f[(i + 1) % 3];
     return {std::min(f[i], j), std::max(f[i], j)};
 }
@@ -66,9 +67,9 @@ mesh_hit hit_of(const face_contact& c) {
 
 ray_query::ray_query(mesh_view mesh, const tree<3>& tree) : mesh_(mesh), tree_(&tree) {
     if (tree.size() != mesh.faces.size())
-        throw std::invalid_argument("tf::ray_query: a tree over " + std::to_string(tree.size()) +
-                                    " elements for " + std::to_string(mesh.faces.size()) +
-                                    " faces");
+        throw std::invalid_argument("treeform::ray_query: a tree over " +
+                                    std::to_string(tree.size()) + " elements for " +
+                                    std::to_string(mesh.faces.size()) + " faces");
 }
 
 triangle3 ray_query::corners(std::uint32_t id) const {
@@ -159,4 +160,4 @@ std::vector<std::uint8_t> ray_query::any(std::span<const ray3> rays) const {
     return found;
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,6 +1,6 @@
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/intersect/regions.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <treeform/mesh/regions.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -8,16 +8,16 @@
 #include <stdexcept>
 #include <string>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
 void check(mesh_view mesh, std::span<const face_pair> pairs) {
-    detail::check_faces("group_pairs", mesh.points.size(), mesh.faces);
+    detail::base::check_faces("group_pairs", mesh.points.size(), mesh.faces);
     for (std::size_t i = 0; i < pairs.size(); ++i)
         if (std::max(pairs[i].a, pairs[i].b) >= mesh.faces.size())
-            throw std::invalid_argument("tf::group_pairs: pair " + std::to_string(i) +
+            throw std::invalid_argument("treeform::group_pairs: pair " + std::to_string(i) +
                                         " has a face that is not in the mesh");
 }
 
@@ -44,7 +44,7 @@ intersection_regions group_pairs(mesh_view mesh, std::span<const face_pair> pair
     check(mesh, pairs);
     if (pairs.empty()) return {};
     const std::vector<std::uint32_t> faces = faces_of(pairs, mesh.faces.size());
-    detail::union_find linked(mesh.faces.size());
+    detail::base::union_find linked(mesh.faces.size());
     for (const face_pair& pair : pairs) linked.join(pair.a, pair.b);
     std::vector<std::uint32_t> face_at(mesh.points.size(), nobody);
     for (const std::uint32_t f : faces)
@@ -74,4 +74,4 @@ intersection_regions group_pairs(mesh_view mesh, std::span<const face_pair> pair
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

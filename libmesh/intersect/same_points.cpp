@@ -1,7 +1,7 @@
-#include <libmesh/intersect/detail/same_points.hpp>
-#include <libtree/build.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/search_self.hpp>
+#include <libmesh/intersect/same_points.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search_self.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::intersect {
 namespace {
 
 constexpr double most = std::numeric_limits<double>::max();  // trees have finite boxes
@@ -80,4 +80,4 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> equal_pairs(
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::intersect

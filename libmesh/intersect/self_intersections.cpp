@@ -1,12 +1,12 @@
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/checked_face_tree.hpp>
-#include <libmesh/detail/first_bad.hpp>
-#include <libmesh/intersect/detail/join_outputs.hpp>
-#include <libmesh/intersect/detail/pair_sieve.hpp>
-#include <libmesh/intersect/detail/pairs_by_tree.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/search_self.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/checked_face_tree.hpp>
+#include <libmesh/base/first_bad.hpp>
+#include <libmesh/intersect/join_outputs.hpp>
+#include <libmesh/intersect/pair_sieve.hpp>
+#include <libmesh/intersect/pairs_by_tree.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search_self.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -16,7 +16,7 @@
 #include <string>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 14;
@@ -26,32 +26,32 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 void check(mesh_view mesh, const self_intersection_options& options) {
-    detail::check_faces("self_intersections", mesh.points.size(), mesh.faces);
-    const std::size_t bad_point = detail::first_bad(mesh.points.size(), [&](std::size_t i) {
+    detail::base::check_faces("self_intersections", mesh.points.size(), mesh.faces);
+    const std::size_t bad_point = detail::base::first_bad(mesh.points.size(), [&](std::size_t i) {
         const point3& p = mesh.points[i];
         return !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
     });
     if (bad_point != mesh.points.size())
-        throw std::invalid_argument("tf::self_intersections: point " + std::to_string(bad_point) +
-                                    " is not finite");
+        throw std::invalid_argument("treeform::self_intersections: point " +
+                                    std::to_string(bad_point) + " is not finite");
     const std::size_t labels = options.component_of_face.size();
     if (labels != mesh.faces.size() && (labels != 0 || options.between || options.within))
-        throw std::invalid_argument("tf::self_intersections: " + std::to_string(labels) +
+        throw std::invalid_argument("treeform::self_intersections: " + std::to_string(labels) +
                                     " components for " + std::to_string(mesh.faces.size()) +
                                     " faces");
 }
 
 bool fits_filter(points_view points) {
-    return detail::first_bad(points.size(), [&](std::size_t i) {
+    return detail::base::first_bad(points.size(), [&](std::size_t i) {
                const point3& p = points[i];
                return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <=
-                        detail::largest_filtered_coordinate);
+                        detail::intersect::largest_filtered_coordinate);
            }) == points.size();
 }
 
 /// The faces in leaf order, so that candidates find theirs side by side.
-detail::buffer<detail::numbered_face> leaf_order(mesh_view mesh, const tree<3>& tree) {
-    detail::buffer<detail::numbered_face> faces(mesh.faces.size());
+detail::buffer<detail::intersect::numbered_face> leaf_order(mesh_view mesh, const tree<3>& tree) {
+    detail::buffer<detail::intersect::numbered_face> faces(mesh.faces.size());
     for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t id = tree.ids()[i];
@@ -68,27 +68,29 @@ self_intersection_result self_intersections(mesh_view mesh,
                                             const self_intersection_options& options) {
     check(mesh, options);
     const auto start = std::chrono::steady_clock::now();
-    tree<3> tree = detail::checked_face_tree(mesh);
+    tree<3> tree = detail::base::checked_face_tree(mesh);
     const double seconds = seconds_since(start);
-    self_intersection_result result = detail::pairs_by_tree(mesh, std::move(tree), options);
+    self_intersection_result result =
+        detail::intersect::pairs_by_tree(mesh, std::move(tree), options);
     result.tree_seconds = seconds;
     return result;
 }
 
-self_intersection_result detail::pairs_by_tree(mesh_view mesh, tree<3> tree,
-                                               const self_intersection_options& options) {
+self_intersection_result detail::intersect::pairs_by_tree(
+    mesh_view mesh, tree<3> tree, const self_intersection_options& options) {
     self_intersection_result result;
     const auto pair_start = std::chrono::steady_clock::now();
-    const detail::buffer<detail::numbered_face> faces = leaf_order(mesh, tree);
-    const detail::sieve_input input{mesh.points, faces.span(), &options, fits_filter(mesh.points)};
+    const detail::buffer<detail::intersect::numbered_face> faces = leaf_order(mesh, tree);
+    const detail::intersect::sieve_input input{mesh.points, faces.span(), &options,
+                                               fits_filter(mesh.points)};
     const self_search<3> search(tree);
-    std::vector<detail::sieve_output> found(search.chunks());
-    detail::search_progress progress(options.progress, search.chunks());
+    std::vector<detail::intersect::sieve_output> found(search.chunks());
+    detail::intersect::search_progress progress(options.progress, search.chunks());
     std::atomic<std::size_t> last{search.chunks()};  // the first chunk that found enough
     for_chunks(search.chunks(), 1, [&](std::size_t chunk, std::size_t, std::size_t) {
         const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
         const auto satisfied = [&] { return options.first_only && !found[chunk].pairs.empty(); };
-        detail::pair_sieve sieve(input, found[chunk]);
+        detail::intersect::pair_sieve sieve(input, found[chunk]);
         search.visit(chunk, [&](const candidate_block& block) {
             sieve.add(block);
             return !satisfied() && !not_needed();
@@ -96,11 +98,11 @@ self_intersection_result detail::pairs_by_tree(mesh_view mesh, tree<3> tree,
         if (satisfied()) detail::lower(last, chunk);
         progress.chunk_done();
     });
-    if (options.first_only) detail::keep_first(found);
-    detail::join_outputs(found, options.limit, result);
+    if (options.first_only) detail::intersect::keep_first(found);
+    detail::intersect::join_outputs(found, options.limit, result);
     result.cancelled = progress.cancelled();
     result.pair_seconds = seconds_since(pair_start);
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

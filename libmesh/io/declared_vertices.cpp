@@ -1,12 +1,12 @@
-#include <libmesh/io/detail/declared_vertices.hpp>
-#include <libmesh/io/detail/is_value_of.hpp>
-#include <libmesh/io/detail/ply_header.hpp>
-#include <libmesh/io/detail/vertex_columns.hpp>
+#include <libmesh/io/declared_vertices.hpp>
+#include <libmesh/io/is_value_of.hpp>
+#include <libmesh/io/ply_header.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>
 #include <stdexcept>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -65,4 +65,4 @@ void check_axes(const write_job& job, bool text, const element& declared,
     }
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

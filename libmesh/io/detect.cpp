@@ -1,15 +1,15 @@
-#include <libmesh/io/detail/byte_order.hpp>
-#include <libmesh/io/detail/detect.hpp>
-#include <libmesh/io/detail/heading.hpp>
-#include <libmesh/io/detail/readers.hpp>
-#include <libmesh/io/detail/text.hpp>
+#include <libmesh/io/byte_order.hpp>
+#include <libmesh/io/detect.hpp>
+#include <libmesh/io/heading.hpp>
+#include <libmesh/io/readers.hpp>
+#include <libmesh/io/text.hpp>
 
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -132,4 +132,4 @@ detected detect(const source& in, std::string_view format, std::string_view exte
     in.fail("not a format that is read");
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

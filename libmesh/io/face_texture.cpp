@@ -1,7 +1,7 @@
-#include <libmesh/io/detail/face_texture.hpp>
-#include <libmesh/io/detail/reserve.hpp>
-#include <libmesh/io/detail/vertex_columns.hpp>
-#include <libmesh/io/detail/writers.hpp>
+#include <libmesh/io/face_texture.hpp>
+#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/vertex_columns.hpp>
+#include <libmesh/io/writers.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -157,4 +157,4 @@ void take_face_texture(mesh_file& file) {
     }
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

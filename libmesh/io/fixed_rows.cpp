@@ -1,11 +1,11 @@
-#include <libmesh/io/detail/byte_order.hpp>
-#include <libmesh/io/detail/fixed_rows.hpp>
-#include <libmesh/io/detail/row_values.hpp>
-#include <libmesh/io/detail/vertex_columns.hpp>
+#include <libmesh/io/byte_order.hpp>
+#include <libmesh/io/fixed_rows.hpp>
+#include <libmesh/io/row_values.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::size_t fixed_row_size(const element& e) {
     return size;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,7 +1,7 @@
-#include <libmesh/io/detail/extension.hpp>
-#include <libmesh/io/detail/formats.hpp>
+#include <libmesh/io/extension.hpp>
+#include <libmesh/io/formats.hpp>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -27,4 +27,4 @@ const known_format& find_format(const std::filesystem::path& path, const write_o
     throw io_error(path.string() + ": format '" + wanted + "' cannot be written");
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

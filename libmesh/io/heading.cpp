@@ -1,9 +1,9 @@
-#include <libmesh/io/detail/heading.hpp>
-#include <libmesh/io/detail/number.hpp>
+#include <libmesh/io/heading.hpp>
+#include <libmesh/io/number.hpp>
 
 #include <algorithm>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::optional<std::array<std::size_t, 3>> find_axes(const std::vector<std::strin
     return axes;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,5 +1,5 @@
-#include <libmesh/io/detail/byte_order.hpp>
-#include <libmesh/io/detail/json_depth.hpp>
+#include <libmesh/io/byte_order.hpp>
+#include <libmesh/io/json_depth.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -110,4 +110,4 @@ void refuse_deep_json(const source& gltf) {
     if (many_parents(json)) refuse_deep_nodes(gltf, children_of(gltf, json));
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,4 +1,4 @@
-#include <libmesh/io/detail/lzf.hpp>
+#include <libmesh/io/lzf.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -146,4 +146,4 @@ std::size_t lzf_pack(std::string_view bytes, char* to, const lzf_progress& progr
     return packer(bytes, to).pack(progress);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

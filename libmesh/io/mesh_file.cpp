@@ -1,14 +1,14 @@
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/io/mesh_file.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-namespace tf {
+namespace treeform {
 
 namespace {
 
-bool fits_single(double x) { return !std::isfinite(x) || detail::nearest_float(x) == x; }
+bool fits_single(double x) { return !std::isfinite(x) || detail::base::nearest_float(x) == x; }
 
 }  // namespace
 
@@ -31,4 +31,4 @@ void split_polygons(mesh_file& file) {
     file.stored_faces = file.mesh.faces.size();
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,12 +1,12 @@
-#include <libmesh/io/detail/obj_corners.hpp>
-#include <libmesh/io/detail/reserve.hpp>
+#include <libmesh/io/obj_corners.hpp>
+#include <libmesh/io/reserve.hpp>
 
 #include <array>
 #include <limits>
 #include <string>
 #include <string_view>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -87,4 +87,4 @@ void obj_corners::add_numbers(text& t, std::size_t corner, std::size_t triangles
     normal_fans_.add(normal, corner, triangles, expected_triangles_, values_.normal_of_corner);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,6 +1,6 @@
-#include <libmesh/io/detail/pcd_header.hpp>
-#include <libmesh/io/detail/text.hpp>
-#include <libmesh/io/detail/vertex_columns.hpp>
+#include <libmesh/io/pcd_header.hpp>
+#include <libmesh/io/text.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -244,4 +244,4 @@ std::string_view name_of(pcd_encoding encoding) {
 
 pcd_header read_pcd_header(const source& in) { return header_reader(in).read(); }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

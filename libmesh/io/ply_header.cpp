@@ -1,10 +1,10 @@
-#include <libmesh/io/detail/ply_header.hpp>
-#include <libmesh/io/detail/text.hpp>
+#include <libmesh/io/ply_header.hpp>
+#include <libmesh/io/text.hpp>
 
 #include <array>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -229,4 +229,4 @@ std::string_view name_of(scalar_type type) {
 
 ply_header read_ply_header(const source& in) { return header_reader(in).read(); }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,14 +1,14 @@
-#include <libmesh/io/detail/formats.hpp>
-#include <libmesh/io/detail/sink.hpp>
-#include <libmesh/io/detail/vertex_columns.hpp>
-#include <libmesh/io/point_stream.hpp>
+#include <libmesh/io/formats.hpp>
+#include <libmesh/io/sink.hpp>
+#include <libmesh/io/vertex_columns.hpp>
+#include <treeform/mesh/point_stream.hpp>
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 
 namespace {
 
@@ -27,9 +27,9 @@ namespace {
     for (const element& e : header.attributes.elements) {
         if (e.name != "vertex" && e.rows > 0)
             refuse("the header's element " + e.name + " has rows");
-        detail::restart(head.attributes.elements.emplace_back(), e);
+        detail::io::restart(head.attributes.elements.emplace_back(), e);
     }
-    for (const element& e : head.attributes.elements) detail::check_columns(e);
+    for (const element& e : head.attributes.elements) detail::io::check_columns(e);
     return head;
 }
 
@@ -51,11 +51,11 @@ struct point_writer::state {
     state(const std::filesystem::path& path, const mesh_file& header, std::uint64_t points,
           const write_options& wanted)
         : count(points), options(wanted), head(without_points(header)) {
-        const detail::known_format& format = detail::find_format(path, options);
+        const detail::io::known_format& format = detail::io::find_format(path, options);
         if (format.start == nullptr)
             throw io_error(path.string() + ": only PLY, PCD, XYZ and CSV are written in blocks");
         result.format =
-            detail::writes_text(format, options) ? format.text_name : format.binary_name;
+            detail::io::writes_text(format, options) ? format.text_name : format.binary_name;
         result.written_as = options.precision.value_or(head.stored_as);
         file.emplace(path);
         out.emplace(file->descriptor(), file->name());
@@ -70,7 +70,7 @@ struct point_writer::state {
             refuse("another number of rows than there are points");
         if (!same_columns(properties, find_element(head.attributes, "vertex")))
             refuse("the columns are not those of the header");
-        detail::check_columns(properties);
+        detail::io::check_columns(properties);
         if (result.written_as == precision::single_ && !options.precision &&
             !fits_single(block.points))
             refuse("a coordinate is no float32 value, as the header says");
@@ -81,9 +81,9 @@ struct point_writer::state {
     write_options options;
     mesh_file head;
     write_result result{};
-    std::optional<detail::output_file> file{};
-    std::optional<detail::sink> out{};
-    detail::point_sink rows{};
+    std::optional<detail::io::output_file> file{};
+    std::optional<detail::io::sink> out{};
+    detail::io::point_sink rows{};
 };
 
 point_writer::point_writer(const std::filesystem::path& path, const mesh_file& header,
@@ -97,8 +97,9 @@ void point_writer::write(const point_block& block) {
     state& s = *state_;
     s.check(block);
     if (s.result.written_as == precision::single_)
-        s.result.largest_move = std::max(
-            s.result.largest_move, detail::largest_move(block.points, s.written, s.file->name()));
+        s.result.largest_move =
+            std::max(s.result.largest_move,
+                     detail::io::largest_move(block.points, s.written, s.file->name()));
     const bool has_rows = find_element(s.head.attributes, "vertex") != nullptr;
     s.rows.rows(block.points, has_rows ? &block.properties : nullptr);
     s.written += block.points.size();
@@ -115,4 +116,4 @@ write_result point_writer::commit() {
     return std::move(s.result);
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,8 +1,8 @@
-#include <libmesh/io/detail/face_sink.hpp>
-#include <libmesh/io/detail/obj_corners.hpp>
-#include <libmesh/io/detail/readers.hpp>
-#include <libmesh/io/detail/reserve.hpp>
-#include <libmesh/io/detail/text.hpp>
+#include <libmesh/io/face_sink.hpp>
+#include <libmesh/io/obj_corners.hpp>
+#include <libmesh/io/readers.hpp>
+#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/text.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -246,4 +246,4 @@ mesh_file read_obj(const source& in) {
     return reader.take();
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,13 +1,13 @@
-#include <libmesh/io/detail/face_sink.hpp>
-#include <libmesh/io/detail/readers.hpp>
-#include <libmesh/io/detail/reserve.hpp>
-#include <libmesh/io/detail/text.hpp>
+#include <libmesh/io/face_sink.hpp>
+#include <libmesh/io/readers.hpp>
+#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/text.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <string>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -225,4 +225,4 @@ class off_reader {
 
 mesh_file read_off(const source& in) { return off_reader(in).read(); }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

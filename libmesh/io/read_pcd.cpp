@@ -1,12 +1,12 @@
-#include <libmesh/io/detail/byte_order.hpp>
-#include <libmesh/io/detail/lzf.hpp>
-#include <libmesh/io/detail/pcd_header.hpp>
-#include <libmesh/io/detail/point_rows.hpp>
-#include <libmesh/io/detail/readers.hpp>
-#include <libmesh/io/detail/reserve.hpp>
-#include <libmesh/io/detail/scratch.hpp>
-#include <libmesh/io/detail/vertex_columns.hpp>
-#include <libmesh/io/detail/vertex_rows.hpp>
+#include <libmesh/io/byte_order.hpp>
+#include <libmesh/io/lzf.hpp>
+#include <libmesh/io/pcd_header.hpp>
+#include <libmesh/io/point_rows.hpp>
+#include <libmesh/io/readers.hpp>
+#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/scratch.hpp>
+#include <libmesh/io/vertex_columns.hpp>
+#include <libmesh/io/vertex_rows.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -164,4 +164,4 @@ mesh_file read_pcd(const source& in) {
 
 point_rows open_pcd_points(const source& in) { return open(in, scratch_place::file); }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

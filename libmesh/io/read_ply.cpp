@@ -1,12 +1,12 @@
-#include <libmesh/io/detail/face_sink.hpp>
-#include <libmesh/io/detail/face_texture.hpp>
-#include <libmesh/io/detail/ply_header.hpp>
-#include <libmesh/io/detail/point_rows.hpp>
-#include <libmesh/io/detail/readers.hpp>
-#include <libmesh/io/detail/reserve.hpp>
-#include <libmesh/io/detail/row_values.hpp>
-#include <libmesh/io/detail/vertex_columns.hpp>
-#include <libmesh/io/detail/vertex_rows.hpp>
+#include <libmesh/io/face_sink.hpp>
+#include <libmesh/io/face_texture.hpp>
+#include <libmesh/io/ply_header.hpp>
+#include <libmesh/io/point_rows.hpp>
+#include <libmesh/io/readers.hpp>
+#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/row_values.hpp>
+#include <libmesh/io/vertex_columns.hpp>
+#include <libmesh/io/vertex_rows.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -198,4 +198,4 @@ point_rows open_ply_points(const source& in) {
     return rows;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,8 +1,8 @@
-#include <libmesh/io/detail/face_sink.hpp>
-#include <libmesh/io/detail/json_depth.hpp>
-#include <libmesh/io/detail/readers.hpp>
-#include <libmesh/io/detail/scene_depth.hpp>
-#include <libmesh/io/read.hpp>
+#include <libmesh/io/face_sink.hpp>
+#include <libmesh/io/json_depth.hpp>
+#include <libmesh/io/readers.hpp>
+#include <libmesh/io/scene_depth.hpp>
+#include <treeform/mesh/read.hpp>
 
 #include <assimp/BaseImporter.h>
 #include <assimp/Importer.hpp>
@@ -34,7 +34,7 @@ void aiAssertViolation(const char*, const char*, int) {
 
 }  // namespace Assimp
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -228,6 +228,6 @@ mesh_file read_scene(const source& in, const std::filesystem::path& path,
     return file;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io
 
-bool tf::reads_scenes() { return true; }
+bool treeform::reads_scenes() { return true; }

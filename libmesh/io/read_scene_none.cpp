@@ -1,9 +1,9 @@
-#include <libmesh/io/detail/readers.hpp>
-#include <libmesh/io/read.hpp>
+#include <libmesh/io/readers.hpp>
+#include <treeform/mesh/read.hpp>
 
 #include <string>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 bool scene_format(std::string_view) { return false; }
 
@@ -11,6 +11,6 @@ mesh_file read_scene(const source& in, const std::filesystem::path&, std::string
     in.fail("format '" + std::string(extension) + "' needs a build with assimp");
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io
 
-bool tf::reads_scenes() { return false; }
+bool treeform::reads_scenes() { return false; }

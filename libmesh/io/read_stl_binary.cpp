@@ -1,12 +1,12 @@
-#include <libmesh/io/detail/byte_order.hpp>
-#include <libmesh/io/detail/readers.hpp>
-#include <libmesh/io/detail/reserve.hpp>
+#include <libmesh/io/byte_order.hpp>
+#include <libmesh/io/readers.hpp>
+#include <libmesh/io/reserve.hpp>
 
 #include <array>
 #include <limits>
 #include <string>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -102,4 +102,4 @@ mesh_file read_stl_binary(const source& in) {
     return file;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,11 +1,11 @@
-#include <libmesh/io/detail/readers.hpp>
-#include <libmesh/io/detail/reserve.hpp>
-#include <libmesh/io/detail/text.hpp>
+#include <libmesh/io/readers.hpp>
+#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/text.hpp>
 
 #include <limits>
 #include <string>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -108,4 +108,4 @@ class stl_text_reader {
 
 mesh_file read_stl_text(const source& in) { return stl_text_reader(in).read(); }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,8 +1,8 @@
-#include <libmesh/io/detail/heading.hpp>
-#include <libmesh/io/detail/point_rows.hpp>
-#include <libmesh/io/detail/readers.hpp>
-#include <libmesh/io/detail/text.hpp>
-#include <libmesh/io/detail/vertex_columns.hpp>
+#include <libmesh/io/heading.hpp>
+#include <libmesh/io/point_rows.hpp>
+#include <libmesh/io/readers.hpp>
+#include <libmesh/io/text.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -267,4 +267,4 @@ point_rows open_xyz_points(const source& in, std::string_view format) {
     return rows;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,10 +1,10 @@
-#include <libmesh/io/detail/reserve.hpp>
+#include <libmesh/io/reserve.hpp>
 
 #include <sys/mman.h>
 
 #include <cstdint>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 void prefer_large_pages(void* memory, std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
@@ -20,4 +20,4 @@ void prefer_large_pages(void* memory, std::size_t bytes) {
 #endif
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,5 +1,5 @@
-#include <libmesh/io/detail/byte_order.hpp>
-#include <libmesh/io/detail/scene_depth.hpp>
+#include <libmesh/io/byte_order.hpp>
+#include <libmesh/io/scene_depth.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -128,4 +128,4 @@ void refuse_deep_scene(const source& scene) {
     refuse_deep_tags(scene, text);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,5 +1,5 @@
-#include <libmesh/io/detail/scratch.hpp>
-#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/scratch.hpp>
+#include <treeform/mesh/io_error.hpp>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -12,7 +12,7 @@
 #include <string>
 #include <system_error>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -63,4 +63,4 @@ void scratch::give_back() const {
     if (place_ == scratch_place::file && size_ > 0) ::madvise(data_, size_, MADV_DONTNEED);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

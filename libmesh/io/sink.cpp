@@ -1,5 +1,5 @@
-#include <libmesh/io/detail/sink.hpp>
-#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/sink.hpp>
+#include <treeform/mesh/io_error.hpp>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <system_error>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 void sink::flush() {
     const char* at = buffer_.data();
@@ -79,4 +79,4 @@ void output_file::fail(int error) const {
     throw io_error(name_ + ": " + std::generic_category().message(error));
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,5 +1,5 @@
-#include <libmesh/io/detail/source.hpp>
-#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/source.hpp>
+#include <treeform/mesh/io_error.hpp>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -189,4 +189,4 @@ void source::fail(std::string_view reason) const {
     throw io_error(name_ + ": " + std::string(reason));
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,7 +1,7 @@
-#include <libmesh/io/detail/formats.hpp>
-#include <libmesh/io/detail/number.hpp>
-#include <libmesh/io/detail/writers.hpp>
-#include <libmesh/io/write.hpp>
+#include <libmesh/io/formats.hpp>
+#include <libmesh/io/number.hpp>
+#include <libmesh/io/writers.hpp>
+#include <treeform/mesh/write.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace tf {
+namespace treeform {
 
 namespace {
 
@@ -19,7 +19,7 @@ namespace {
 
 }  // namespace
 
-namespace detail {
+namespace detail::io {
 
 void check_columns(const element& e) {
     for (const column& c : e.columns) {
@@ -62,7 +62,7 @@ std::vector<const column*> colour_columns(const mesh_file& file, std::string_vie
     return found.empty() ? scalar_columns(file, element_name, std::span(names).first(3)) : found;
 }
 
-}  // namespace detail
+}  // namespace detail::io
 
 namespace {
 
@@ -99,16 +99,16 @@ void check_attributes(const mesh_file& file) {
     for (const element& e : file.attributes.elements) {
         if (e.name == "vertex" && e.rows != file.mesh.points.size())
             refuse("element vertex has another number of rows than there are points");
-        if (e.name == "face" && e.rows != detail::stored_face_count(file))
+        if (e.name == "face" && e.rows != detail::io::stored_face_count(file))
             refuse("element face has another number of rows than there are stored faces");
-        detail::check_columns(e);
+        detail::io::check_columns(e);
     }
 }
 
 }  // namespace
 
-double detail::largest_move(std::span<const point3> points, std::size_t first,
-                            const std::string& name) {
+double detail::io::largest_move(std::span<const point3> points, std::size_t first,
+                                const std::string& name) {
     // Numbers from here on round away from the largest float: half a last place above it.
     constexpr double beyond = 0x1.ffffffp127;
     double largest = 0.0;
@@ -119,7 +119,7 @@ double detail::largest_move(std::span<const point3> points, std::size_t first,
             if (std::abs(x) >= beyond)
                 throw io_error(name + ": vertex " + std::to_string(first + v) +
                                " is beyond the range of float32");
-            largest = std::max(largest, std::abs(detail::nearest_float(x) - x));
+            largest = std::max(largest, std::abs(detail::base::nearest_float(x) - x));
         }
     }
     return largest;
@@ -133,10 +133,10 @@ class writing {
         : file_(file),
           options_(options),
           name_(path.string()),
-          format_(detail::find_format(path, options)) {
+          format_(detail::io::find_format(path, options)) {
         check_faces(file);
         check_attributes(file);
-        const bool text = detail::writes_text(format_, options);
+        const bool text = detail::io::writes_text(format_, options);
         writer_ = text ? format_.text : format_.binary;
         result_.format = text ? format_.text_name : format_.binary_name;
         result_.written_as = !text && format_.single_only
@@ -147,14 +147,14 @@ class writing {
             !(!text && format_.single_only) && !fits_single(file.mesh.points))
             result_.written_as = precision::double_;
         if (result_.written_as == precision::single_)
-            result_.largest_move = detail::largest_move(file.mesh.points, 0, name_);
+            result_.largest_move = detail::io::largest_move(file.mesh.points, 0, name_);
         if (file.mesh.faces.empty() && !file.mesh.points.empty() &&
             (format_.extension == "stl" || format_.extension == "glb"))
             throw io_error(name_ + ": " + std::string(format_.extension) +
                            " holds no points without faces");
     }
 
-    write_result run(detail::sink& out) {
+    write_result run(detail::io::sink& out) {
         writer_({.file = file_, .options = options_, .result = result_, .out = out});
         warn_of_corner_values();
         warn_of_materials();
@@ -197,8 +197,8 @@ class writing {
     const mesh_file& file_;
     const write_options& options_;
     std::string name_;
-    const detail::known_format& format_;
-    detail::writer writer_ = nullptr;
+    const detail::io::known_format& format_;
+    detail::io::writer writer_ = nullptr;
     write_result result_{};
 };
 
@@ -207,8 +207,8 @@ class writing {
 write_result write_mesh(const std::filesystem::path& path, const mesh_file& file,
                         const write_options& options) {
     writing job(path, file, options);
-    detail::output_file target(path);
-    detail::sink out(target.descriptor(), target.name());
+    detail::io::output_file target(path);
+    detail::io::sink out(target.descriptor(), target.name());
     write_result result = job.run(out);
     target.commit();
     return result;
@@ -216,9 +216,9 @@ write_result write_mesh(const std::filesystem::path& path, const mesh_file& file
 
 std::string write_mesh_to_memory(const mesh_file& file, const write_options& options) {
     std::string bytes;
-    detail::sink out(bytes);
+    detail::io::sink out(bytes);
     (void)writing("memory", file, options).run(out);
     return bytes;
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,12 +1,12 @@
-#include <libmesh/io/detail/declared_vertices.hpp>
-#include <libmesh/io/detail/vertex_columns.hpp>
-#include <libmesh/io/detail/writers.hpp>
+#include <libmesh/io/declared_vertices.hpp>
+#include <libmesh/io/vertex_columns.hpp>
+#include <libmesh/io/writers.hpp>
 
 #include <optional>
 #include <string>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -70,4 +70,4 @@ point_sink start_csv_points(const write_job& job, std::uint64_t) {
     }};
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

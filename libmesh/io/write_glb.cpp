@@ -1,5 +1,5 @@
-#include <libmesh/io/detail/writers.hpp>
-#include <libmesh/io/io_error.hpp>
+#include <libmesh/io/writers.hpp>
+#include <treeform/mesh/io_error.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <map>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -61,7 +61,7 @@ struct primitive {
     double largest = 0.0;
     for (const point3& p : points)
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double local = nearest_float(p[axis] - offset[axis]);
+            const double local = base::nearest_float(p[axis] - offset[axis]);
             largest = std::max(largest, std::abs(local + offset[axis] - p[axis]));
         }
     return largest;
@@ -111,7 +111,7 @@ struct box {
     const auto& points = job.file.mesh.points;
     point3 middle;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        middle[axis] = nearest_float(b.min[axis] / 2 + b.max[axis] / 2);
+        middle[axis] = base::nearest_float(b.min[axis] / 2 + b.max[axis] / 2);
     const double moved = largest_move(points, middle);
     if (moved >= job.result.largest_move) return {};
     job.result.largest_move = moved;
@@ -134,7 +134,7 @@ struct box {
     const auto local = [&](const point3& p) {
         json xyz = json::array();
         for (std::size_t axis = 0; axis < 3; ++axis)
-            xyz.push_back(nearest_float(p[axis] - offset[axis]));
+            xyz.push_back(base::nearest_float(p[axis] - offset[axis]));
         return xyz;
     };
     root["buffers"] = json::array(
@@ -243,4 +243,4 @@ void write_glb(const write_job& job) {
                     static_cast<std::uint32_t>(number_at(*c, face_row(job.file, f))));
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

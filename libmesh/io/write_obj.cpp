@@ -1,8 +1,8 @@
-#include <libmesh/io/detail/writers.hpp>
+#include <libmesh/io/writers.hpp>
 
 #include <string_view>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -107,4 +107,4 @@ void write_obj(const write_job& job) {
     });
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

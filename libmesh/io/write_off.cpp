@@ -1,9 +1,9 @@
-#include <libmesh/io/detail/writers.hpp>
+#include <libmesh/io/writers.hpp>
 
 #include <cmath>
 #include <string>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -87,4 +87,4 @@ void write_off(const write_job& job) {
     });
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,10 +1,10 @@
-#include <libmesh/io/detail/declared_vertices.hpp>
-#include <libmesh/io/detail/lzf.hpp>
-#include <libmesh/io/detail/number.hpp>
-#include <libmesh/io/detail/pcd_header.hpp>
-#include <libmesh/io/detail/scratch.hpp>
-#include <libmesh/io/detail/vertex_columns.hpp>
-#include <libmesh/io/detail/writers.hpp>
+#include <libmesh/io/declared_vertices.hpp>
+#include <libmesh/io/lzf.hpp>
+#include <libmesh/io/number.hpp>
+#include <libmesh/io/pcd_header.hpp>
+#include <libmesh/io/scratch.hpp>
+#include <libmesh/io/vertex_columns.hpp>
+#include <libmesh/io/writers.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -288,4 +288,4 @@ point_sink start_pcd_points(const write_job& job, std::uint64_t count) {
             .finish = [writer] { writer->finish(); }};
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

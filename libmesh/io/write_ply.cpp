@@ -1,9 +1,9 @@
-#include <libmesh/io/detail/declared_vertices.hpp>
-#include <libmesh/io/detail/face_texture.hpp>
-#include <libmesh/io/detail/number.hpp>
-#include <libmesh/io/detail/ply_header.hpp>
-#include <libmesh/io/detail/vertex_columns.hpp>
-#include <libmesh/io/detail/writers.hpp>
+#include <libmesh/io/declared_vertices.hpp>
+#include <libmesh/io/face_texture.hpp>
+#include <libmesh/io/number.hpp>
+#include <libmesh/io/ply_header.hpp>
+#include <libmesh/io/vertex_columns.hpp>
+#include <libmesh/io/writers.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -89,7 +89,8 @@ class ply_writer {
     void declare_vertices(bool by_runs) {
         const std::span<const point3> all(job_.file.mesh.points);
         element& e = declared("vertex", count_, 0);
-        e = detail::declare_vertices(job_, is_text(), by_runs ? std::nullopt : std::optional(all));
+        e = detail::io::declare_vertices(job_, is_text(),
+                                         by_runs ? std::nullopt : std::optional(all));
         e.rows = count_;
     }
 
@@ -307,4 +308,4 @@ point_sink start_ply_points(const write_job& job, std::uint64_t count) {
     }};
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

@@ -1,11 +1,11 @@
-#include <libmesh/io/detail/writers.hpp>
+#include <libmesh/io/writers.hpp>
 
 #include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -109,4 +109,4 @@ void write_stl_text(const write_job& job) {
     put_name("endsolid");
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

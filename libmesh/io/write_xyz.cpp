@@ -1,6 +1,6 @@
-#include <libmesh/io/detail/writers.hpp>
+#include <libmesh/io/writers.hpp>
 
-namespace tf::detail {
+namespace treeform::detail::io {
 
 namespace {
 
@@ -31,4 +31,4 @@ point_sink start_xyz_points(const write_job& job, std::uint64_t) {
     }};
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::io

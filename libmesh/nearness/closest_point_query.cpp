@@ -1,13 +1,13 @@
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/finite.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/geometry/based_triangle.hpp>
 #include <libmesh/geometry/closest_point.hpp>
-#include <libmesh/geometry/detail/based_triangle.hpp>
-#include <libmesh/nearness/closest_point_query.hpp>
-#include <libtree/build.hpp>
-#include <libtree/detail/morton_order.hpp>
-#include <libtree/detail/near_query.hpp>
-#include <libtree/detail/squared_radius.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/closest_point_query.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/detail/morton_order.hpp>
+#include <treeform/tree/detail/near_query.hpp>
+#include <treeform/tree/detail/squared_radius.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +19,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Behind the two, as they are compiled for each target.
-#include <libmesh/geometry/detail/closest_lanes-inl.hpp>
-#include <libtree/detail/near_walk-inl.hpp>
+#include <libmesh/geometry/closest_lanes-inl.hpp>
+#include <libtree/query/near_walk-inl.hpp>
 
 #ifndef TREEFORM_CLOSEST_POINT_QUERY_ONCE
 #define TREEFORM_CLOSEST_POINT_QUERY_ONCE
-namespace tf::detail {
+namespace treeform::detail::nearness {
 namespace {
 
 /// Rows of a block: the members of eight `based_triangle`s.
@@ -42,9 +42,9 @@ struct triangle_blocks {
     const tree<3>* nodes;
     const double* triangles;
 
-    [[nodiscard]] based_triangle at(std::size_t place) const {
+    [[nodiscard]] geometry::based_triangle at(std::size_t place) const {
         const double* const slot = triangles + place / 8 * rows * 8 + place % 8;
-        based_triangle t;
+        geometry::based_triangle t;
         for (std::size_t k = 0; k < 3; ++k) {
             t.corner[k] = slot[(corner + k) * 8];
             t.base[k] = slot[(base + k) * 8];
@@ -66,12 +66,16 @@ struct closest_so_far {
 };
 
 }  // namespace
-}  // namespace tf::detail
+}  // namespace treeform::detail::nearness
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace tf::detail::HWY_NAMESPACE {
+namespace treeform::detail::nearness::HWY_NAMESPACE {
 namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+namespace trees = detail::HWY_NAMESPACE;
+namespace triangles = geometry::HWY_NAMESPACE;
 
 struct closest_in_block {
     alignas(64) double s[8];
@@ -83,7 +87,7 @@ HWY_INLINE void closest_to_eight(const double* block, const point3& p, closest_i
     const hn::CappedTag<double, 8> d;
     using lanes = hn::Vec<decltype(d)>;
     for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
-        based_lanes<lanes> of;
+        triangles::based_lanes<lanes> of;
         for (std::size_t k = 0; k < 3; ++k) {
             of.from[k] = hn::Sub(hn::Set(d, p[k]), hn::Load(d, block + (corner + k) * 8 + i));
             of.base[k] = hn::Load(d, block + (base + k) * 8 + i);
@@ -92,7 +96,7 @@ HWY_INLINE void closest_to_eight(const double* block, const point3& p, closest_i
         of.apex = hn::Load(d, block + apex * 8 + i);
         of.per_base = hn::Load(d, block + per_base * 8 + i);
         of.per_height = hn::Load(d, block + per_height * 8 + i);
-        const auto closest = closest_on(d, of);
+        const auto closest = triangles::closest_on(d, of);
         hn::Store(closest.s, d, found.s + i);
         hn::Store(closest.t, d, found.t + i);
         hn::Store(closest.squared, d, found.squared + i);
@@ -107,7 +111,7 @@ void search_closest(const triangle_blocks& blocks, const point3& p, const near_q
     const wide_node<3>* const boxes = t.level(t.levels() - 1).data();
     const auto leaf = [&](std::uint32_t block, float& bound) {
         alignas(64) float lower[8];
-        unsigned mask = near_mask(boxes[block], framed.low, framed.high, bound, lower);
+        unsigned mask = trees::near_mask(boxes[block], framed.low, framed.high, bound, lower);
         if (mask == 0) return;
         closest_in_block found;
         closest_to_eight(blocks.triangles + std::size_t{block} * rows * 8, p, found);
@@ -122,16 +126,16 @@ void search_closest(const triangle_blocks& blocks, const point3& p, const near_q
         }
         bound = framed.bound_of(best.squared);
     };
-    walk_near(t, framed, framed.bound_of(best.squared), frontier, leaf);
+    trees::walk_near(t, framed, framed.bound_of(best.squared), frontier, leaf);
 }
 
 }  // namespace
-}  // namespace tf::detail::HWY_NAMESPACE
+}  // namespace treeform::detail::nearness::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tf {
-namespace detail {
+namespace treeform {
+namespace detail::nearness {
 namespace {
 
 HWY_EXPORT(search_closest);
@@ -174,8 +178,9 @@ double distance_between(const point3& a, const point3& b) {
 }
 
 void check_query(const point3& query, const std::string& which) {
-    if (!detail::is_finite(query))
-        throw std::invalid_argument(std::string("tf::") + name + ": " + which + " is not finite");
+    if (!detail::base::is_finite(query))
+        throw std::invalid_argument(std::string("treeform::") + name + ": " + which +
+                                    " is not finite");
 }
 
 /// A search with all lengths multiplied by a power of two.
@@ -219,82 +224,85 @@ class closest_searcher {
 constexpr std::size_t queries_per_chunk = 256;
 
 }  // namespace
-}  // namespace detail
+}  // namespace detail::nearness
 
 closest_point_query::closest_point_query(mesh_view mesh) {
-    detail::check_faces(detail::name, mesh.points.size(), mesh.faces);
+    detail::base::check_faces(detail::nearness::name, mesh.points.size(), mesh.faces);
     tree_ = build(mesh.faces, [&](const face& f) {
         aabb<double, 3> box;
         bool finite = true;
         for (const std::uint32_t corner : f) {
             box.include(mesh.points[corner]);
-            finite &= detail::is_finite(mesh.points[corner]);
+            finite &= detail::base::is_finite(mesh.points[corner]);
         }
         return finite ? box : aabb<double, 3>();  // `include` overlooks NaN
     });
     const std::size_t blocks = chunk_count(tree_.size(), 8);
-    triangles_.resize(blocks * detail::rows * 8);
-    largest_ = detail::largest_of(mesh);
-    unit_ = detail::unit_for(tree_.frame().scale, largest_);
+    triangles_.resize(blocks * detail::nearness::rows * 8);
+    largest_ = detail::nearness::largest_of(mesh);
+    unit_ = detail::nearness::unit_for(tree_.frame().scale, largest_);
     for_chunks(blocks, 512, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t place = begin * 8; place < end * 8; ++place) {
-            double* const slot = triangles_.data() + place / 8 * detail::rows * 8 + place % 8;
+            double* const slot =
+                triangles_.data() + place / 8 * detail::nearness::rows * 8 + place % 8;
             if (place >= tree_.size()) {
-                for (std::size_t row = 0; row < detail::rows; ++row) slot[row * 8] = 0.0;
+                for (std::size_t row = 0; row < detail::nearness::rows; ++row) slot[row * 8] = 0.0;
                 continue;
             }
             const face& f = mesh.faces[tree_.ids()[place]];
-            const detail::based_triangle t({detail::scaled(mesh.points[f[0]], unit_),
-                                            detail::scaled(mesh.points[f[1]], unit_),
-                                            detail::scaled(mesh.points[f[2]], unit_)});
+            const detail::geometry::based_triangle t(
+                {detail::nearness::scaled(mesh.points[f[0]], unit_),
+                 detail::nearness::scaled(mesh.points[f[1]], unit_),
+                 detail::nearness::scaled(mesh.points[f[2]], unit_)});
             for (std::size_t k = 0; k < 3; ++k) {
-                slot[(detail::corner + k) * 8] = t.corner[k];
-                slot[(detail::base + k) * 8] = t.base[k];
-                slot[(detail::height + k) * 8] = t.height[k];
+                slot[(detail::nearness::corner + k) * 8] = t.corner[k];
+                slot[(detail::nearness::base + k) * 8] = t.base[k];
+                slot[(detail::nearness::height + k) * 8] = t.height[k];
             }
-            slot[detail::apex * 8] = t.apex;
-            slot[detail::per_base * 8] = t.per_base;
-            slot[detail::per_height * 8] = t.per_height;
+            slot[detail::nearness::apex * 8] = t.apex;
+            slot[detail::nearness::per_base * 8] = t.per_base;
+            slot[detail::nearness::per_height * 8] = t.per_height;
         }
     });
 }
 
 std::optional<mesh_point> closest_point_query::nearest(const point3& query, double radius) const {
-    detail::check_radius("tf::closest_point_query", radius);
-    detail::check_query(query, "the query");
-    return detail::closest_searcher({&tree_, triangles_.data()}, unit_)(query, radius);
+    detail::check_radius("treeform::closest_point_query", radius);
+    detail::nearness::check_query(query, "the query");
+    return detail::nearness::closest_searcher({&tree_, triangles_.data()}, unit_)(query, radius);
 }
 
 std::vector<std::optional<mesh_point>> closest_point_query::nearest(std::span<const point3> queries,
                                                                     double radius) const {
-    detail::check_radius("tf::closest_point_query", radius);
+    detail::check_radius("treeform::closest_point_query", radius);
     for (std::size_t i = 0; i < queries.size(); ++i)
-        detail::check_query(queries[i], "query " + std::to_string(i));
+        detail::nearness::check_query(queries[i], "query " + std::to_string(i));
     const std::vector<std::uint32_t> order =
         detail::morton_order<3>(queries.size(), [&](std::size_t i) {
             return std::array<double, 3>{queries[i].x, queries[i].y, queries[i].z};
         });
     std::vector<std::optional<mesh_point>> found(queries.size());
-    const detail::closest_searcher search({&tree_, triangles_.data()}, unit_);
-    for_chunks(order.size(), detail::queries_per_chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   // What was nearest to the query before is not far from this one. It was
-                   // rounded, and distances are: by some 2^-50 of the largest coordinate.
-                   const double slack = 0x1p-44 * largest_;
-                   std::optional<point3> near;
-                   for (std::size_t i = begin; i < end; ++i) {
-                       const point3& query = queries[order[i]];
-                       double limit = radius;
-                       if (near)
-                           limit = std::min(
-                               limit,
-                               detail::distance_between(*near, query) * (1.0 + 0x1p-40) + slack);
-                       found[order[i]] = search(query, limit);
-                       if (found[order[i]]) near = found[order[i]]->point;
-                   }
-               });
+    const detail::nearness::closest_searcher search({&tree_, triangles_.data()}, unit_);
+    for_chunks(
+        order.size(), detail::nearness::queries_per_chunk,
+        [&](std::size_t begin, std::size_t end, std::size_t) {
+            // What was nearest to the query before is not far from this one. It was
+            // rounded, and distances are: by some 2^-50 of the largest coordinate.
+            const double slack = 0x1p-44 * largest_;
+            std::optional<point3> near;
+            for (std::size_t i = begin; i < end; ++i) {
+                const point3& query = queries[order[i]];
+                double limit = radius;
+                if (near)
+                    limit = std::min(
+                        limit,
+                        detail::nearness::distance_between(*near, query) * (1.0 + 0x1p-40) + slack);
+                found[order[i]] = search(query, limit);
+                if (found[order[i]]) near = found[order[i]]->point;
+            }
+        });
     return found;
 }
 
-}  // namespace tf
+}  // namespace treeform
 #endif

@@ -3,20 +3,20 @@
 /// A mesh made ready to be asked about with others, many times and wherever it is moved: how far
 /// they are apart, and with `mesh_intersections` which of their faces meet.
 
-#include <libmesh/mesh.hpp>
-#include <libmesh/nearness/detail/node_discs.hpp>
-#include <libmesh/nearness/detail/triangle_blocks.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libtree/detail/buffer.hpp>
-#include <libtree/export.hpp>
-#include <libtree/transform.hpp>
-#include <libtree/tree.hpp>
+#include <libmesh/nearness/node_discs.hpp>
+#include <libmesh/nearness/triangle_blocks.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/transform.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <cstddef>
 #include <limits>
 #include <optional>
 
-namespace tf {
+namespace treeform {
 
 class distance_model;
 struct mesh_intersection_options;  // libmesh/intersect/mesh_intersections.hpp
@@ -65,8 +65,8 @@ class TREEFORM_API distance_model {
                                                        const distance_model& b,
                                                        const mesh_intersection_options& options);
     tree<3> tree_;
-    detail::buffer<detail::eight_triangles> triangles_;
-    detail::node_discs discs_;
+    detail::buffer<detail::nearness::eight_triangles> triangles_;
+    detail::nearness::node_discs discs_;
 };
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,10 +1,10 @@
-#include <libmesh/detail/check_faces.hpp>
+#include <libmesh/base/check_faces.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/distance_model.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libtree/build.hpp>
-#include <libtree/detail/near_pair_walk.hpp>
-#include <libtree/detail/squared_radius.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/detail/near_pair_walk.hpp>
+#include <treeform/tree/detail/squared_radius.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 /// Lengths are multiplied by this power of two, so that squares stay in the range of double.
@@ -37,8 +37,8 @@ class placed_faces {
         : placed_faces(tree, unit) {
         mesh_ = mesh;
     }
-    placed_faces(const detail::buffer<detail::eight_triangles>& blocks, const transformed<3>& tree,
-                 double unit)
+    placed_faces(const detail::buffer<detail::nearness::eight_triangles>& blocks,
+                 const transformed<3>& tree, double unit)
         : placed_faces(tree, unit) {
         blocks_ = blocks.data();
     }
@@ -46,11 +46,11 @@ class placed_faces {
     [[nodiscard]] std::uint32_t face_at(std::size_t place) const { return ids_[place]; }
 
     /// The triangles of a block, of those gathered now only the wanted ones; `space` is for them.
-    [[nodiscard]] const detail::eight_triangles& load(std::size_t block, unsigned wanted,
-                                                      detail::eight_triangles& space) const {
+    [[nodiscard]] const detail::nearness::eight_triangles& load(
+        std::size_t block, unsigned wanted, detail::nearness::eight_triangles& space) const {
         if (blocks_ != nullptr) {
             if (!moves_ && unit_ == 1.0) return blocks_[block];
-            detail::move_triangles(blocks_[block], by_, unit_, space);
+            detail::nearness::move_triangles(blocks_[block], by_, unit_, space);
             return space;
         }
         space = {};
@@ -72,7 +72,7 @@ class placed_faces {
         : ids_(tree.original().ids().data()), by_(tree.by()), moves_(tree.moves()), unit_(unit) {}
 
     mesh_view mesh_;
-    const detail::eight_triangles* blocks_ = nullptr;
+    const detail::nearness::eight_triangles* blocks_ = nullptr;
     const std::uint32_t* ids_;
     transform<3> by_;
     bool moves_;
@@ -87,7 +87,7 @@ struct nearest_so_far {
     std::uint32_t a = 0, b = 0;
     closest_between_triangles at{};
     bool has_line = false;
-    detail::sight_line line{};
+    detail::nearness::sight_line line{};
 
     [[nodiscard]] double bound() const { return squared; }
     [[nodiscard]] bool done() const { return found && squared == 0.0; }
@@ -116,8 +116,8 @@ struct nearest_so_far {
 };
 
 /// The pairs of slots whose boxes are within `bound`.
-detail::slot_pairs pairs_within(const detail::block_pair& blocks, float bound) {
-    detail::slot_pairs pairs{};
+detail::nearness::slot_pairs pairs_within(const detail::block_pair& blocks, float bound) {
+    detail::nearness::slot_pairs pairs{};
     for (std::size_t i = 0; i < 8; ++i)
         for (std::size_t j = 0; j < 8; ++j)
             pairs[i] |= static_cast<unsigned>(blocks.within(i, j, bound)) << j;
@@ -125,8 +125,8 @@ detail::slot_pairs pairs_within(const detail::block_pair& blocks, float bound) {
 }
 
 /// Takes the pair whose boxes are nearest from `pairs`; false when none is within `bound`.
-bool take_nearest(const detail::block_pair& blocks, float bound, detail::slot_pairs& pairs,
-                  std::size_t& a, std::size_t& b) {
+bool take_nearest(const detail::block_pair& blocks, float bound,
+                  detail::nearness::slot_pairs& pairs, std::size_t& a, std::size_t& b) {
     float least = std::numeric_limits<float>::infinity();
     bool found = false;
     for (std::size_t i = 0; i < 8; ++i)
@@ -147,7 +147,7 @@ void visit(const placed_faces& a, const placed_faces& b, const detail::block_pai
            nearest_so_far& best, double limit) {
     limit = std::min(limit, best.squared);
     float bound = blocks.bound_of(limit);
-    detail::slot_pairs pairs = pairs_within(blocks, bound);
+    detail::nearness::slot_pairs pairs = pairs_within(blocks, bound);
     unsigned rows = 0, columns = 0;
     for (std::size_t i = 0; i < 8; ++i) {
         rows |= static_cast<unsigned>(pairs[i] != 0) << i;
@@ -155,11 +155,12 @@ void visit(const placed_faces& a, const placed_faces& b, const detail::block_pai
     }
     if (rows == 0) return;
 
-    detail::eight_triangles space_a, space_b;
-    const detail::eight_triangles& in_a = a.load(blocks.a, rows, space_a);
-    const detail::eight_triangles& in_b = b.load(blocks.b, columns, space_b);
+    detail::nearness::eight_triangles space_a, space_b;
+    const detail::nearness::eight_triangles& in_a = a.load(blocks.a, rows, space_a);
+    const detail::nearness::eight_triangles& in_b = b.load(blocks.b, columns, space_b);
     for (;;) {
-        if (best.has_line) detail::drop_separated(in_a, in_b, best.line, std::sqrt(limit), pairs);
+        if (best.has_line)
+            detail::nearness::drop_separated(in_a, in_b, best.line, std::sqrt(limit), pairs);
         std::size_t i = 0, j = 0;
         if (!take_nearest(blocks, bound, pairs, i, j)) return;
         best.offer(a.face_at(std::size_t{blocks.a} * 8 + i),
@@ -173,11 +174,12 @@ void visit(const placed_faces& a, const placed_faces& b, const detail::block_pai
 
 void check_tree(mesh_view mesh, const transformed<3>& tree) {
     if (mesh.faces.size() != tree.original().size())
-        throw std::invalid_argument("tf::mesh_distance: the tree is not one over the mesh's faces");
+        throw std::invalid_argument(
+            "treeform::mesh_distance: the tree is not one over the mesh's faces");
 }
 
 tree<3> tree_of(mesh_view mesh) {
-    detail::check_faces("mesh_distance", mesh.points.size(), mesh.faces);
+    detail::base::check_faces("mesh_distance", mesh.points.size(), mesh.faces);
     return build(mesh.faces, [&](const face& f) {
         aabb<double, 3> box;
         bool finite = true;
@@ -220,7 +222,7 @@ std::optional<mesh_pair> mesh_distance(mesh_view a, const transformed<3>& tree_a
                                        const transformed<3>& tree_b, double radius) {
     check_tree(a, tree_a);
     check_tree(b, tree_b);
-    detail::check_radius("tf::mesh_distance", radius);
+    detail::check_radius("treeform::mesh_distance", radius);
     if (a.faces.empty() || b.faces.empty()) return std::nullopt;
     const double unit = unit_for(tree_a, tree_b);
     detail::pair_walk<3> walk(tree_a, tree_b, unit);
@@ -235,18 +237,18 @@ std::optional<mesh_pair> mesh_distance(mesh_view a, mesh_view b, double radius) 
 
 distance_model::distance_model(mesh_view mesh)
     : tree_(tree_of(mesh)),
-      triangles_(detail::triangle_blocks(mesh, tree_)),
+      triangles_(detail::nearness::triangle_blocks(mesh, tree_)),
       discs_(tree_, triangles_) {}
 
 std::optional<mesh_pair> mesh_distance(const distance_model& a, const distance_model& b,
                                        const mesh_distance_options& options) {
-    detail::check_radius("tf::mesh_distance", options.radius);
+    detail::check_radius("treeform::mesh_distance", options.radius);
     const transformed<3> tree_a(a.tree_, options.move_a);
     const transformed<3> tree_b(b.tree_, options.move_b);
     if (a.size() == 0 || b.size() == 0) return std::nullopt;
     const double unit = unit_for(tree_a, tree_b);
     detail::pair_walk<3> walk(tree_a, tree_b, unit);
-    const detail::disc_pair discs{a.discs_, b.discs_, walk.map_a(), walk.map_b()};
+    const detail::nearness::disc_pair discs{a.discs_, b.discs_, walk.map_a(), walk.map_b()};
     const auto by_discs = [&](const detail::opened_node& at, unsigned mask, float bound,
                               float* squared) { return discs.raise(at, mask, bound, squared); };
     const detail::raise_bounds raise = by_discs;
@@ -255,4 +257,4 @@ std::optional<mesh_pair> mesh_distance(const distance_model& a, const distance_m
                   options.radius);
 }
 
-}  // namespace tf
+}  // namespace treeform

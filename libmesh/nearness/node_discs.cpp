@@ -1,7 +1,7 @@
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/nearness/detail/node_discs.hpp>
-#include <libtree/detail/near_query.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/nearness/node_discs.hpp>
+#include <treeform/tree/detail/near_query.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 
 #ifndef TREEFORM_NODE_DISCS_ONCE
 #define TREEFORM_NODE_DISCS_ONCE
-namespace tf::detail {
+namespace treeform::detail::nearness {
 namespace {
 
 /// One disc, its centre in the common frame.
@@ -48,11 +48,11 @@ struct disc_axis {
 };
 
 }  // namespace
-}  // namespace tf::detail
+}  // namespace treeform::detail::nearness
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace tf::detail::HWY_NAMESPACE {
+namespace treeform::detail::nearness::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -241,11 +241,11 @@ unsigned raise_eight(const eight_discs& discs, const frame_map<3>& frame, const 
 }
 
 }  // namespace
-}  // namespace tf::detail::HWY_NAMESPACE
+}  // namespace treeform::detail::nearness::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tf::detail {
+namespace treeform::detail::nearness {
 namespace {
 
 HWY_EXPORT(measure_blocks);
@@ -315,7 +315,7 @@ disc_axis axis_of(const wide_node<3>& box, std::size_t slot, const point3& norma
         axis.centre[k] =
             0.5 * (static_cast<double>(box.min[k][slot]) + static_cast<double>(box.max[k][slot]));
         const double part = length > 0.0 && std::isfinite(length) ? normal[k] / length : k == 2;
-        axis.normal[k] = nearest_float(part);
+        axis.normal[k] = base::nearest_float(part);
         rounded += axis.normal[k] * axis.normal[k];
     }
     for (double& part : axis.normal) part /= std::sqrt(rounded);
@@ -431,5 +431,5 @@ unsigned disc_pair::raise(const opened_node& at, unsigned mask, float bound, flo
                                                     disc_map_of(frame_of_other), bound, squared);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::nearness
 #endif

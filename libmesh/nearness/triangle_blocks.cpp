@@ -1,5 +1,5 @@
-#include <libmesh/nearness/detail/triangle_blocks.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/nearness/triangle_blocks.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace tf::detail::HWY_NAMESPACE {
+namespace treeform::detail::nearness::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -90,11 +90,11 @@ void drop_eight(const eight_triangles& a, const eight_triangles& b, const sight_
 }
 
 }  // namespace
-}  // namespace tf::detail::HWY_NAMESPACE
+}  // namespace treeform::detail::nearness::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tf::detail {
+namespace treeform::detail::nearness {
 namespace {
 
 HWY_EXPORT(move_eight);
@@ -127,5 +127,5 @@ void drop_separated(const eight_triangles& a, const eight_triangles& b, const si
     HWY_DYNAMIC_DISPATCH(drop_eight)(a, b, line, distance, pairs);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::nearness
 #endif

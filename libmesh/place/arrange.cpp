@@ -1,8 +1,8 @@
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/work_progress.hpp>
-#include <libmesh/place/arrange.hpp>
-#include <libmesh/place/detail/plate.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/plate.hpp>
+#include <treeform/mesh/arrange.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -15,17 +15,17 @@
 #include <tuple>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
-using detail::cell_place;
-using detail::footprint;
-using detail::plate;
-using detail::turned_part;
+using detail::place::cell_place;
+using detail::place::footprint;
+using detail::place::plate;
+using detail::place::turned_part;
 
 void check(const arrange_options& o) {
     const auto refuse = [](const char* what) {
-        throw std::invalid_argument(std::string("tf::arrange: ") + what);
+        throw std::invalid_argument(std::string("treeform::arrange: ") + what);
     };
     for (std::size_t k = 0; k < 3; ++k) {
         if (!(o.size[k] >= 0.0) || (k < 2 && std::isinf(o.size[k])))
@@ -38,8 +38,8 @@ void check(const arrange_options& o) {
 }
 
 void check(mesh_view part, std::size_t number) {
-    const std::string name = "tf::arrange, part " + std::to_string(number);
-    detail::check_faces(name.c_str(), part.points.size(), part.faces);
+    const std::string name = "treeform::arrange, part " + std::to_string(number);
+    detail::base::check_faces(name.c_str(), part.points.size(), part.faces);
     for (std::size_t f = 0; f < part.faces.size(); ++f)
         for (const std::uint32_t i : part.faces[f])
             for (std::size_t k = 0; k < 3; ++k)
@@ -94,7 +94,7 @@ std::vector<shape> shapes_of(std::span<const mesh_view> parts, const arrange_opt
                              double cell, const progress_callback& progress) {
     const std::vector<unsigned> turns = turns_of(o.turns);
     std::vector<candidate> all(parts.size() * turns.size());
-    detail::work_progress work(progress);
+    detail::base::work_progress work(progress);
     std::atomic<std::size_t> begun{0};
     const double share = 1.0 / static_cast<double>(std::max<std::size_t>(all.size(), 1));
     for_chunks(all.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -107,7 +107,7 @@ std::vector<shape> shapes_of(std::span<const mesh_view> parts, const arrange_opt
             if (!(size.x <= o.size.x && size.y <= o.size.y && size.z <= o.size.z)) continue;
             if (cell > 0.0)
                 all[i] = {there.turn(), size.x, size.y,
-                          detail::cells_covered(there.mesh(), 0.0, 0.0, cell)};
+                          detail::place::cells_covered(there.mesh(), 0.0, 0.0, cell)};
         }
     });
     std::vector<shape> shapes(parts.size());
@@ -239,7 +239,7 @@ arrangement arrange(std::span<const mesh_view> parts, const arrange_options& opt
     check(options);
     for (std::size_t i = 0; i < parts.size(); ++i) check(parts[i], i);
     const double cell = cell_length(parts, options);
-    detail::work_progress work(options.progress);
+    detail::base::work_progress work(options.progress);
     const std::vector<shape> shapes = shapes_of(parts, options, cell, work.part(0.0, 0.2));
 
     arrangement best;
@@ -269,4 +269,4 @@ arrangement arrange(std::span<const mesh_view> parts, const arrange_options& opt
     return best;
 }
 
-}  // namespace tf
+}  // namespace treeform

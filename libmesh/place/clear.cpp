@@ -1,12 +1,12 @@
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/detail/work_progress.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libmesh/place/clear.hpp>
-#include <libmesh/place/relation.hpp>
-#include <libmesh/place/slide.hpp>
-#include <libtree/transformed.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/clear.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/relation.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/tree/transformed.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -296,7 +296,7 @@ class clearing {
     mesh_view a_;
     const tree<3>& tree_;
     clear_options options_;
-    detail::work_progress work_;
+    detail::base::work_progress work_;
     std::size_t looked_ = 0;  ///< directions
     progress_callback asking_ = [this](double) { return go_on(); };
     std::optional<box3> box_;
@@ -309,8 +309,9 @@ class clearing {
 clear_result clear_moves(mesh_view a, const tree<3>& tree_a, std::span<const still_part> parts,
                          const clear_options& options) {
     if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
-        throw std::invalid_argument("tf::clear_moves: the clearance is negative or not finite");
+        throw std::invalid_argument(
+            "treeform::clear_moves: the clearance is negative or not finite");
     return clearing(a, tree_a, parts, options).moves();
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,6 +1,6 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/place/convex_hull.hpp>
-#include <libmesh/place/detail/quickhull.hpp>
+#include <libmesh/place/quickhull.hpp>
+#include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,16 +11,16 @@
 #include <string>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 void check_points(points_view points) {
     if (points.size() > std::numeric_limits<std::uint32_t>::max())
-        throw std::invalid_argument("tf::convex_hull: more points than 32 bits can number");
+        throw std::invalid_argument("treeform::convex_hull: more points than 32 bits can number");
     for (std::size_t i = 0; i < points.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k)
             if (!std::isfinite(points[i][k]))
-                throw std::invalid_argument("tf::convex_hull: point " + std::to_string(i) +
+                throw std::invalid_argument("treeform::convex_hull: point " + std::to_string(i) +
                                             " is not finite");
 }
 
@@ -49,7 +49,7 @@ struct first_simplex {
     std::array<std::uint32_t, 4> corner{};
 };
 
-first_simplex find_simplex(points_view points, const detail::scaled_points& scaled) {
+first_simplex find_simplex(points_view points, const detail::place::scaled_points& scaled) {
     first_simplex s;
     if (points.empty()) return s;
     // Not bindings: clang 14 lets no lambda have them.
@@ -61,22 +61,24 @@ first_simplex find_simplex(points_view points, const detail::scaled_points& scal
     }
     s.dimension = 0;
     const auto from_a = [&](std::uint32_t i) { return scaled.difference(i, a); };
-    const auto off_a = [&](std::uint32_t i) { return detail::dot(from_a(i), from_a(i)); };
+    const auto off_a = [&](std::uint32_t i) { return detail::place::dot(from_a(i), from_a(i)); };
     const auto other = best_point(count, off_a, [&](auto i) { return points[i] != points[a]; });
     if (!other) return s;
     b = *other;
     s.dimension = 1;
     const auto off_line = [&](std::uint32_t i) {
-        const point3 n = detail::cross(from_a(b), from_a(i));
-        return detail::dot(n, n);
+        const point3 n = detail::place::cross(from_a(b), from_a(i));
+        return detail::place::dot(n, n);
     };
     const auto third = best_point(
         count, off_line, [&](auto i) { return !collinear(points[a], points[b], points[i]); });
     if (!third) return s;
     c = *third;
     s.dimension = 2;
-    const point3 n = detail::cross(from_a(b), from_a(c));
-    const auto off_plane = [&](std::uint32_t i) { return std::abs(detail::dot(n, from_a(i))); };
+    const point3 n = detail::place::cross(from_a(b), from_a(c));
+    const auto off_plane = [&](std::uint32_t i) {
+        return std::abs(detail::place::dot(n, from_a(i)));
+    };
     const auto side = [&](std::uint32_t i) {
         return orient3d(points[a], points[b], points[c], points[i]);
     };
@@ -170,7 +172,7 @@ point3 of_length_1(point3 n) {
     const double most = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
     if (most == 0.0) return n;
     n = {n.x / most, n.y / most, n.z / most};
-    const double length = std::sqrt(detail::dot(n, n));
+    const double length = std::sqrt(detail::place::dot(n, n));
     return {n.x / length, n.y / length, n.z / length};
 }
 
@@ -195,9 +197,10 @@ void measure(hull_side& side, std::span<const face> faces, points_view points) {
     double total = 0.0, widest = -1.0, spread = 0.0;
     face widest_face{};
     for (const face& f : faces) {
-        const point3 a = at(f[0]), e = detail::minus(at(f[1]), a), g = detail::minus(at(f[2]), a);
-        const point3 n = detail::cross(e, g);
-        const double twice = std::sqrt(detail::dot(n, n));
+        const point3 a = at(f[0]), e = detail::place::minus(at(f[1]), a),
+                     g = detail::place::minus(at(f[2]), a);
+        const point3 n = detail::place::cross(e, g);
+        const double twice = std::sqrt(detail::place::dot(n, n));
         total += twice;
         for (std::size_t k = 0; k < 3; ++k) {
             normal[k] += n[k];
@@ -205,7 +208,7 @@ void measure(hull_side& side, std::span<const face> faces, points_view points) {
         }
         if (twice > widest) {
             widest = twice;
-            spread = std::sqrt(detail::dot(e, e) * detail::dot(g, g));
+            spread = std::sqrt(detail::place::dot(e, e) * detail::place::dot(g, g));
             widest_face = f;
         }
     }
@@ -237,8 +240,8 @@ convex_hull_result joined(std::vector<std::vector<face>> sides, points_view poin
     return hull;
 }
 
-convex_hull_result hull_of(points_view points, detail::work_progress& work) {
-    const detail::scaled_points scaled(points);
+convex_hull_result hull_of(points_view points, detail::base::work_progress& work) {
+    const detail::place::scaled_points scaled(points);
     const first_simplex first = find_simplex(points, scaled);
     if (first.dimension < 2) return {first.dimension, {}, {}, false};
     const auto& [a, b, c, d] = first.corner;
@@ -246,7 +249,7 @@ convex_hull_result hull_of(points_view points, detail::work_progress& work) {
         const int axis = axis_that_sees(points[a], points[b], points[c]);
         return joined(faces_of_polygon(polygon_around(points, axis)), points, 2);
     }
-    detail::quickhull hull(points, scaled, first.corner);
+    detail::place::quickhull hull(points, scaled, first.corner);
     if (!hull.run(work)) return {.cancelled = true};
     return joined(hull.sides(), points, 3);
 }
@@ -255,7 +258,7 @@ convex_hull_result hull_of(points_view points, detail::work_progress& work) {
 
 convex_hull_result convex_hull(points_view points, const progress_callback& progress) {
     check_points(points);
-    detail::work_progress work(progress);
+    detail::base::work_progress work(progress);
     convex_hull_result hull = hull_of(points, work);
     work.reach(1.0);
     return hull;
@@ -291,4 +294,4 @@ std::vector<std::uint32_t> corners_of(const convex_hull_result& hull, const hull
     return corners;
 }
 
-}  // namespace tf
+}  // namespace treeform

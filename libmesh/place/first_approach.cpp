@@ -1,9 +1,9 @@
-#include <libmesh/detail/work_progress.hpp>
+#include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
 #include <libmesh/place/first_approach.hpp>
-#include <libtree/build.hpp>
-#include <libtree/sweep.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/sweep.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
@@ -80,12 +80,13 @@ mesh_approach first_approach(mesh_view a, const tree<3>& tree_a, mesh_view b, co
                              const point3& motion, double distance,
                              const first_approach_options& options) {
     if (!(distance > 0.0) || !std::isfinite(distance))
-        throw std::invalid_argument("tf::first_approach: the distance is not positive or infinite");
+        throw std::invalid_argument(
+            "treeform::first_approach: the distance is not positive or infinite");
     if (!(options.latest >= 0.0))
-        throw std::invalid_argument("tf::first_approach: the latest time is negative or NaN");
+        throw std::invalid_argument("treeform::first_approach: the latest time is negative or NaN");
     mesh_approach result;
     const auto near = mesh_distance(a, tree_a, b, tree_b, distance);
-    detail::work_progress work(options.progress);
+    detail::base::work_progress work(options.progress);
     if (near && near->distance < distance) {
         result.end = motion_end::at_start;
         work.reach(1.0);
@@ -132,4 +133,4 @@ mesh_approach first_approach(mesh_view a, const tree<3>& tree_a, mesh_view b, co
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

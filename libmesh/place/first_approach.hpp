@@ -2,16 +2,16 @@
 /// \file
 /// How far a mesh can be moved in a direction until it comes within a distance of another.
 
-#include <libmesh/mesh.hpp>
-#include <libmesh/place/first_contact.hpp>
-#include <libtree/export.hpp>
-#include <libtree/progress.hpp>
-#include <libtree/tree.hpp>
+#include <treeform/mesh/first_contact.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/progress.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <cstddef>
 #include <limits>
 
-namespace tf {
+namespace treeform {
 
 struct first_approach_options {
     double latest = std::numeric_limits<double>::infinity();  ///< as for `first_contact`
@@ -54,4 +54,4 @@ struct mesh_approach {
                                                         const point3& motion, double distance,
                                                         const first_approach_options& options = {});
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,16 +1,16 @@
-#include <libmesh/detail/work_progress.hpp>
-#include <libmesh/face_tree.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/place/first_contact.hpp>
-#include <libtree/sweep.hpp>
+#include <treeform/mesh/first_contact.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/tree/sweep.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 triangle3 triangle_of(mesh_view mesh, std::uint32_t face, const transform<3>& by, bool moves) {
@@ -72,8 +72,8 @@ first_mesh_contact first_contact(mesh_view a, const tree<3>& tree_a, mesh_view b
                                  const first_contact_options& options) {
     first_mesh_contact result;
     if (!(options.latest >= 0.0))
-        throw std::invalid_argument("tf::first_contact: the latest time is negative or NaN");
-    detail::work_progress work(options.progress);
+        throw std::invalid_argument("treeform::first_contact: the latest time is negative or NaN");
+    detail::base::work_progress work(options.progress);
     if (intersects(a, tree_a, b, tree_b, {options.move_a, options.move_b})) {
         result.end = motion_end::at_start;
         work.reach(1.0);
@@ -132,4 +132,4 @@ first_mesh_contact first_contact(mesh_view a, mesh_view b, const point3& motion,
     return first_contact(a, face_tree(a), b, face_tree(b), motion, options);
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,11 +1,11 @@
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/finite.hpp>
-#include <libmesh/detail/work_progress.hpp>
-#include <libmesh/nearness/closest_point_query.hpp>
-#include <libmesh/place/fit.hpp>
-#include <libmesh/place/point_faces.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/closest_point_query.hpp>
+#include <treeform/mesh/fit.hpp>
+#include <treeform/mesh/point_faces.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #define EIGEN_MPL2_ONLY
 #include <Eigen/Dense>
@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 using Eigen::Matrix3d;
@@ -27,7 +27,7 @@ using Eigen::Vector3d;
 /// Sums are of blocks of this many points, added up in order: the same on any number of threads.
 constexpr std::size_t block = 4096;
 
-void refuse(const std::string& what) { throw std::invalid_argument("tf::fit: " + what); }
+void refuse(const std::string& what) { throw std::invalid_argument("treeform::fit: " + what); }
 
 void check(const char* of, points_view points) {
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -39,7 +39,7 @@ void check(const char* of, points_view points) {
 void check(points_view moving, mesh_view fixed, const fit_options& o) {
     check("moving", moving);
     check("fixed", fixed.points);
-    detail::check_faces("tf::fit", fixed.points.size(), fixed.faces);
+    detail::base::check_faces("treeform::fit", fixed.points.size(), fixed.faces);
     if (!(o.overlap > 0.0 && o.overlap <= 1.0)) refuse("the overlap is not in (0, 1]");
     if (!(o.max_distance >= 0.0)) refuse("the largest distance is negative or NaN");
     if (!(o.tolerance >= 0.0)) refuse("the tolerance is negative or NaN");
@@ -120,8 +120,8 @@ class target {
         for_chunks(points.size(), block, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) moved[i] = to_point(map(points[i]));
         });
-        if (!detail::all_finite(moved))
-            throw std::overflow_error("tf::fit: the moving points are too far away");
+        if (!detail::base::all_finite(moved))
+            throw std::overflow_error("treeform::fit: the moving points are too far away");
         const auto found = query_.nearest(moved, radius);
         std::vector<partner> result;
         result.reserve(found.size());
@@ -294,7 +294,7 @@ struct search_result {
 /// Steps from `map` on, and of the places on the way the best.
 search_result search(const target& fixed, const std::vector<Vector3d>& samples,
                      const similarity& start, const fit_options& o, double radius, bool planes,
-                     detail::work_progress& work) {
+                     detail::base::work_progress& work) {
     search_result best{start};
     similarity map = start;
     double least = std::numeric_limits<double>::infinity();
@@ -354,7 +354,7 @@ fit_result fit(points_view moving, mesh_view fixed, const fit_options& options) 
     start.shift = f.offset;
     const double radius = options.max_distance * f.by;
 
-    detail::work_progress work(options.progress);
+    detail::base::work_progress work(options.progress);
     const auto judge = [&](const similarity& map) {
         return quality_of(scaled.partners(all, map, radius), all.size(), options, radius);
     };
@@ -362,7 +362,7 @@ fit_result fit(points_view moving, mesh_view fixed, const fit_options& options) 
     if (!work.reach(0.1)) return {.cancelled = true};
     const quality before = judge(start);
     if (!std::isfinite(before.cost))
-        throw std::overflow_error("tf::fit: the distances are too large to be squared");
+        throw std::overflow_error("treeform::fit: the distances are too large to be squared");
     if (!work.reach(0.2)) return {.cancelled = true};
     const search_result found =
         search(scaled, some_of(all, options.samples), start, options, radius, planes, work);
@@ -377,7 +377,7 @@ fit_result fit(points_view moving, mesh_view fixed, const fit_options& options) 
         result.pivot_moved[k] = f.centre[k] + map.shift(static_cast<int>(k)) / f.by;
     if (better) result.matrix = matrix_of(f, map, result.pivot_moved);
     if (!result.matrix.finite())
-        throw std::overflow_error("tf::fit: the coordinates are too large for a matrix");
+        throw std::overflow_error("treeform::fit: the coordinates are too large for a matrix");
     result.scale = map.scale;
     result.rms = end.rms / f.by;
     result.rms_at_start = before.rms / f.by;
@@ -387,4 +387,4 @@ fit_result fit(points_view moving, mesh_view fixed, const fit_options& options) 
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

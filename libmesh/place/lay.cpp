@@ -1,12 +1,12 @@
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/finite.hpp>
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/detail/work_progress.hpp>
-#include <libmesh/exact/predicates.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/closest_point.hpp>
-#include <libmesh/place/detail/quickhull.hpp>
-#include <libmesh/place/lay.hpp>
+#include <libmesh/place/quickhull.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/lay.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,26 +17,27 @@
 #include <string>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
-using detail::cross;
-using detail::dot;
-using detail::minus;
+using detail::place::cross;
+using detail::place::dot;
+using detail::place::minus;
 
 constexpr double equally_good = 0x1p-40;
 
 void check(mesh_view mesh, const lay_options& options) {
-    detail::check_faces("tf::lay", mesh.points.size(), mesh.faces);
+    detail::base::check_faces("treeform::lay", mesh.points.size(), mesh.faces);
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
-        if (!detail::is_finite(mesh.points[i]))
-            throw std::invalid_argument("tf::lay: point " + std::to_string(i) + " is not finite");
+        if (!detail::base::is_finite(mesh.points[i]))
+            throw std::invalid_argument("treeform::lay: point " + std::to_string(i) +
+                                        " is not finite");
     if (!(options.tolerance >= 0.0) || std::isinf(options.tolerance))
-        throw std::invalid_argument("tf::lay: the tolerance is negative or not finite");
-    if (!std::isfinite(options.bed) || !detail::is_finite(options.toward))
-        throw std::invalid_argument("tf::lay: the bed, direction or point is not finite");
+        throw std::invalid_argument("treeform::lay: the tolerance is negative or not finite");
+    if (!std::isfinite(options.bed) || !detail::base::is_finite(options.toward))
+        throw std::invalid_argument("treeform::lay: the bed, direction or point is not finite");
     if (options.choose == lay_choice::nearest_normal && options.toward == point3{})
-        throw std::invalid_argument("tf::lay: the direction is zero");
+        throw std::invalid_argument("treeform::lay: the direction is zero");
 }
 
 /// Numbers of the points that faces use, ascending; of all when there are no faces.
@@ -334,9 +335,9 @@ void put_down(laid_mesh& laid, mesh_view mesh, const std::vector<std::uint32_t>&
     for (const point3& p : mesh.points) {
         point3 q = move(p);
         if (options.to_single)
-            for (std::size_t k = 0; k < 3; ++k) q[k] = detail::nearest_float(q[k]);
-        if (!detail::is_finite(q))
-            throw std::overflow_error("tf::lay: the coordinates are too large to be turned");
+            for (std::size_t k = 0; k < 3; ++k) q[k] = detail::base::nearest_float(q[k]);
+        if (!detail::base::is_finite(q))
+            throw std::overflow_error("treeform::lay: the coordinates are too large to be turned");
         laid.points.push_back(q);
     }
     for (const std::uint32_t i : ids) {
@@ -355,7 +356,7 @@ void put_down(laid_mesh& laid, mesh_view mesh, const std::vector<std::uint32_t>&
 std::optional<laid_mesh> lay(mesh_view mesh, const lay_options& options) {
     check(mesh, options);
     const std::vector<std::uint32_t> ids = points_that_count(mesh);
-    detail::work_progress work(options.progress);
+    detail::base::work_progress work(options.progress);
     const candidates found = sides_of(mesh, ids, options.tolerance, work.part(0.0, 0.8));
     if (work.cancelled()) return laid_mesh{.cancelled = true};
     if (found.hull.sides.empty()) return std::nullopt;
@@ -363,12 +364,12 @@ std::optional<laid_mesh> lay(mesh_view mesh, const lay_options& options) {
     laid_mesh laid;
     laid.sides = found.hull.sides;
     laid.chosen = choose(found, options);
-    laid.bed = options.to_single ? detail::nearest_float(options.bed) : options.bed;
+    laid.bed = options.to_single ? detail::base::nearest_float(options.bed) : options.bed;
     const hull_side& side = laid.sides[laid.chosen];
     const motion move = find_motion(found, side, options, laid.bed);
     laid.matrix = move.matrix();
     if (!laid.matrix.finite())
-        throw std::overflow_error("tf::lay: the coordinates are too large for a matrix");
+        throw std::overflow_error("treeform::lay: the coordinates are too large for a matrix");
     const face& f = found.hull.faces_of(side)[0];
     const plane_points plane{found.points[f[0]], found.points[f[1]], found.points[f[2]]};
     put_down(laid, mesh, ids, plane, move, options);
@@ -376,4 +377,4 @@ std::optional<laid_mesh> lay(mesh_view mesh, const lay_options& options) {
     return laid;
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,18 +1,18 @@
-#include <libmesh/detail/finite.hpp>
-#include <libmesh/detail/work_progress.hpp>
-#include <libmesh/place/mate.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <treeform/mesh/mate.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 
-namespace tf {
+namespace treeform {
 
 point3 way_between(const mesh_measure& nearest) {
     const point3 &p = nearest.on_a.point, &q = nearest.on_b.point;
     const point3 way{q.x - p.x, q.y - p.y, q.z - p.z};
-    if (!detail::is_finite(way))
-        throw std::overflow_error("tf::mate: the meshes are too far from each other");
+    if (!detail::base::is_finite(way))
+        throw std::overflow_error("treeform::mate: the meshes are too far from each other");
     return way;
 }
 
@@ -38,7 +38,7 @@ mate_result mate(const mesh_measure& nearest, mesh_view a, const tree<3>& tree_a
 
 std::optional<mate_result> mate(mesh_view a, const tree<3>& tree_a,
                                 std::span<const still_part> parts, const mate_options& options) {
-    detail::work_progress work(options.progress);
+    detail::base::work_progress work(options.progress);
     const double share = 0.5 / static_cast<double>(std::max<std::size_t>(parts.size(), 1));
     std::optional<mate_result> found;
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -67,4 +67,4 @@ std::optional<mate_result> mate(mesh_view a, const tree<3>& tree_a,
     return found;
 }
 
-}  // namespace tf
+}  // namespace treeform

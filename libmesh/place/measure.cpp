@@ -1,15 +1,15 @@
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/detail/work_progress.hpp>
-#include <libmesh/face_tree.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libmesh/place/measure.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 using weights = std::array<double, 3>;
@@ -97,7 +97,7 @@ std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t, const 
 std::optional<mesh_measure> measure(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                     const tree<3>& tree_b, const measure_options& options) {
     if (a.faces.empty() || b.faces.empty()) return std::nullopt;
-    detail::work_progress work(options.progress);
+    detail::base::work_progress work(options.progress);
     mesh_measure result;
     if (boxes_meet(a, b)) result.relation = relation(a, tree_a, b, tree_b, work.part(0.0, 0.5));
     if (!work.reach(0.5)) result.relation = {.cancelled = true};
@@ -128,4 +128,4 @@ std::optional<mesh_measure> measure(mesh_view a, mesh_view b) {
     return measure(a, face_tree(a), b, face_tree(b));
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,14 +1,14 @@
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libmesh/place/detail/plate.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/place/plate.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::place {
 namespace {
 
 /// Cosine and sine of `turn` times 15 degrees, the same on every machine; quarters are exact.
@@ -112,7 +112,7 @@ plate::resident plate::at(std::uint32_t number, const turned_part& part, const p
     for (const point3& p : part.mesh().points) {
         point3 q{p.x + by.x, p.y + by.y, p.z + by.z};
         if (options_.to_single)
-            for (std::size_t k = 0; k < 3; ++k) q[k] = nearest_float(q[k]);
+            for (std::size_t k = 0; k < 3; ++k) q[k] = base::nearest_float(q[k]);
         one.part.points.push_back(q);
     }
     one.box = box_of(one.mesh());
@@ -199,7 +199,7 @@ double plate::free_travel(const turned_part& part, const tree<3>& faces_tree, co
 
 /// The least coordinate to be written that is `spacing` above `below`, exactly.
 double plate::next_above(double below) const {
-    const auto written = [&](double x) { return options_.to_single ? nearest_float(x) : x; };
+    const auto written = [&](double x) { return options_.to_single ? base::nearest_float(x) : x; };
     double at = written(below + options_.spacing);
     while (compare_difference(at, below, options_.spacing) < 0)
         at = options_.to_single
@@ -237,7 +237,7 @@ bool plate::put(std::uint32_t number, mesh_view mesh, unsigned turn, cell_place 
     const turned_part part(mesh, turn);
     const point3 raster_place{
         options_.corner.x + place.column * cell_, options_.corner.y + place.row * cell_,
-        options_.to_single ? nearest_float(options_.corner.z) : options_.corner.z};
+        options_.to_single ? base::nearest_float(options_.corner.z) : options_.corner.z};
     const auto settle = [&](const point3& by) {
         resident one = this->at(number, part, by);
         if (!inside(one.box)) return false;
@@ -271,4 +271,4 @@ std::vector<arranged_part> plate::take_parts(std::span<const mesh_view> parts) {
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::place

@@ -1,4 +1,4 @@
-#include <libmesh/place/detail/plate_raster.hpp>
+#include <libmesh/place/plate_raster.hpp>
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tf::detail {
+namespace treeform::detail::place {
 namespace {
 
 /// In cells: what a part may stick out of the cells that it is said to cover, in each direction.
@@ -225,4 +225,4 @@ std::optional<cell_place> plate_raster::first_free(const footprint& part, cell_p
     return std::nullopt;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::place

@@ -1,10 +1,10 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/place/detail/quickhull.hpp>
+#include <libmesh/place/quickhull.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-namespace tf::detail {
+namespace treeform::detail::place {
 
 scaled_points::scaled_points(points_view points) : points_(points.begin(), points.end()) {
     double largest = 0.0;
@@ -142,7 +142,7 @@ void quickhull::hand_over_points(std::uint32_t p) {
     }
 }
 
-bool quickhull::run(work_progress& work) {
+bool quickhull::run(base::work_progress& work) {
     std::size_t added = 0;
     // The oldest first, so that the hull gets finer everywhere at once. Where it is fine beside
     // coarse, as around a cylinder's one rim and not the other, points see long rows of facets.
@@ -192,4 +192,4 @@ std::vector<std::vector<face>> quickhull::sides() const {
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::place

@@ -1,18 +1,18 @@
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/detail/work_progress.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/place/relation.hpp>
-#include <libmesh/topology.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/relation.hpp>
+#include <treeform/mesh/topology.hpp>
 
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 std::array<bool, pair_kind_count> only(pair_kind kind) {
@@ -100,7 +100,7 @@ std::optional<std::uint32_t> face_inside(mesh_view a, mesh_view b, const tree<3>
 
 mesh_relation_result relation(mesh_view a, const tree<3>& tree_a, mesh_view b,
                               const tree<3>& tree_b, const progress_callback& progress) {
-    detail::work_progress work(progress);
+    detail::base::work_progress work(progress);
     const mesh_relation_result cancelled{.cancelled = true};
     mesh_relation_result result;
     const auto penetrating = [&](std::uint32_t face_a, std::uint32_t face_b) {
@@ -146,4 +146,4 @@ mesh_relation_result relation(mesh_view a, mesh_view b) {
     return relation(a, face_tree(a), b, face_tree(b));
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,6 +1,6 @@
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/place/scene_parts.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <treeform/mesh/scene_parts.hpp>
 
 #include <cstddef>
 #include <limits>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
@@ -53,11 +53,11 @@ std::vector<std::uint32_t> names_of_faces(std::size_t faces, std::span<const par
 std::vector<scene_part> scene_parts(mesh_view mesh, std::span<const part> names,
                                     std::span<const std::uint32_t> number) {
     if (!number.empty() && number.size() != mesh.faces.size())
-        throw std::invalid_argument("tf::scene_parts: as many numbers as faces are needed");
-    detail::check_faces("tf::scene_parts", mesh.points.size(), mesh.faces);
+        throw std::invalid_argument("treeform::scene_parts: as many numbers as faces are needed");
+    detail::base::check_faces("treeform::scene_parts", mesh.points.size(), mesh.faces);
     const name_table table(names);
     const std::vector<std::uint32_t> name = names_of_faces(mesh.faces.size(), names, number, table);
-    detail::union_find sets(table.names.size());
+    detail::base::union_find sets(table.names.size());
     std::vector<std::uint32_t> name_at(mesh.points.size(), nobody);
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
         for (const std::uint32_t corner : mesh.faces[f]) {
@@ -86,4 +86,4 @@ std::vector<scene_part> scene_parts(mesh_view mesh, std::span<const part> names,
     return parts;
 }
 
-}  // namespace tf
+}  // namespace treeform

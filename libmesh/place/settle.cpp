@@ -1,6 +1,6 @@
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/detail/work_progress.hpp>
-#include <libmesh/face_tree.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/settle.hpp>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 std::vector<point3> moved_points(mesh_view a, const point3& motion, double time, bool to_single) {
@@ -19,7 +19,7 @@ std::vector<point3> moved_points(mesh_view a, const point3& motion, double time,
         for (std::size_t k = 0; k < 3; ++k) {
             const double product = time * motion[k];
             p[k] += product;
-            if (to_single) p[k] = detail::nearest_float(p[k]);
+            if (to_single) p[k] = detail::base::nearest_float(p[k]);
         }
     return points;
 }
@@ -45,9 +45,10 @@ settled_mesh settle(mesh_view a, mesh_view b, const tree<3>& tree_b, const point
     double speed = 0.0;
     for (std::size_t k = 0; k < 3; ++k) speed = std::max(speed, std::abs(motion[k]));
     if (!(std::isfinite(speed) && speed > 0.0) || !(time >= 0.0) || !std::isfinite(time))
-        throw std::invalid_argument("tf::settle: the motion or the time is not finite, or zero");
+        throw std::invalid_argument(
+            "treeform::settle: the motion or the time is not finite, or zero");
 
-    detail::work_progress work(options.progress);
+    detail::base::work_progress work(options.progress);
     std::size_t tries = 0;
     const auto go_on = [&](double) { return work.step(0.0, 0.9, tries, 4.0); };
     const auto at = [&](double when) {
@@ -101,4 +102,4 @@ settled_mesh settle(mesh_view a, mesh_view b, const tree<3>& tree_b, const point
     return closed_in(std::move(best));
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -2,16 +2,16 @@
 /// \file
 /// A mesh moved towards another in coordinates that can be written, without penetrating it.
 
-#include <libmesh/mesh.hpp>
-#include <libmesh/place/relation.hpp>
-#include <libtree/export.hpp>
-#include <libtree/progress.hpp>
-#include <libtree/tree.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/relation.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/progress.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <cstdint>
 #include <vector>
 
-namespace tf {
+namespace treeform {
 
 struct settle_options {
     bool to_single = false;  ///< coordinates become float32 values, as a binary STL holds them
@@ -46,4 +46,4 @@ struct settled_mesh {
                                                const point3& motion, double time,
                                                const settle_options& options = {});
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,10 +1,10 @@
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/detail/finite.hpp>
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/detail/work_progress.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libmesh/place/settle_among.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/settle_among.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 bool within(const box3& a, const box3& b, double distance) {
@@ -38,9 +38,9 @@ class settling {
             for (std::size_t k = 0; k < 3; ++k) {
                 const double product = time * motion_[k];
                 p[k] += product;
-                if (options_.to_single) p[k] = detail::nearest_float(p[k]);
+                if (options_.to_single) p[k] = detail::base::nearest_float(p[k]);
             }
-        if (!detail::all_finite(one.points)) {
+        if (!detail::base::all_finite(one.points)) {
             one.good = false;
             return one;
         }
@@ -122,7 +122,7 @@ class settling {
     std::span<const still_part> parts_;
     point3 motion_;
     settle_among_options options_;
-    detail::work_progress work_;
+    detail::base::work_progress work_;
     std::size_t tries_ = 0;
     std::vector<std::optional<box3>> boxes_;
 };
@@ -133,9 +133,10 @@ void check(const point3& motion, double time, const settle_among_options& option
         speed = std::isnan(motion[k]) ? motion[k] : std::max(speed, std::abs(motion[k]));
     if (!(std::isfinite(speed) && speed > 0.0) || !(time >= 0.0) || !std::isfinite(time))
         throw std::invalid_argument(
-            "tf::settle_among: the motion or the time is not finite, or zero");
+            "treeform::settle_among: the motion or the time is not finite, or zero");
     if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
-        throw std::invalid_argument("tf::settle_among: the clearance is negative or not finite");
+        throw std::invalid_argument(
+            "treeform::settle_among: the clearance is negative or not finite");
 }
 
 }  // namespace
@@ -145,8 +146,9 @@ settled_among settle_among(mesh_view a, std::span<const still_part> parts, const
     check(motion, time, options);
     settling place(a, parts, motion, options);
     settled_among best = place.at(time, true);
-    if (!detail::all_finite(best.points))
-        throw std::overflow_error("tf::settle_among: the coordinates at the place are too large");
+    if (!detail::base::all_finite(best.points))
+        throw std::overflow_error(
+            "treeform::settle_among: the coordinates at the place are too large");
     const double unit = place.unit_of_time(best.points);
     const auto closed_in = [&](settled_among found) {
         const bool wanted = options.close_in && !options.forward && !(options.clearance > 0.0);
@@ -189,4 +191,4 @@ settled_among settle_among(mesh_view a, std::span<const still_part> parts, const
     return closed_in(std::move(best));
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,13 +1,13 @@
-#include <libmesh/detail/work_progress.hpp>
+#include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/first_approach.hpp>
-#include <libmesh/place/slide.hpp>
+#include <treeform/mesh/slide.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 /// What one part allows.
@@ -40,11 +40,11 @@ part_end end_at(mesh_view a, const tree<3>& tree_a, const still_part& part, cons
 slide_result slide(mesh_view a, const tree<3>& tree_a, std::span<const still_part> parts,
                    const point3& motion, const slide_options& options) {
     if (!(options.clearance >= 0.0))
-        throw std::invalid_argument("tf::slide: the clearance is negative or NaN");
+        throw std::invalid_argument("treeform::slide: the clearance is negative or NaN");
     slide_result result;
     sweep_contact earliest;
     double latest = options.latest;
-    detail::work_progress work(options.progress);
+    detail::base::work_progress work(options.progress);
     const double share = 1.0 / static_cast<double>(std::max<std::size_t>(parts.size(), 1));
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const auto before = static_cast<double>(i);
@@ -86,4 +86,4 @@ slide_result slide(mesh_view a, const tree<3>& tree_a, std::span<const still_par
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,11 +1,11 @@
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/repair/detail/copies.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/repair/copies.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::repair {
 namespace {
 
 constexpr int most_looked_at = 8;  // copies of a face at its edge, lest many take quadratic time
@@ -25,7 +25,7 @@ std::vector<numbered_face> sorted_by_corners(std::span<const face> faces) {
 
 /// Joins each face to one beside it, not a copy, that runs the same way round.
 void join_sheets(std::span<const face> faces, const std::vector<std::uint32_t>& first_copy,
-                 const directed_edges& edges, union_find& sheets) {
+                 const directed_edges& edges, base::union_find& sheets) {
     for (std::uint32_t f = 0; f < faces.size(); ++f)
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t u = faces[f][i], v = faces[f][(i + 1) % 3];
@@ -59,7 +59,7 @@ std::vector<std::uint8_t> copies_to_delete(std::span<const face> faces,
     });
     const auto may_go = [&](std::uint32_t f) { return has_single[part_of[f]] == 0; };
     if (std::ranges::none_of(part_of, may_go)) return deleted;
-    union_find sheets(faces.size());
+    base::union_find sheets(faces.size());
     join_sheets(faces, first_copy, edges, sheets);
     for_copies([&](std::span<const numbered_face> copies) {
         if (!may_go(copies.front().second)) return;
@@ -73,4 +73,4 @@ std::vector<std::uint8_t> copies_to_delete(std::span<const face> faces,
     return deleted;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::repair

@@ -1,10 +1,10 @@
-#include <libmesh/repair/detail/few_of_pairs.hpp>
+#include <libmesh/repair/few_of_pairs.hpp>
 
 #include <algorithm>
 #include <queue>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::repair {
 namespace {
 
 using pair = std::array<std::uint32_t, 2>;
@@ -52,4 +52,4 @@ std::vector<std::uint8_t> few_of_pairs(std::span<const pair> pairs,
     return taken;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::repair

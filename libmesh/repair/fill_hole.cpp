@@ -1,12 +1,12 @@
-#include <libmesh/detail/stars.hpp>
-#include <libmesh/repair/detail/fill_hole.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/repair/fill_hole.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
-namespace tf::detail {
+namespace treeform::detail::repair {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -199,4 +199,4 @@ std::vector<face> fill(std::span<const point3> points, const std::vector<std::ui
     return cut_corners(points, rim, edges);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::repair

@@ -1,14 +1,14 @@
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/detail/part_of_progress.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/detail/used_points.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/repair/detail/copies.hpp>
-#include <libmesh/repair/detail/few_of_pairs.hpp>
-#include <libmesh/repair/detail/fill_hole.hpp>
-#include <libmesh/repair/detail/remove_faces.hpp>
-#include <libmesh/validate.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/base/used_points.hpp>
+#include <libmesh/repair/copies.hpp>
+#include <libmesh/repair/few_of_pairs.hpp>
+#include <libmesh/repair/fill_hole.hpp>
+#include <libmesh/repair/remove_faces.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/validate.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 #include <span>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::repair {
 namespace {
 
 constexpr std::size_t listed_pairs = 100;
@@ -37,7 +37,7 @@ enum class fate : std::uint8_t {
 /// Points that no face has may be anything, and are left out in the end: here they are 0.
 std::vector<point3> points_in_use(mesh_view mesh) {
     std::vector<point3> points(mesh.points.size());
-    for (const std::uint32_t p : used_points(mesh.points.size(), mesh.faces))
+    for (const std::uint32_t p : base::used_points(mesh.points.size(), mesh.faces))
         points[p] = mesh.points[p];
     return points;
 }
@@ -76,7 +76,8 @@ class remover {
 
     void to_floats() {
         for (point3& p : given_.points) {
-            const point3 rounded{nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
+            const point3 rounded{base::nearest_float(p.x), base::nearest_float(p.y),
+                                 base::nearest_float(p.z)};
             for (std::size_t k = 0; k < 3; ++k)
                 result_.max_move = std::max(result_.max_move, std::abs(rounded[k] - p[k]));
             p = rounded;
@@ -100,7 +101,7 @@ class remover {
 
     void find_parts() {
         const auto count = static_cast<std::uint32_t>(given_.faces.size());
-        union_find parts(count);
+        base::union_find parts(count);
         for (std::uint32_t f = 0; f < count; ++f)
             for_neighbors(f, [&](std::uint32_t g) { parts.join(f, g); });
         part_of_.resize(count);
@@ -180,7 +181,7 @@ class remover {
     void find_patches() {
         constexpr std::uint32_t none = directed_edges::none;
         const auto count = static_cast<std::uint32_t>(fates_.size());
-        union_find linked(count);
+        base::union_find linked(count);
         for (std::uint32_t f = 0; f < count; ++f) {
             if (fates_[f] != fate::refilled) continue;
             for_neighbors(f, [&](std::uint32_t g) {
@@ -209,7 +210,7 @@ class remover {
         places_.clear();
         const double done = std::exchange(done_, (done_ + 1.0) / 2.0);  // rounds are not known
         const auto found =
-            self_intersections(now(), {.progress = part_of(options_.progress, done, done_)});
+            self_intersections(now(), {.progress = base::part_of(options_.progress, done, done_)});
         result_.cancelled = found.cancelled;
         if (found.cancelled) return false;
         for (const std::uint32_t f : find_defects(now()).degenerate_faces) complain(f, f);
@@ -367,8 +368,8 @@ class remover {
 }  // namespace
 
 repaired_mesh remove_faces(mesh_view mesh, const repair_options& options) {
-    check_faces("repair", mesh.points.size(), mesh.faces);
+    base::check_faces("repair", mesh.points.size(), mesh.faces);
     return remover(mesh, options).run();
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::repair

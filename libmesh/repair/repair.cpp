@@ -1,12 +1,12 @@
-#include <libmesh/repair/detail/remove_faces.hpp>
-#include <libmesh/repair/repair.hpp>
-#include <libmesh/topology.hpp>
+#include <libmesh/repair/remove_faces.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/topology.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 repaired_mesh from(solid_result&& made) {
@@ -60,11 +60,11 @@ repaired_mesh repair(mesh_view mesh, const repair_options& options) {
             result = from(boolean({&mesh, 1}, boolean_expression::union_of(1), as_boolean));
             break;
         case repair_mode::remove:
-            result = detail::remove_faces(mesh, options);
+            result = detail::repair::remove_faces(mesh, options);
             break;
     }
     if (!result.cancelled && result.open_count == 0) count_losses(mesh, result);
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,11 +1,11 @@
-#include <libmesh/round/detail/cancelled_faces.hpp>
+#include <libmesh/round/cancelled_faces.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <tuple>
 
-namespace tf::detail {
+namespace treeform::detail::round {
 namespace {
 
 struct named_face {
@@ -45,4 +45,4 @@ std::vector<std::uint8_t> cancelled_faces(std::span<const face> faces, bool soli
     return gone;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::round

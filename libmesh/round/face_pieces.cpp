@@ -1,12 +1,12 @@
-#include <libmesh/detail/stars.hpp>
-#include <libmesh/round/detail/face_pieces.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/round/face_pieces.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-namespace tf::detail {
+namespace treeform::detail::round {
 
 face_pieces::face_pieces(const face& whole, std::span<const point3> points)
     : face_pieces(std::vector<face>{whole}, points) {}
@@ -82,7 +82,7 @@ void face_pieces::split_inside(std::uint32_t p) {
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < all_.size(); ++i) {
         const auto [a, b, c] = all_[i];
-        if (!has_three_corners(all_[i])) continue;
+        if (!base::has_three_corners(all_[i])) continue;
         if (p == a || p == b || p == c) return;
         const double least = depth(all_[i], flat(p));
         if (least > most) {
@@ -196,4 +196,4 @@ std::vector<std::size_t> face_pieces::lying_in(std::span<const face> before) con
     return found;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::round

@@ -1,14 +1,14 @@
-#include <libmesh/detail/stars.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/detail/used_points.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/base/used_points.hpp>
 #include <libmesh/geometry/closest_point.hpp>
-#include <libmesh/round/detail/cancelled_faces.hpp>
-#include <libmesh/round/detail/face_pieces.hpp>
-#include <libmesh/round/detail/join_near.hpp>
-#include <libmesh/round/detail/joint_geometry.hpp>
-#include <libtree/build.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/search.hpp>
+#include <libmesh/round/cancelled_faces.hpp>
+#include <libmesh/round/face_pieces.hpp>
+#include <libmesh/round/join_near.hpp>
+#include <libmesh/round/joint_geometry.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@
 #include <tuple>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::round {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 10;
@@ -136,11 +136,11 @@ class joining {
     /// The points that faces use, offending ones or all.
     [[nodiscard]] std::vector<std::uint32_t> used_points(bool offending_only) const {
         const std::size_t points = surface().points.size();
-        if (!offending_only) return detail::used_points(points, surface().faces);
+        if (!offending_only) return detail::base::used_points(points, surface().faces);
         std::vector<face> faces;
         for (std::size_t f = 0; f < surface().faces.size(); ++f)
             if (bad_[f] != 0) faces.push_back(surface().faces[f]);
-        return detail::used_points(points, faces);
+        return detail::base::used_points(points, faces);
     }
 
     [[nodiscard]] std::vector<edge_name> offending_edges() const {
@@ -426,7 +426,7 @@ class joining {
             for (const edge_name& e : edges_of(surface().faces[f]))
                 edges.push_back({{e, operand_of(f)}, f});
         std::sort(edges.begin(), edges.end());
-        union_find sets(surface().faces.size());
+        base::union_find sets(surface().faces.size());
         flat_patches found;
         for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
             while (end < edges.size() && edges[end].first == edges[begin].first) ++end;
@@ -476,7 +476,7 @@ class joining {
             pieces.clear();
             cut(f, surface().faces[f], pieces);
             for (const face& piece : pieces) {
-                if (!has_three_corners(piece)) continue;
+                if (!base::has_three_corners(piece)) continue;
                 faces.push_back(piece);
                 face_of.push_back(result_.face_of[f]);
                 bad.push_back(bad_[f]);
@@ -524,4 +524,4 @@ joined_near join_near(mesh_view mesh, std::span<const std::uint8_t> offending, c
     return joining(mesh, offending, how).run();
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::round

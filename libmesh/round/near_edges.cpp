@@ -1,9 +1,9 @@
-#include <libmesh/round/detail/near_edges.hpp>
+#include <libmesh/round/near_edges.hpp>
 
 #include <algorithm>
 #include <cstdint>
 
-namespace tf::detail {
+namespace treeform::detail::round {
 
 near_edges::near_edges(mesh_view surface, std::span<const std::uint32_t> faces)
     : faces_(faces), parts_(64) {
@@ -24,4 +24,4 @@ near_edges::near_edges(mesh_view surface, std::span<const std::uint32_t> faces)
     });
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::round

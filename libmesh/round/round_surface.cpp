@@ -1,20 +1,20 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/detail/at_once.hpp>
-#include <libmesh/detail/compact.hpp>
-#include <libmesh/detail/finite.hpp>
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/detail/stars.hpp>
-#include <libmesh/detail/used_points.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/round/detail/join_near.hpp>
-#include <libmesh/round/detail/reach.hpp>
-#include <libmesh/round/detail/solid_faces.hpp>
-#include <libmesh/round/detail/surface_faults.hpp>
+#include <libmesh/base/at_once.hpp>
+#include <libmesh/base/compact.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/base/used_points.hpp>
+#include <libmesh/round/join_near.hpp>
+#include <libmesh/round/reach.hpp>
 #include <libmesh/round/round_surface.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/weld/detail/few_equal_points.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/round/solid_faces.hpp>
+#include <libmesh/round/surface_faults.hpp>
+#include <libmesh/weld/few_equal_points.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -24,7 +24,7 @@
 #include <numeric>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 12;
@@ -32,7 +32,8 @@ constexpr std::size_t point_grain = std::size_t{1} << 7;  // the constructed one
 constexpr std::size_t most_listed = 100;
 
 point3 to_single(const point3& p) {
-    return {detail::nearest_float(p.x), detail::nearest_float(p.y), detail::nearest_float(p.z)};
+    return {detail::base::nearest_float(p.x), detail::base::nearest_float(p.y),
+            detail::base::nearest_float(p.z)};
 }
 
 double largest_difference(const point3& p, const point3& q) {
@@ -111,8 +112,8 @@ class rounding {
 
     /// The exact surface becomes the rounded one; false when a coordinate is too large for it.
     bool settle() {
-        const std::vector<std::uint32_t> points =
-            detail::used_points(exact_.given.size() + exact_.constructed.size(), exact_.faces);
+        const std::vector<std::uint32_t> points = detail::base::used_points(
+            exact_.given.size() + exact_.constructed.size(), exact_.faces);
         std::vector<point3> at(points.size());
         std::vector<double> moves(chunk_count(points.size(), point_grain) + 1, 0.0);
         std::atomic<bool> finite{true};
@@ -121,7 +122,7 @@ class rounding {
                        for (std::size_t i = begin; i < end; ++i) {
                            at[i] = rounded_point(points[i]);
                            moves[c] = std::max(moves[c], move_of(points[i], at[i], moves[c]));
-                           if (!detail::is_finite(at[i])) finite = false;
+                           if (!detail::base::is_finite(at[i])) finite = false;
                        }
                    });
         const double move = *std::max_element(moves.begin(), moves.end());
@@ -147,9 +148,9 @@ class rounding {
     /// then go: what is left of them runs back and forth. Whether there were any.
     bool join_equal(const std::vector<std::uint32_t>& points, std::vector<point3> at) {
         std::vector<std::uint32_t> new_of_old, point_of;
-        detail::at_once([&] { new_of_old.resize(point_of_.size()); },
-                        [&] { point_of.resize(points.size()); });
-        const auto equal = detail::few_equal_points(at);
+        detail::base::at_once([&] { new_of_old.resize(point_of_.size()); },
+                              [&] { point_of.resize(points.size()); });
+        const auto equal = detail::weld::few_equal_points(at);
         for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
                 const auto number = static_cast<std::uint32_t>(i);
@@ -182,12 +183,15 @@ class rounding {
         };
         mesh& now = result_.surface;
         std::vector<std::uint32_t> face_of;
-        detail::compact(
+        detail::base::compact(
             exact.size(),
-            [&](std::size_t f) { return !joined || detail::has_three_corners(renumbered(f)); },
+            [&](std::size_t f) {
+                return !joined || detail::base::has_three_corners(renumbered(f));
+            },
             [&](std::size_t count) {
-                detail::at_once([&] { now.faces.resize(count); }, [&] { face_of.resize(count); },
-                                [&] { sound_.resize(exact_.sound.empty() ? 0 : count); });
+                detail::base::at_once([&] { now.faces.resize(count); },
+                                      [&] { face_of.resize(count); },
+                                      [&] { sound_.resize(exact_.sound.empty() ? 0 : count); });
             },
             [&](std::size_t f, std::size_t place) {
                 now.faces[place] = renumbered(f);
@@ -201,7 +205,8 @@ class rounding {
     /// Faces that vanish leave points behind.
     void drop_unused_points() {
         mesh& now = result_.surface;
-        const std::vector<std::uint32_t> used = detail::used_points(now.points.size(), now.faces);
+        const std::vector<std::uint32_t> used =
+            detail::base::used_points(now.points.size(), now.faces);
         std::vector<std::uint32_t> new_of_old(now.points.size());
         for (std::uint32_t p = 0; p < used.size(); ++p) {
             now.points[p] = now.points[used[p]];
@@ -256,7 +261,7 @@ class rounding {
         result_.meeting.clear();
         result_.meeting_count = 0;
         offending_.assign(now.faces.size(), 0);
-        const detail::surface_faults faults = detail::find_faults(
+        const detail::round::surface_faults faults = detail::round::find_faults(
             now,
             {.sound = sound_, .solid = options_.solid, .moved = moved_, .progress = next_phase()});
         result_.cancelled = faults.cancelled;
@@ -281,7 +286,7 @@ class rounding {
     /// The rounded surface, with what is next to each other joined, and cut along itself, becomes
     /// the exact one; false when that fails.
     bool cut_again() {
-        const detail::joined_near near = join_what_is_near();
+        const detail::round::joined_near near = join_what_is_near();
         const mesh& now = near.surface;
         arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
         result_.cancelled = arranged.cancelled;
@@ -296,7 +301,7 @@ class rounding {
             // of its sheets, and -1 times around what was inside.
             std::vector<std::uint8_t> inside(cells.winding.size());
             for (std::size_t c = 0; c < inside.size(); ++c) inside[c] = cells.winding[c] > 0;
-            detail::solid_faces kept = detail::faces_around(cut, cells, inside);
+            detail::round::solid_faces kept = detail::round::faces_around(cut, cells, inside);
             exact_.faces = std::move(kept.faces);
             face_of_cut = std::move(kept.face_of);
         } else {
@@ -318,16 +323,17 @@ class rounding {
 
     /// Faces that meet once others are joined are next to something, too.
     /// Where that only spreads, nothing is joined.
-    detail::joined_near join_what_is_near() {
+    detail::round::joined_near join_what_is_near() {
         const mesh& now = result_.surface;
-        const detail::joint how{.reach = detail::reach_of_bits(
-                                    now.points, bits_of_step(result_.steps, options_.to_float)),
-                                .source = result_.face_of,
-                                .solid = options_.solid};
+        const detail::round::joint how{
+            .reach = detail::round::reach_of_bits(now.points,
+                                                  bits_of_step(result_.steps, options_.to_float)),
+            .source = result_.face_of,
+            .solid = options_.solid};
         constexpr int most_rounds = 8;
-        detail::joined_near near;
+        detail::round::joined_near near;
         for (int round = 0; round < most_rounds && !only_cut_; ++round) {
-            near = detail::join_near(now, offending_, how);
+            near = detail::round::join_near(now, offending_, how);
             bool more = false;
             const std::vector<face_pair> meeting = self_intersections(near.surface).pairs;
             if (meeting.size() > 8 * result_.meeting_count + 2000) {
@@ -374,4 +380,4 @@ rounded_surface round_surface(exact_surface exact, const round_options& options)
     return rounding(std::move(exact), options).run();
 }
 
-}  // namespace tf
+}  // namespace treeform

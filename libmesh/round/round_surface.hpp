@@ -4,17 +4,17 @@
 /// broke on the way.
 
 #include <libmesh/exact/constructed_point.hpp>
-#include <libmesh/mesh.hpp>
-#include <libtree/aabb.hpp>
-#include <libtree/export.hpp>
-#include <libtree/progress.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/progress.hpp>
 
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-namespace tf {
+namespace treeform {
 
 /// Faces between exact points: corners below `given.size()` are given points, those from there on
 /// constructed ones.
@@ -97,4 +97,4 @@ struct rounded_surface {
 [[nodiscard]] TREEFORM_API rounded_surface round_surface(exact_surface exact,
                                                          const round_options& options = {});
 
-}  // namespace tf
+}  // namespace treeform

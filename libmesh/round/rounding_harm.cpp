@@ -1,8 +1,8 @@
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/detail/twofold.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/twofold.hpp>
 #include <libmesh/round/rounding_harm.hpp>
-#include <libmesh/validate.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/validate.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,20 +11,20 @@
 #include <utility>
 #include <vector>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Coordinate k of what `by` makes of p.
-detail::twofold image(const transform<3>& by, const point3& p, std::size_t k) {
-    detail::twofold sum{by.rows[k][3], 0.0};
-    for (std::size_t j = 0; j < 3; ++j) sum = sum + detail::product_of(by.rows[k][j], p[j]);
+detail::base::twofold image(const transform<3>& by, const point3& p, std::size_t k) {
+    detail::base::twofold sum{by.rows[k][3], 0.0};
+    for (std::size_t j = 0; j < 3; ++j) sum = sum + detail::base::product_of(by.rows[k][j], p[j]);
     return sum;
 }
 
 double difference(const transform<3>& by, const point3& p, std::size_t k, double placed) {
-    const detail::twofold exact = image(by, p, k);
+    const detail::base::twofold exact = image(by, p, k);
     const double found = std::abs((placed - exact.high) - exact.low);
     if (!std::isnan(found)) return found;
     // Products overflow in halves before they do as a whole.
@@ -82,14 +82,15 @@ double largest_move(points_view points, const transform<3>& by, points_view plac
 std::vector<point3> in_single(points_view points) {
     std::vector<point3> rounded(points.begin(), points.end());
     for (point3& p : rounded)
-        for (std::size_t k = 0; k < 3; ++k) p[k] = detail::nearest_float(p[k]);
+        for (std::size_t k = 0; k < 3; ++k) p[k] = detail::base::nearest_float(p[k]);
     return rounded;
 }
 
 rounding_harm harm_of_rounding(mesh_view mesh, points_view placed,
                                const progress_callback& progress) {
     if (placed.size() != mesh.points.size())
-        throw std::invalid_argument("tf::harm_of_rounding: not as many points as the mesh has");
+        throw std::invalid_argument(
+            "treeform::harm_of_rounding: not as many points as the mesh has");
     const mesh_view there{placed, mesh.faces};
     rounding_harm harm;
     const pairs now = meeting_pairs(there, progress, harm.cancelled);
@@ -100,4 +101,4 @@ rounding_harm harm_of_rounding(mesh_view mesh, points_view placed,
     return harm;
 }
 
-}  // namespace tf
+}  // namespace treeform

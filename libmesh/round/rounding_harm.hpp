@@ -2,15 +2,15 @@
 /// \file
 /// What rounding the coordinates of a mesh has done to it.
 
-#include <libmesh/mesh.hpp>
-#include <libtree/export.hpp>
-#include <libtree/progress.hpp>
-#include <libtree/transform.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/progress.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <cstdint>
 #include <vector>
 
-namespace tf {
+namespace treeform {
 
 /// Distance between neighbouring numbers at the largest coordinate of `points`: of float32, if
 /// `single`, else of double. The least there is, where all coordinates are 0 or there are none;
@@ -43,4 +43,4 @@ struct rounding_harm {
 [[nodiscard]] TREEFORM_API rounding_harm harm_of_rounding(mesh_view mesh, points_view placed,
                                                           const progress_callback& progress = {});
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,22 +1,23 @@
-#include <libmesh/detail/at_once.hpp>
-#include <libmesh/detail/compact.hpp>
-#include <libmesh/round/detail/solid_faces.hpp>
+#include <libmesh/base/at_once.hpp>
+#include <libmesh/base/compact.hpp>
+#include <libmesh/round/solid_faces.hpp>
 
 #include <cstddef>
 
-namespace tf::detail {
+namespace treeform::detail::round {
 
 solid_faces faces_around(const mesh_arrangement& cut, const arrangement_cells& cells,
                          const std::vector<std::uint8_t>& inside) {
     solid_faces result;
-    compact(
+    base::compact(
         cut.faces.size(),
         [&](std::size_t f) {
             const auto [front, behind] = cells.cell_of_side[f];
             return inside[front] != inside[behind];
         },
         [&](std::size_t count) {
-            at_once([&] { result.faces.resize(count); }, [&] { result.face_of.resize(count); });
+            base::at_once([&] { result.faces.resize(count); },
+                          [&] { result.face_of.resize(count); });
         },
         [&](std::size_t f, std::size_t place) {
             const auto [a, b, c] = cut.faces[f];
@@ -27,4 +28,4 @@ solid_faces faces_around(const mesh_arrangement& cut, const arrangement_cells& c
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::round

@@ -1,14 +1,14 @@
-#include <libmesh/detail/compact.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/round/detail/coarse_grid.hpp>
-#include <libmesh/round/detail/near_edges.hpp>
-#include <libmesh/round/detail/surface_faults.hpp>
-#include <libmesh/round/detail/turned_faces.hpp>
-#include <libmesh/validate.hpp>
-#include <libtree/aabb.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/search.hpp>
+#include <libmesh/base/compact.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/round/coarse_grid.hpp>
+#include <libmesh/round/near_edges.hpp>
+#include <libmesh/round/surface_faults.hpp>
+#include <libmesh/round/turned_faces.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -16,7 +16,7 @@
 #include <numeric>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::round {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 13;
@@ -114,7 +114,7 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
     if (check.sound.empty()) return all_faults(surface, check);
     const std::size_t count = surface.faces.size();
     ids doubted;
-    compact(
+    base::compact(
         count, [&](std::size_t f) { return check.sound[f] == 0; },
         [&](std::size_t found) { doubted.resize(found); },
         [&](std::size_t f, std::size_t place) { doubted[place] = static_cast<std::uint32_t>(f); });
@@ -139,4 +139,4 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::round

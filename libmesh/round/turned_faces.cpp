@@ -1,11 +1,11 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/round/detail/joint_geometry.hpp>
-#include <libmesh/round/detail/turned_faces.hpp>
-#include <libtree/aabb.hpp>
-#include <libtree/search.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/round/joint_geometry.hpp>
+#include <libmesh/round/turned_faces.hpp>
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include <limits>
 #include <numeric>
 
-namespace tf::detail {
+namespace treeform::detail::round {
 namespace {
 
 using box3 = aabb<double, 3>;
@@ -161,7 +161,7 @@ class near_parts {
     std::span<const std::uint8_t> sound_;
     const near_edges& edges_;
     std::span<const std::uint32_t> near_;
-    union_find sets_;
+    base::union_find sets_;
 };
 
 /// The surface as the arrangement that it is.
@@ -201,4 +201,4 @@ turned_faces find_turned_faces(mesh_view surface) {
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::round

@@ -1,5 +1,5 @@
-#include <libmesh/weld/detail/carried_rows.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/weld/carried_rows.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -8,13 +8,13 @@
 #include <string_view>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 16;
 
 [[noreturn]] void refuse(const std::string& why) {
-    throw std::invalid_argument("tf::weld_mesh: " + why);
+    throw std::invalid_argument("treeform::weld_mesh: " + why);
 }
 
 void check_column(const element& e, const column& c) {
@@ -111,4 +111,4 @@ attributes carry_rows(const attributes& properties, const mesh_weld_result& weld
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

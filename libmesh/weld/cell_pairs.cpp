@@ -1,9 +1,9 @@
-#include <libmesh/weld/detail/near_pairs.hpp>
-#include <libmesh/weld/detail/sort_by_key.hpp>
+#include <libmesh/weld/near_pairs.hpp>
+#include <libmesh/weld/sort_by_key.hpp>
 
 #include <cmath>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 /// Cubes at least twice as wide as the reach, and about a third of what a point would have to
@@ -54,7 +54,7 @@ sorted_places sort_by_cube(const near_pairs_task& task, const lattice& steps, co
     auto sorted = distribute<place_record>(
         task.points.size(), bits,
         [&](std::size_t i, place_record& r) {
-            if (!is_finite(task.points[i])) return false;
+            if (!base::is_finite(task.points[i])) return false;
             r = steps.place(task.points[i], static_cast<std::uint32_t>(i));
             return true;
         },
@@ -148,4 +148,4 @@ bool pairs_by_cells(const near_pairs_task& task, const lattice& steps) {
     return !stopped;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

@@ -1,6 +1,6 @@
-#include <libmesh/weld/detail/conditions.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/weld/conditions.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-namespace tf {
-namespace detail {
+namespace treeform {
+namespace detail::weld {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 16;
@@ -43,7 +43,7 @@ std::vector<std::uint32_t> refine(std::size_t count, std::span<const std::uint32
 }
 
 [[noreturn]] void refuse(const std::string& why) {
-    throw std::invalid_argument("tf::weld_mesh: " + why);
+    throw std::invalid_argument("treeform::weld_mesh: " + why);
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ weld_options conditions::options() const {
     return options;
 }
 
-}  // namespace detail
+}  // namespace detail::weld
 
 std::vector<weld_condition> seam_conditions(const attributes& properties) {
     constexpr std::array<std::string_view, 13> names{
@@ -111,4 +111,4 @@ std::vector<weld_condition> seam_conditions(const attributes& properties) {
     return found;
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,10 +1,10 @@
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/weld/detail/cube_index.hpp>
-#include <libmesh/weld/detail/dense.hpp>
-#include <libmesh/weld/detail/hashed_ids.hpp>
-#include <libmesh/weld/detail/lattice.hpp>
-#include <libmesh/weld/detail/linked.hpp>
-#include <libmesh/weld/detail/sort_by_key.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/weld/cube_index.hpp>
+#include <libmesh/weld/dense.hpp>
+#include <libmesh/weld/hashed_ids.hpp>
+#include <libmesh/weld/lattice.hpp>
+#include <libmesh/weld/linked.hpp>
+#include <libmesh/weld/sort_by_key.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <tuple>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 /// Cubes whose points are all within the tolerance of each other: their diagonal is less than it
@@ -74,7 +74,7 @@ class chain_finder {
         members_ = distribute<member>(
             points_.size(), bits,
             [&](std::size_t i, member& m) {
-                if (!is_finite(points_[i])) return false;
+                if (!base::is_finite(points_[i])) return false;
                 m.id = static_cast<std::uint32_t>(i);
                 const auto [x, y, z] = cube_of(m.id);
                 m.hash = cube_hash(x, y, z, kind_of(m.id));
@@ -189,7 +189,7 @@ class chain_finder {
     const weld_options* options_;
     matcher match_;
     cube_axis axis_;
-    union_find sets_;
+    base::union_find sets_;
     sorted_records<member> members_;
     std::vector<block> blocks_;
     hashed_ids by_hash_;
@@ -201,4 +201,4 @@ std::vector<std::uint32_t> dense_chains(points_view points, const weld_options& 
     return chain_finder(points, options).run();
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

@@ -1,8 +1,8 @@
-#include <libmesh/weld/detail/cube_index.hpp>
-#include <libmesh/weld/detail/dense.hpp>
-#include <libmesh/weld/detail/hashed_ids.hpp>
-#include <libmesh/weld/detail/lattice.hpp>
-#include <libmesh/weld/detail/reach.hpp>
+#include <libmesh/weld/cube_index.hpp>
+#include <libmesh/weld/dense.hpp>
+#include <libmesh/weld/hashed_ids.hpp>
+#include <libmesh/weld/lattice.hpp>
+#include <libmesh/weld/reach.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> dense_leaders(points_view points, const weld_options&
             return {};
         leader_of[i] = i;
         const point3& p = points[i];
-        if (!is_finite(p)) continue;
+        if (!base::is_finite(p)) continue;
         std::array<cube_axis::range, 3> ranges;
         for (std::size_t k = 0; k < 3; ++k) ranges[k] = axis.around(p[k], reach_in_cubes);
         std::array<std::uint64_t, 27> hashes;
@@ -61,4 +61,4 @@ std::vector<std::uint32_t> dense_leaders(points_view points, const weld_options&
     return leader_of;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

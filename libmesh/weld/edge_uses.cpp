@@ -1,17 +1,17 @@
-#include <libmesh/detail/stars.hpp>
-#include <libmesh/weld/detail/edge_uses.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/weld/edge_uses.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <utility>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 template <class Body>
 void for_each_edge_of(const face& f, repeated_corners repeated, const Body& body) {
-    if (repeated == repeated_corners::left_out && !has_three_corners(f)) return;
+    if (repeated == repeated_corners::left_out && !base::has_three_corners(f)) return;
     for (std::size_t k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax(f[k], f[k == 2 ? 0 : k + 1]);
         if (low != high) body(low, high);
@@ -22,7 +22,7 @@ void for_each_edge_of(const face& f, repeated_corners repeated, const Body& body
 
 edge_uses::edge_uses(std::size_t point_count, std::span<const face> faces,
                      repeated_corners repeated)
-    : begin_(nameable_points(point_count) + 1) {
+    : begin_(base::nameable_points(point_count) + 1) {
     std::fill_n(begin_.data(), begin_.size(), std::size_t{0});
     for (const face& f : faces)
         for_each_edge_of(f, repeated, [&](std::uint32_t low, std::uint32_t) { ++begin_[low]; });
@@ -67,4 +67,4 @@ buffer<std::uint8_t> border_points(std::size_t point_count, std::span<const face
     return border;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

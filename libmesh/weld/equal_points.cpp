@@ -1,10 +1,10 @@
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/weld/detail/equal_firsts.hpp>
-#include <libmesh/weld/detail/number_groups.hpp>
-#include <libmesh/weld/detail/point_hash.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libtree/detail/buffer.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/weld/equal_firsts.hpp>
+#include <libmesh/weld/number_groups.hpp>
+#include <libmesh/weld/point_hash.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -12,13 +12,13 @@
 #include <limits>
 #include <stdexcept>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t grain = std::size_t{1} << 14;
 
-using detail::bits_of;
+using detail::weld::bits_of;
 
 bool same(const point3& a, const point3& b) {
     return bits_of(a.x) == bits_of(b.x) && bits_of(a.y) == bits_of(b.y) &&
@@ -162,8 +162,8 @@ void find_firsts(points_view points, std::span<const std::uint32_t> kind,
 
 }  // namespace
 
-std::vector<std::uint32_t> detail::equal_firsts(points_view points,
-                                                std::span<const std::uint32_t> kind) {
+std::vector<std::uint32_t> detail::weld::equal_firsts(points_view points,
+                                                      std::span<const std::uint32_t> kind) {
     std::vector<std::uint32_t> hash_then_first(points.size());
     for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
@@ -175,17 +175,17 @@ std::vector<std::uint32_t> detail::equal_firsts(points_view points,
 
 equal_points find_equal_points(points_view points) {
     if (points.size() > nobody)
-        throw std::invalid_argument("tf::find_equal_points: more than 2^32 - 1 points");
+        throw std::invalid_argument("treeform::find_equal_points: more than 2^32 - 1 points");
     equal_points result;
-    result.new_of_old = detail::equal_firsts(points, {});
-    result.first_of_new = detail::number_groups(result.new_of_old);
+    result.new_of_old = detail::weld::equal_firsts(points, {});
+    result.first_of_new = detail::weld::number_groups(result.new_of_old);
     return result;
 }
 
 mesh join_equal_points(mesh_view mesh) {
-    detail::check_faces("join_equal_points", mesh.points.size(), mesh.faces);
+    detail::base::check_faces("join_equal_points", mesh.points.size(), mesh.faces);
     const equal_points joined = find_equal_points(mesh.points);
-    tf::mesh result;
+    treeform::mesh result;
     result.points.resize(joined.first_of_new.size());
     for_chunks(result.points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
@@ -200,4 +200,4 @@ mesh join_equal_points(mesh_view mesh) {
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,8 +1,8 @@
-#include <libmesh/weld/detail/equal_firsts.hpp>
-#include <libmesh/weld/detail/few_equal_points.hpp>
-#include <libmesh/weld/detail/number_groups.hpp>
-#include <libmesh/weld/detail/point_hash.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/weld/equal_firsts.hpp>
+#include <libmesh/weld/few_equal_points.hpp>
+#include <libmesh/weld/number_groups.hpp>
+#include <libmesh/weld/point_hash.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 14;
@@ -76,7 +76,7 @@ std::vector<std::uint32_t> points_in_doubt(points_view points) {
 
 std::optional<equal_points> few_equal_points(points_view points) {
     if (points.size() > std::numeric_limits<std::uint32_t>::max())
-        throw std::invalid_argument("tf::find_equal_points: more than 2^32 - 1 points");
+        throw std::invalid_argument("treeform::find_equal_points: more than 2^32 - 1 points");
     const std::vector<std::uint32_t> doubted = points_in_doubt(points);
     std::vector<point3> at;
     at.reserve(doubted.size());
@@ -94,4 +94,4 @@ std::optional<equal_points> few_equal_points(points_view points) {
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

@@ -1,14 +1,14 @@
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/weld/detail/kept_values.hpp>
-#include <libmesh/weld/detail/vertex_values.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/weld/kept_values.hpp>
+#include <libmesh/weld/vertex_values.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 14;
@@ -110,4 +110,4 @@ void take_means(const element& vertices, const group_members& members, element& 
     }
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

@@ -1,5 +1,5 @@
-#include <libmesh/weld/detail/lattice.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/weld/lattice.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 struct bounds {
@@ -29,7 +29,7 @@ bounds bounds_of(points_view points) {
     for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         bounds part;
         for (const point3& p : points.subspan(begin, end - begin))
-            if (is_finite(p)) part.add({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
+            if (base::is_finite(p)) part.add({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
         parts[c] = part;
     });
     bounds all;
@@ -43,7 +43,7 @@ bounds bounds_of_most(points_view points) {
     std::array<std::vector<double>, 3> at;
     const std::size_t stride = std::max<std::size_t>(1, points.size() / sample);
     for (std::size_t i = 0; i < points.size(); i += stride)
-        if (is_finite(points[i]))
+        if (base::is_finite(points[i]))
             for (std::size_t k = 0; k < 3; ++k) at[k].push_back(points[i][k]);
     bounds most;
     for (std::size_t k = 0; k < 3 && !at[k].empty(); ++k) {
@@ -131,4 +131,4 @@ std::optional<lattice> lattice::over(points_view points, double tolerance) {
     return result;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

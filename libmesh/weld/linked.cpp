@@ -1,9 +1,9 @@
-#include <libmesh/weld/detail/linked.hpp>
+#include <libmesh/weld/linked.hpp>
 
 #include <algorithm>
 #include <cstddef>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 struct box {
@@ -111,4 +111,4 @@ bool any_match(const matcher& match, std::span<std::uint32_t> a, std::span<std::
     return match(nearest_to(match, match.point(j), a), j) || any_match_of_halves(match, a, b);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

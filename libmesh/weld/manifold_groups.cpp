@@ -1,9 +1,9 @@
-#include <libmesh/detail/stars.hpp>
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/weld/detail/edge_uses.hpp>
-#include <libmesh/weld/detail/manifold_groups.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/weld/edge_uses.hpp>
+#include <libmesh/weld/manifold_groups.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 16;
@@ -26,7 +26,7 @@ std::vector<face> renamed(std::span<const face> faces, const numbers& name) {
     for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const face& f = faces[i];
-            if (has_three_corners(f))
+            if (base::has_three_corners(f))
                 result[i] = {name[f[0]], name[f[1]], name[f[2]]};
             else
                 result[i] = {name[f[0]], name[f[0]], name[f[0]]};
@@ -43,7 +43,7 @@ std::size_t corner_called(const face& f, std::uint32_t name) {
 /// [V] whether the faces of a point fall into several fans.
 std::vector<std::uint8_t> several_fans(std::size_t point_count, std::span<const face> faces,
                                        const edge_uses& edges) {
-    union_find corners(3 * faces.size());
+    base::union_find corners(3 * faces.size());
     const auto corner = [&](std::uint32_t f, std::uint32_t point) {
         return static_cast<std::uint32_t>(3 * std::size_t{f} + corner_called(faces[f], point));
     };
@@ -56,7 +56,7 @@ std::vector<std::uint8_t> several_fans(std::size_t point_count, std::span<const 
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const face& f = faces[i / 3];
         const auto id = static_cast<std::uint32_t>(i);
-        if (!has_three_corners(f) || corners.root(id) != id) continue;
+        if (!base::has_three_corners(f) || corners.root(id) != id) continue;
         std::uint8_t& n = fans[f[i % 3]];
         n = static_cast<std::uint8_t>(std::min(n + 1, 2));
     }
@@ -112,13 +112,13 @@ class splitter {
     [[nodiscard]] numbers join_along_edges() const {
         const numbers name = mergeable();
         const std::vector<face> faces = renamed(given_faces_, name);
-        union_find parts(point_count());
+        base::union_find parts(point_count());
         join_shrunk(faces, parts);
         edge_uses(point_count(), faces, repeated_corners::counted)
             .for_each([&](const used_edge& edge, std::size_t) {
                 std::size_t left = 0;
                 for (std::size_t i = 0; i < edge.uses.size(); ++i)
-                    left += has_three_corners(faces[edge.face(i)]) ? 1 : 0;
+                    left += base::has_three_corners(faces[edge.face(i)]) ? 1 : 0;
                 if (left > 2) return;
                 for (std::size_t i = 1; i < edge.uses.size(); ++i)
                     for (const std::uint32_t end : {edge.low, edge.high})
@@ -133,10 +133,10 @@ class splitter {
         return part;
     }
 
-    void join_shrunk(const std::vector<face>& faces, union_find& parts) const {
+    void join_shrunk(const std::vector<face>& faces, base::union_find& parts) const {
         for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
-                if (!has_three_corners(given_faces_[i])) continue;
+                if (!base::has_three_corners(given_faces_[i])) continue;
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::size_t next = k == 2 ? 0 : k + 1;
                     if (faces[i][k] == faces[i][next])
@@ -191,7 +191,7 @@ class splitter {
 
     /// Splits all groups that hang together with a faulty one into single points.
     void split_components(const numbers& faulty) {
-        union_find linked(point_count());
+        base::union_find linked(point_count());
         for (std::size_t v = 0; v < point_count(); ++v)
             linked.join(static_cast<std::uint32_t>(v),
                         given_.first_of_group[given_.group_of_point[v]]);
@@ -207,7 +207,7 @@ class splitter {
     [[nodiscard]] point_groups number(const numbers& part) const {
         std::vector<std::uint8_t> has_faces(point_count(), 0);
         for (const face& f : given_faces_)
-            if (has_three_corners(f))
+            if (base::has_three_corners(f))
                 for (const std::uint32_t corner : f) has_faces[corner] = 1;
         numbers host(given_.first_of_group.size(), nobody);
         for (std::size_t v = 0; v < part.size(); ++v) {
@@ -293,7 +293,8 @@ std::uint64_t count_split(const point_groups& given, const point_groups& parts) 
 
 manifold_groups split_to_manifold(mesh_view mesh, const point_groups& given, int rounds) {
     if (mesh.faces.size() > nobody / 3)
-        throw std::invalid_argument("tf::weld_mesh: more than 2^32 / 3 faces with keep_manifold");
+        throw std::invalid_argument(
+            "treeform::weld_mesh: more than 2^32 / 3 faces with keep_manifold");
     const bool equal = all_equal(mesh.points, given);
     point_groups parts =
         equal ? splitter(mesh.faces, given).run(rounds)
@@ -307,4 +308,4 @@ manifold_groups split_to_manifold(mesh_view mesh, const point_groups& given, int
     return {std::move(parts), split};
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

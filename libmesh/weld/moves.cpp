@@ -1,8 +1,8 @@
-#include <libmesh/detail/finite.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/weld/detail/moves.hpp>
-#include <libmesh/weld/detail/reach.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/weld/moves.hpp>
+#include <libmesh/weld/reach.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <array>
 #include <bit>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 15;
@@ -49,7 +49,8 @@ plane_points corners_of(mesh_view mesh, const face& f) {
 }
 
 bool finite(const plane_points& p) {
-    return detail::is_finite(p.a) && detail::is_finite(p.b) && detail::is_finite(p.c);
+    return detail::base::is_finite(p.a) && detail::base::is_finite(p.b) &&
+           detail::base::is_finite(p.c);
 }
 
 bool is_flipped(const plane_points& before, const plane_points& after) {
@@ -65,7 +66,7 @@ double largest_move(points_view points, std::span<const std::uint32_t> group_of_
     for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t i = begin; i < end; ++i) {
             const move mine{points[i], places[group_of_point[i]]};
-            if (mine.from == mine.to || !detail::is_finite(mine.from)) continue;
+            if (mine.from == mine.to || !detail::base::is_finite(mine.from)) continue;
             if (mine.further_than(furthest[c])) furthest[c] = mine;
         }
     });
@@ -90,4 +91,4 @@ std::uint64_t count_flipped(mesh_view before, mesh_view after,
     return total;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

@@ -1,10 +1,10 @@
-#include <libmesh/weld/detail/number_groups.hpp>
-#include <libtree/detail/buffer.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/weld/number_groups.hpp>
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 
 std::vector<std::uint32_t> number_groups(std::vector<std::uint32_t>& group_of_point) {
     constexpr std::size_t grain = std::size_t{1} << 15;
@@ -35,4 +35,4 @@ std::vector<std::uint32_t> number_groups(std::vector<std::uint32_t>& group_of_po
     return first_of_group;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

@@ -1,7 +1,7 @@
-#include <libmesh/detail/union_find.hpp>
-#include <libmesh/weld/detail/near_pairs.hpp>
-#include <libmesh/weld/detail/sort_by_key.hpp>
-#include <libmesh/weld/detail/sparse.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/weld/near_pairs.hpp>
+#include <libmesh/weld/sort_by_key.hpp>
+#include <libmesh/weld/sparse.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -11,7 +11,7 @@
 #include <numeric>
 #include <optional>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
@@ -176,7 +176,7 @@ std::vector<std::uint32_t> sparse_leaders(points_view points, const weld_options
 
 std::vector<std::uint32_t> sparse_chains(points_view points, const weld_options& options) {
     const std::size_t most = 16 * points.size() + 1024;
-    union_find sets(points.size());
+    base::union_find sets(points.size());
     std::atomic<std::size_t> count = 0;
     const agreeing agree(options);
     const auto add_copy = [&](std::uint32_t first, std::uint32_t copy) { sets.join(first, copy); };
@@ -197,4 +197,4 @@ std::vector<std::uint32_t> sparse_chains(points_view points, const weld_options&
     return root_of;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

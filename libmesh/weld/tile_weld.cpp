@@ -1,9 +1,9 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/weld/detail/moves.hpp>
-#include <libmesh/weld/detail/near_cells.hpp>
-#include <libmesh/weld/detail/reach.hpp>
-#include <libmesh/weld/detail/settle_in_chain.hpp>
-#include <libmesh/weld/tile_weld.hpp>
+#include <libmesh/weld/moves.hpp>
+#include <libmesh/weld/near_cells.hpp>
+#include <libmesh/weld/reach.hpp>
+#include <libmesh/weld/settle_in_chain.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/tile_weld.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,12 +13,12 @@
 #include <string>
 #include <unordered_map>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 void check_tolerance(const char* where, double tolerance) {
     if (!(tolerance >= 0.0) || !std::isfinite(tolerance))
-        throw std::invalid_argument(std::string("tf::") + where +
+        throw std::invalid_argument(std::string("treeform::") + where +
                                     ": the tolerance must be finite and not negative");
 }
 
@@ -39,7 +39,7 @@ class nearest {
     }
     /// Whether that point is nearer than the one found. \pre any()
     [[nodiscard]] bool precedes(std::uint64_t id, const point3& at) const {
-        const int order = detail::reach::compare(p_, at, at_);
+        const int order = detail::weld::reach::compare(p_, at, at_);
         return order < 0 || (order == 0 && id < id_);
     }
 
@@ -72,7 +72,7 @@ class first_in_tile {
         : within_(tolerance),
           // Where 1.26 tolerances leave the doubles, open points stand for equal ones only.
           within_fourth_(tolerance < largest ? 0.25 * tolerance : 0.0),
-          within_more_(tolerance < largest ? detail::cube_map::reach * tolerance : tolerance),
+          within_more_(tolerance < largest ? detail::weld::cube_map::reach * tolerance : tolerance),
           cells_(tolerance) {}
 
     void reserve(std::size_t points) { cells_.reserve(points); }
@@ -124,8 +124,8 @@ class first_in_tile {
             if (!(q.stands() ? within_more_ : within_).holds(p, q.at)) return;
             found.some_open = true;
             if (q.stands())
-                found.standing_square =
-                    std::min(found.standing_square, detail::rounded_squared_distance(p, q.at));
+                found.standing_square = std::min(found.standing_square,
+                                                 detail::weld::rounded_squared_distance(p, q.at));
             else
                 found.open.consider(q.id(), q.at);
             if (within_fourth_.holds(p, q.at)) found.covering = &q;
@@ -152,7 +152,7 @@ class first_in_tile {
         if (around.open.any() && around.kept.precedes(around.open.id(), around.open.at()))
             return true;
         if (!(around.standing_square < infinity)) return around.standing_square != infinity;
-        const double kept = detail::rounded_squared_distance(p, around.kept.at());
+        const double kept = detail::weld::rounded_squared_distance(p, around.kept.at());
         const double least = around.standing_square;
         // The roots of sums in this range are off by less than a part in 2^48.
         if (!(least > 0x1p-900 && kept > 0x1p-900 && kept < 0x1p1000)) return true;
@@ -168,10 +168,10 @@ class first_in_tile {
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    detail::reach within_;
-    detail::reach within_fourth_;
-    detail::reach within_more_;
-    detail::near_cells<remembered> cells_;
+    detail::weld::reach within_;
+    detail::weld::reach within_fourth_;
+    detail::weld::reach within_more_;
+    detail::weld::near_cells<remembered> cells_;
 };
 
 /// The rule chain inside a tile.
@@ -199,8 +199,9 @@ class chain_in_tile {
         for (; next_ < end; ++next_) {
             const std::uint32_t group = groups_.group_of_point[next_];
             const std::uint32_t lowest = groups_.first_of_group[group];
-            detail::settle_in_chain({tags_[next_], points_[next_]},
-                                    {tags_[lowest] >> 2, points_[lowest], elsewhere_[group]}, out);
+            detail::weld::settle_in_chain({tags_[next_], points_[next_]},
+                                          {tags_[lowest] >> 2, points_[lowest], elsewhere_[group]},
+                                          out);
         }
         return next_ < tags_.size();
     }
@@ -291,7 +292,7 @@ point3 direction_for(points_view sample) {
 tile_slabs::tile_slabs(points_view sample, double tolerance, std::size_t count)
     : direction_(direction_for(sample)), tolerance_(tolerance) {
     check_tolerance("tile_slabs", tolerance);
-    if (count == 0) throw std::invalid_argument("tf::tile_slabs: no slab at all");
+    if (count == 0) throw std::invalid_argument("treeform::tile_slabs: no slab at all");
     std::vector<double> places;
     places.reserve(sample.size());
     for (const point3& p : sample) places.push_back(along(p));
@@ -329,17 +330,18 @@ tile_slabs::place tile_slabs::find(const point3& p) const {
 
 void longest_move::consider(const point3& from, const point3& to) {
     if (from == to) return;
-    const detail::order known = detail::compare_rounded(
-        detail::rounded_squared_distance(from, to), detail::rounded_squared_distance(from_, to_));
-    if (known == detail::order::less) return;
-    if (known == detail::order::unsure && compare_distance(from, to, from_, to_) <= 0) return;
+    const detail::weld::order known =
+        detail::weld::compare_rounded(detail::weld::rounded_squared_distance(from, to),
+                                      detail::weld::rounded_squared_distance(from_, to_));
+    if (known == detail::weld::order::less) return;
+    if (known == detail::weld::order::unsure && compare_distance(from, to, from_, to_) <= 0) return;
     from_ = from;
     to_ = to;
 }
 
 double longest_move::length() const {
     const std::array<std::uint32_t, 1> only{0};
-    return detail::largest_move({&from_, 1}, only, {&to_, 1});
+    return detail::weld::largest_move({&from_, 1}, only, {&to_, 1});
 }
 
 struct tile_weld::state {
@@ -394,8 +396,8 @@ struct border_weld::state {
         last_link = p;
     }
 
-    detail::reach within;
-    detail::near_cells<remembered> kept;
+    detail::weld::reach within;
+    detail::weld::near_cells<remembered> kept;
     longest_move move{};
     std::optional<border_point> last_link{};
     sparse_sets sets{};
@@ -440,4 +442,4 @@ void chain_moves::add(const tile_member& member) {
         move_.consider(member.at, lowest_);
 }
 
-}  // namespace tf
+}  // namespace treeform

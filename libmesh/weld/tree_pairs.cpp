@@ -1,19 +1,19 @@
-#include <libmesh/weld/detail/near_pairs.hpp>
-#include <libtree/build.hpp>
-#include <libtree/search_self.hpp>
+#include <libmesh/weld/near_pairs.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/search_self.hpp>
 
 #include <cmath>
 #include <limits>
 #include <vector>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 
 bool pairs_by_tree(const near_pairs_task& task) {
     constexpr double big = std::numeric_limits<double>::infinity();
     constexpr std::uint64_t patience = 64;  // candidates a point
     std::vector<std::uint32_t> finite;
     for (std::uint32_t i = 0; i < task.points.size(); ++i)
-        if (is_finite(task.points[i])) finite.push_back(i);
+        if (base::is_finite(task.points[i])) finite.push_back(i);
     // Boxes of points within the tolerance overlap: half of it, rounded up, on each side.
     const double half = std::nextafter(0.5 * task.tolerance, big);
     bool bounded = true;
@@ -55,4 +55,4 @@ bool pairs_by_tree(const near_pairs_task& task) {
     return !stopped;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

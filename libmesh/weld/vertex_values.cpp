@@ -1,5 +1,5 @@
-#include <libmesh/weld/detail/vertex_values.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/weld/vertex_values.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,13 @@
 #include <string_view>
 #include <utility>
 
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 16;
 
 [[noreturn]] void refuse(const std::string& why) {
-    throw std::invalid_argument("tf::weld_mesh: " + why);
+    throw std::invalid_argument("treeform::weld_mesh: " + why);
 }
 
 template <class T, class Value>
@@ -87,4 +87,4 @@ std::vector<buffer<double>> vertex_values::take_columns() && {
     return columns;
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld

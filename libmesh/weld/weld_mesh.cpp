@@ -1,18 +1,18 @@
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/detail/stars.hpp>
-#include <libmesh/weld/detail/carried_rows.hpp>
-#include <libmesh/weld/detail/conditions.hpp>
-#include <libmesh/weld/detail/edge_uses.hpp>
-#include <libmesh/weld/detail/kept_values.hpp>
-#include <libmesh/weld/detail/manifold_groups.hpp>
-#include <libmesh/weld/detail/moves.hpp>
-#include <libmesh/weld/weld_mesh.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/weld/carried_rows.hpp>
+#include <libmesh/weld/conditions.hpp>
+#include <libmesh/weld/edge_uses.hpp>
+#include <libmesh/weld/kept_values.hpp>
+#include <libmesh/weld/manifold_groups.hpp>
+#include <libmesh/weld/moves.hpp>
+#include <treeform/mesh/weld_mesh.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 16;
@@ -20,8 +20,8 @@ constexpr std::size_t grain = std::size_t{1} << 16;
 [[nodiscard]] point_groups find_groups(mesh_view mesh, const attributes& properties,
                                        const mesh_weld_options& options) {
     detail::buffer<std::uint8_t> border;
-    if (options.only_borders) border = detail::border_points(mesh.points.size(), mesh.faces);
-    const detail::conditions conditions(mesh.points, properties, options, border.span());
+    if (options.only_borders) border = detail::weld::border_points(mesh.points.size(), mesh.faces);
+    const detail::weld::conditions conditions(mesh.points, properties, options, border.span());
     return weld_points(mesh.points, conditions.options());
 }
 
@@ -42,10 +42,10 @@ void carry_faces(std::span<const face> faces, bool keep_collapsed, mesh_weld_res
     for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         face_counts mine;
         for (std::size_t i = begin; i < end; ++i) {
-            const bool three = detail::has_three_corners(welded(faces[i]));
+            const bool three = detail::base::has_three_corners(welded(faces[i]));
             mine.kept += three || keep_collapsed ? 1 : 0;
             if (three) continue;
-            ++(detail::has_three_corners(faces[i]) ? mine.collapsed : mine.degenerate);
+            ++(detail::base::has_three_corners(faces[i]) ? mine.collapsed : mine.degenerate);
         }
         counts[c] = mine;
     });
@@ -61,7 +61,7 @@ void carry_faces(std::span<const face> faces, bool keep_collapsed, mesh_weld_res
         std::size_t at = counts[c].kept;
         for (std::size_t i = begin; i < end; ++i) {
             const face f = welded(faces[i]);
-            if (!keep_collapsed && !detail::has_three_corners(f)) continue;
+            if (!keep_collapsed && !detail::base::has_three_corners(f)) continue;
             result.mesh.faces[at] = f;
             result.face_of_new[at++] = static_cast<std::uint32_t>(i);
         }
@@ -76,43 +76,45 @@ void carry_points(points_view points, const attributes& properties,
     for_chunks(places.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t g = begin; g < end; ++g) places[g] = points[result.point_of_group[g]];
     });
-    result.attributes = detail::carry_rows(properties, result);
+    result.attributes = detail::weld::carry_rows(properties, result);
     if (options.keep != weld_keep::mean) return;
-    const detail::group_members members(result.groups);
-    detail::take_means(points, members, places);
+    const detail::weld::group_members members(result.groups);
+    detail::weld::take_means(points, members, places);
     const element* vertices = find_element(properties, "vertex");
     if (vertices == nullptr) return;
-    detail::take_means(*vertices, members,
-                       obtain_element(result.attributes, "vertex", places.size()));
+    detail::weld::take_means(*vertices, members,
+                             obtain_element(result.attributes, "vertex", places.size()));
 }
 
 }  // namespace
 
 mesh_weld_result weld_mesh(mesh_view mesh, const attributes& properties,
                            const mesh_weld_options& options) {
-    detail::check_faces("weld_mesh", mesh.points.size(), mesh.faces);
-    detail::check_rows(properties, mesh.points.size(), mesh.faces.size());
+    detail::base::check_faces("weld_mesh", mesh.points.size(), mesh.faces);
+    detail::weld::check_rows(properties, mesh.points.size(), mesh.faces.size());
     mesh_weld_result result;
     result.groups = find_groups(mesh, properties, options);
     if (result.groups.stopped) return result;
     if (options.keep_manifold && !mesh.faces.empty()) {
-        detail::manifold_groups split = detail::split_to_manifold(mesh, result.groups);
+        detail::weld::manifold_groups split = detail::weld::split_to_manifold(mesh, result.groups);
         result.groups = std::move(split.groups);
         result.left_alone = split.split_up;
     }
-    result.point_of_group = detail::kept_points(mesh.points, properties, options, result.groups);
+    result.point_of_group =
+        detail::weld::kept_points(mesh.points, properties, options, result.groups);
     carry_faces(mesh.faces, options.keep_collapsed, result);
     carry_points(mesh.points, properties, options, result);
     if (options.points.tolerance > 0.0)  // else nothing has moved
-        result.largest_move =
-            detail::largest_move(mesh.points, result.groups.group_of_point, result.mesh.points);
+        result.largest_move = detail::weld::largest_move(mesh.points, result.groups.group_of_point,
+                                                         result.mesh.points);
     if (mesh.faces.empty()) return result;
     if (result.largest_move > 0.0)
-        result.flipped = detail::count_flipped(mesh, result.mesh, result.face_of_new);
-    result.nonmanifold_before = detail::count_nonmanifold_edges(mesh.points.size(), mesh.faces);
+        result.flipped = detail::weld::count_flipped(mesh, result.mesh, result.face_of_new);
+    result.nonmanifold_before =
+        detail::weld::count_nonmanifold_edges(mesh.points.size(), mesh.faces);
     result.nonmanifold_after =
-        detail::count_nonmanifold_edges(result.mesh.points.size(), result.mesh.faces);
+        detail::weld::count_nonmanifold_edges(result.mesh.points.size(), result.mesh.faces);
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

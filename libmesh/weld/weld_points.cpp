@@ -1,10 +1,10 @@
-#include <libmesh/detail/check_faces.hpp>
-#include <libmesh/weld/detail/dense.hpp>
-#include <libmesh/weld/detail/equal_firsts.hpp>
-#include <libmesh/weld/detail/lattice.hpp>
-#include <libmesh/weld/detail/number_groups.hpp>
-#include <libmesh/weld/detail/sparse.hpp>
-#include <libmesh/weld/weld_points.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/weld/dense.hpp>
+#include <libmesh/weld/equal_firsts.hpp>
+#include <libmesh/weld/lattice.hpp>
+#include <libmesh/weld/number_groups.hpp>
+#include <libmesh/weld/sparse.hpp>
+#include <treeform/mesh/weld_points.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-namespace tf {
+namespace treeform {
 namespace {
 
 using numbers = std::vector<std::uint32_t>;
@@ -75,9 +75,9 @@ void split_by_agreement(const weld_options& options, numbers& first_of) {
 }
 
 numbers by_equality(points_view points, const weld_options& options) {
-    numbers first_of = detail::equal_firsts(points, options.kind);
+    numbers first_of = detail::weld::equal_firsts(points, options.kind);
     for (std::uint32_t i = 0; i < points.size(); ++i)
-        if (first_of[i] != i && !detail::is_finite(points[i])) first_of[i] = i;
+        if (first_of[i] != i && !detail::base::is_finite(points[i])) first_of[i] = i;
     if (options.agree) split_by_agreement(options, first_of);
     return first_of;
 }
@@ -85,12 +85,13 @@ numbers by_equality(points_view points, const weld_options& options) {
 void check(points_view points, const weld_options& options) {
     if (!(options.tolerance >= 0.0) || !std::isfinite(options.tolerance))
         throw std::invalid_argument(
-            "tf::weld_points: the tolerance must be finite and not negative");
+            "treeform::weld_points: the tolerance must be finite and not negative");
     if (points.size() > largest_count)
-        throw std::invalid_argument("tf::weld_points: more than 2^32 - 2 points");
+        throw std::invalid_argument("treeform::weld_points: more than 2^32 - 2 points");
     if (!options.kind.empty() && options.kind.size() != points.size())
-        throw std::invalid_argument("tf::weld_points: " + std::to_string(options.kind.size()) +
-                                    " kinds for " + std::to_string(points.size()) + " points");
+        throw std::invalid_argument(
+            "treeform::weld_points: " + std::to_string(options.kind.size()) + " kinds for " +
+            std::to_string(points.size()) + " points");
 }
 
 }  // namespace
@@ -115,25 +116,25 @@ point_groups weld_points(points_view points, const weld_options& given) {
     if (options.tolerance == 0.0) {
         first_of = by_equality(points, options);
     } else {
-        first_of = by_first ? detail::sparse_leaders(points, options)
-                            : detail::sparse_chains(points, options);
+        first_of = by_first ? detail::weld::sparse_leaders(points, options)
+                            : detail::weld::sparse_chains(points, options);
         if (first_of.size() != points.size() && !stopped)
-            first_of = by_first ? detail::dense_leaders(points, options)
-                                : detail::dense_chains(points, options);
+            first_of = by_first ? detail::weld::dense_leaders(points, options)
+                                : detail::weld::dense_chains(points, options);
     }
     if (stopped || !go_on(0.95)) return {{}, {}, true};
-    result.first_of_group = detail::number_groups(first_of);
+    result.first_of_group = detail::weld::number_groups(first_of);
     if (!go_on(1.0)) return {{}, {}, true};
     return result;
 }
 
 mesh join_groups(mesh_view mesh, const point_groups& groups) {
     if (groups.group_of_point.size() != mesh.points.size())
-        throw std::invalid_argument("tf::join_groups: groups of " +
+        throw std::invalid_argument("treeform::join_groups: groups of " +
                                     std::to_string(groups.group_of_point.size()) + " points for " +
                                     std::to_string(mesh.points.size()));
-    detail::check_faces("join_groups", mesh.points.size(), mesh.faces);
-    tf::mesh result;
+    detail::base::check_faces("join_groups", mesh.points.size(), mesh.faces);
+    treeform::mesh result;
     result.points.reserve(groups.first_of_group.size());
     for (const std::uint32_t i : groups.first_of_group) result.points.push_back(mesh.points[i]);
     result.faces.reserve(mesh.faces.size());
@@ -143,4 +144,4 @@ mesh join_groups(mesh_view mesh, const point_groups& groups) {
     return result;
 }
 
-}  // namespace tf
+}  // namespace treeform

@@ -1,5 +1,5 @@
-#include <libmesh/weld/detail/near_pairs.hpp>
-#include <libmesh/weld/detail/sort_by_key.hpp>
+#include <libmesh/weld/near_pairs.hpp>
+#include <libmesh/weld/sort_by_key.hpp>
 
 #include <bit>
 #include <limits>
@@ -12,7 +12,7 @@
 
 #ifndef TREEFORM_WINDOW_PAIRS_ONCE
 #define TREEFORM_WINDOW_PAIRS_ONCE
-namespace tf::detail {
+namespace treeform::detail::weld {
 namespace {
 
 /// Records of one chunk and those behind it that its windows reach, ascending by s. Behind them
@@ -45,11 +45,11 @@ struct window_arrays {
 using window_hit = function_ref<bool(std::size_t i, std::size_t j)>;
 
 }  // namespace
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace tf::detail::HWY_NAMESPACE {
+namespace treeform::detail::weld::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -92,11 +92,11 @@ bool scan_window(const window_arrays& arrays, const lattice& steps, std::size_t 
 }
 
 }  // namespace
-}  // namespace tf::detail::HWY_NAMESPACE
+}  // namespace treeform::detail::weld::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tf::detail {
+namespace treeform::detail::weld {
 
 HWY_EXPORT(scan_window);
 
@@ -113,7 +113,7 @@ sorted_points sort_along(const near_pairs_task& task, const lattice& steps) {
     auto sorted = distribute<lattice_record>(
         task.points.size(), bits,
         [&](std::size_t i, lattice_record& r) {
-            if (!is_finite(task.points[i])) return false;
+            if (!base::is_finite(task.points[i])) return false;
             r = steps.record(task.points[i], static_cast<std::uint32_t>(i));
             return true;
         },
@@ -192,7 +192,7 @@ double estimated_window(points_view points, const lattice& steps) {
     std::vector<std::int32_t> along;
     const std::size_t stride = std::max<std::size_t>(1, points.size() / sample);
     for (std::size_t i = 0; i < points.size(); i += stride)
-        if (is_finite(points[i])) along.push_back(steps.record(points[i], 0).s);
+        if (base::is_finite(points[i])) along.push_back(steps.record(points[i], 0).s);
     std::sort(along.begin(), along.end());
     std::size_t pairs = 0;
     for (std::size_t i = 0, j = 0; i < along.size(); ++i) {
@@ -204,5 +204,5 @@ double estimated_window(points_view points, const lattice& steps) {
     return static_cast<double>(pairs) / n * (static_cast<double>(points.size()) / n);
 }
 
-}  // namespace tf::detail
+}  // namespace treeform::detail::weld
 #endif

@@ -28,7 +28,7 @@ endif()
 set(treeform_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/treeform)
 install(TARGETS treeform_tree treeform_mesh
     EXPORT treeformTargets
-    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/treeform)
+    FILE_SET HEADERS)
 install(EXPORT treeformTargets NAMESPACE treeform:: DESTINATION ${treeform_config_dir})
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/treeformConfig.cmake.in
@@ -36,7 +36,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/treeformConfig.cmake.in
     INSTALL_DESTINATION ${treeform_config_dir}
     NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/treeformConfigVersion.cmake
-    COMPATIBILITY SameMajorVersion)
+    COMPATIBILITY SameMinorVersion)
 install(FILES
     ${PROJECT_BINARY_DIR}/treeformConfig.cmake
     ${PROJECT_BINARY_DIR}/treeformConfigVersion.cmake

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr std::string_view sweep = " eps ";
@@ -172,4 +172,4 @@ std::vector<std::vector<std::string>> summary_of(std::span<const outcome> outcom
     return table;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

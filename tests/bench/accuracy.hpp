@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// A figure of what failed and was not run: it counts, its time does not.
 inline constexpr std::string_view not_run = "not run";
@@ -52,4 +52,4 @@ struct summed_column {
 [[nodiscard]] std::vector<std::vector<std::string>> summary_of(
     std::span<const outcome> outcomes, const std::vector<summed_column>& columns);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

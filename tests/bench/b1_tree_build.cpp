@@ -6,15 +6,16 @@
 #include "bench/peers/versions.hpp"
 #include "bench/workload.hpp"
 #include "support/random.hpp"
-#include <libtree/build.hpp>
-#include <libtree/nary_tree.hpp>
-#include <libtree/validate.hpp>
+#include <libtree/paper/nary_tree.hpp>
+#include <libtree/paper/validate.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/validate.hpp>
 
 #include <cmath>
 #include <limits>
 #include <span>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 template <class T>
@@ -94,4 +95,4 @@ void tree_build(const setting& setting, const contest_visitor& visit) {
     }
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

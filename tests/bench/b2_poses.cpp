@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 /// A scene with as many positions as its slowest contestant has time for.
@@ -146,4 +146,4 @@ section draw_poses_by_peers(const std::vector<outcome>& outcomes, const std::str
                                                        {"Nearest points", machine}, "treeform"))}}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 /// Sorting along one axis is quadratic in the end, and nanoflann takes half a minute for more.
@@ -78,4 +78,4 @@ section draw_near_pairs_from_arrays(const std::vector<outcome>& outcomes,
                                          curves_by_size(outcomes)})}}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -10,12 +10,13 @@
 #include "bench/peers/nanoflann_points.hpp"
 #include "bench/peers/versions.hpp"
 #include "support/random.hpp"
-#include <libmesh/bounding_box.hpp>
 #include <libmesh/geometry/closest_point.hpp>
-#include <libmesh/nearness/closest_point_query.hpp>
-#include <libtree/nearness.hpp>
-#include <libtree/point_search.hpp>
-#include <libtree/strategy/nearness_order.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/closest_point_query.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/nearness.hpp>
+#include <treeform/tree/point_search.hpp>
+#include <treeform/tree/strategy/nearness_order.hpp>
 
 #include <fmt/core.h>
 
@@ -24,7 +25,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 using points = std::vector<point3>;
@@ -361,4 +362,4 @@ section draw_nearness(const std::vector<outcome>& outcomes, const std::string& m
              svg(bars_by_contest(outcomes, build_name, {"Tree over points", machine}))}}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -5,8 +5,8 @@
 #include "bench/peers/cgal_self_intersections.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/workload.hpp"
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 /// How many pairs of proper faces meet; none where nobody else knows.
@@ -131,4 +131,4 @@ void self_intersections(const setting& setting, const contest_visitor& visit) {
     }
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

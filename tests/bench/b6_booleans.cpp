@@ -5,13 +5,13 @@
 #include "bench/peers/cgal_corefinement.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/workload.hpp"
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/face_tree.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/bounding_box.hpp>
 
 #include <cmath>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 struct two_solids {
@@ -135,4 +135,4 @@ void booleans(const setting& setting, const contest_visitor& visit) {
     }
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

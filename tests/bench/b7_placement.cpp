@@ -7,14 +7,14 @@
 #include "bench/peers/versions.hpp"
 #include "bench/pose_askers.hpp"
 #include "bench/poses.hpp"
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libmesh/place/first_contact.hpp>
-#include <libmesh/place/relation.hpp>
-#include <libtree/build.hpp>
-#include <libtree/search.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/first_contact.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/relation.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <support/solids.hpp>
 
@@ -24,7 +24,7 @@
 #include <numeric>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 std::vector<scene_name> scenes(const setting& setting) {
@@ -252,4 +252,4 @@ void placement(const setting& setting, const contest_visitor& visit) {
     visit(scene_of_parts(setting));
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -6,9 +6,10 @@
 #include "bench/peers/cgal_files.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/workload.hpp"
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/io/write.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -19,7 +20,7 @@
 #include <filesystem>
 #include <limits>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,7 +51,7 @@ double with_seven_digits(double x) {
 /// The largest model with coordinates as most files of that kind have them: those that float32
 /// holds where they are binary, those with few digits where they are text.
 shared_mesh load_for(const setting& setting, const file_kind& kind) {
-    const auto rounded = kind.ascii ? with_seven_digits : detail::nearest_float;
+    const auto rounded = kind.ascii ? with_seven_digits : detail::base::nearest_float;
     const std::string prefix = kind.ascii ? "seven_digits_" : "single_";
     return cached(setting, prefix + name_of(setting, file_model(setting)), [&] {
         mesh mesh = *load(setting, file_model(setting));
@@ -164,4 +165,4 @@ void files(const setting& setting, const contest_visitor& visit) {
     }
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -4,13 +4,13 @@
 #include "bench/peers/versions.hpp"
 #include "bench/triangle_askers.hpp"
 #include "bench/workload.hpp"
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <array>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 using test::stress_family;
@@ -142,4 +142,4 @@ void predicates(const setting& setting, const contest_visitor& visit) {
             visit(contest_of(question, name, static_cast<stress_family>(f), count));
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 void draw_curve(drawing& drawing, const curve& curve, const scale& x, const scale& y) {
@@ -183,4 +183,4 @@ std::string svg(const heat_map& chart) {
     return drawing.finished();
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// Which colour stands for a contestant, 1 to 8, the same in all pictures; who is not known by name
 /// gets the colour of `otherwise`.
@@ -69,4 +69,4 @@ struct heat_map {
 /// `text` with the characters that mean something in SVG and HTML written as entities.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

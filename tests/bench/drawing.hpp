@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 inline constexpr double width = 760, left = 76, top = 80, bottom = 60;
 inline constexpr double plot_height = 300;
@@ -202,4 +202,4 @@ inline void spread(std::vector<double>& places) {
     return fmt::format("{}{}", kind, tone);
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

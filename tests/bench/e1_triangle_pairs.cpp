@@ -7,7 +7,7 @@
 #include "bench/peers/fcl_triangles.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/triangle_askers.hpp"
-#include <libtree/parallel.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <fmt/core.h>
 
@@ -16,7 +16,7 @@
 #include <memory>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr std::size_t chunk = 10'000;  // pairs that peers convert at once
@@ -270,4 +270,4 @@ section draw_triangle_pairs(const std::vector<outcome>& outcomes, const std::str
     return section;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -6,11 +6,11 @@
 #include "bench/peers/cgal_pair_lists.hpp"
 #include "bench/peers/sign_triangles.hpp"
 #include "bench/peers/versions.hpp"
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libtree/search_self.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tree/search_self.hpp>
 
 #include <fmt/core.h>
 #include <support/solids.hpp>
@@ -22,7 +22,7 @@
 #include <memory>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 struct judged_mesh {
@@ -214,4 +214,4 @@ section draw_self_intersection_errors(const std::vector<outcome>& outcomes,
                 "kind of their own, the exact kernel's function leaves them out."}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

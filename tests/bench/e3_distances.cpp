@@ -9,7 +9,7 @@
 #include "bench/triangle_askers.hpp"
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <fmt/core.h>
 
@@ -20,7 +20,7 @@
 #include <memory>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr const char* touch_errors = "wrong whether they meet";
@@ -250,4 +250,4 @@ section draw_distances(const std::vector<outcome>& outcomes, const std::string& 
     return section;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

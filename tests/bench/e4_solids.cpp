@@ -8,9 +8,9 @@
 #include "bench/peers/cgal_exact_corefinement.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/written_surface.hpp"
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/repair/repair.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/repair.hpp>
 
 #include <fmt/core.h>
 #include <support/rational_points.hpp>
@@ -22,7 +22,7 @@
 #include <optional>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr double patience = 60;  // seconds that a method may take in its first run
@@ -351,4 +351,4 @@ section draw_solids(const std::vector<outcome>& outcomes, const std::string& mac
             "has kept next to nothing of the mesh, closed and without a word."}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

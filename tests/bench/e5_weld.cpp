@@ -13,7 +13,7 @@
 #include <cmath>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr const char* missed_name = "missed";
@@ -94,4 +94,4 @@ section draw_weld_errors(const std::vector<outcome>& outcomes, const std::string
             "joining all that is linked means."}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -7,9 +7,9 @@
 #include "bench/peers/plain_sweep.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/triangle_askers.hpp"
-#include <libmesh/geometry/triangle_sweep.hpp>
-#include <libmesh/place/first_contact.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/first_contact.hpp>
+#include <treeform/mesh/triangle_sweep.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <fmt/core.h>
 #include <support/reference_sweep.hpp>
@@ -23,7 +23,7 @@
 #include <optional>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr const char* missed_name = "missed or made up";
@@ -207,4 +207,4 @@ section draw_first_contact_errors(const std::vector<outcome>& outcomes,
             "general case and accept roots within constants of its own, in [0, 1]."}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -4,9 +4,9 @@
 #include "bench/accuracy.hpp"
 #include "bench/peers/nanoflann_points.hpp"
 #include "bench/peers/versions.hpp"
-#include <libmesh/points.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/point_search.hpp>
+#include <treeform/mesh/points.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/point_search.hpp>
 
 #include <fmt/core.h>
 #include <gmpxx.h>
@@ -19,7 +19,7 @@
 #include <memory>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 using points = std::vector<point3>;
@@ -259,4 +259,4 @@ section draw_nearest_point_errors(const std::vector<outcome>& outcomes,
             "cloud."}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -5,10 +5,10 @@
 #include "bench/scaling_inputs.hpp"
 #include "bench/tool_run.hpp"
 #include "bench/workload.hpp"
-#include <libmesh/face_tree.hpp>
-#include <libmesh/nearness/closest_point_query.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libtree/point_search.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/closest_point_query.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/tree/point_search.hpp>
 
 #include <fmt/core.h>
 #include <support/soups.hpp>
@@ -22,7 +22,7 @@
 #include <string>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr const char* tools_prefix = "tools/";
@@ -240,4 +240,4 @@ section draw_scaling(const std::vector<outcome>& outcomes, const std::string& ma
             "square root of n, so that what looks only there grows less than in proportion."}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -16,7 +16,7 @@
 #include <string_view>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 using namespace test::stress;
@@ -259,4 +259,4 @@ section draw_stability(const std::vector<outcome>& outcomes, const std::string& 
     return section;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr double exact_y = top + plot_height - 12;      // the line of the dots without error
@@ -110,4 +110,4 @@ std::string svg(const error_chart& chart) {
     return drawing.finished();
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 struct error_point {
     double time = 0.0;      ///< greater than 0
@@ -35,4 +35,4 @@ struct error_chart {
 
 [[nodiscard]] std::string svg(const error_chart& chart);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -1,8 +1,8 @@
 #include "bench/exact_solid.hpp"
 
-#include <libmesh/bounding_box.hpp>
 #include <libmesh/exact/constructed_point.hpp>
-#include <libmesh/nearness/closest_point_query.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/closest_point_query.hpp>
 
 #include <support/rational_volume.hpp>
 
@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 /// The faces that bound what the expression makes, with the points they have.
@@ -81,4 +81,4 @@ double corner_distance(const mesh& found, const mesh& exact) {
     return (measured + room) / diagonal;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

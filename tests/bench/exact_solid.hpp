@@ -3,15 +3,15 @@
 /// What solids and set operations on them are before anything is rounded, and how far from it a
 /// surface is that was rounded.
 
-#include <libmesh/boolean/expression.hpp>
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/expression.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <gmpxx.h>
 
 #include <optional>
 #include <span>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 struct exact_solid {
     mpq_class volume;  ///< of rational faces, added up in 1024 bits
@@ -28,4 +28,4 @@ struct exact_solid {
 /// 1 where only one of them has faces, 0 where neither has.
 [[nodiscard]] double corner_distance(const mesh& found, const mesh& exact);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -7,12 +7,12 @@
 #include "bench/peers/fcl_models.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/sizes.hpp"
-#include <libtree/build.hpp>
-#include <libtree/nary_tree.hpp>
+#include <libtree/paper/nary_tree.hpp>
+#include <treeform/tree/build.hpp>
 
 #include <fmt/core.h>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 contest contest_of(const setting& setting, const model& model) {
@@ -65,4 +65,4 @@ section draw_build_by_peers(const std::vector<outcome>& outcomes, const std::str
                                      curves_by_size(outcomes)})}}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -4,13 +4,13 @@
 #include "bench/face_boxes.hpp"
 #include "bench/page.hpp"
 #include "bench/sizes.hpp"
-#include <libtree/build.hpp>
-#include <libtree/nary_tree.hpp>
-#include <libtree/parallel.hpp>
+#include <libtree/paper/nary_tree.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <fmt/core.h>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 /// 1, 2, 4 and so on, and what the machine has.
@@ -74,4 +74,4 @@ section draw_build_by_threads(const std::vector<outcome>& outcomes, const std::s
                                                            curves_by_size(outcomes)})}}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -4,15 +4,15 @@
 #include "bench/face_boxes.hpp"
 #include "bench/models.hpp"
 #include "bench/page.hpp"
-#include <libtree/build.hpp>
-#include <libtree/nary_tree.hpp>
-#include <libtree/strategy/floyd_rivest.hpp>
-#include <libtree/strategy/heap_select.hpp>
-#include <libtree/strategy/median_of_3_random.hpp>
-#include <libtree/strategy/median_of_medians.hpp>
-#include <libtree/strategy/median_of_ninthers.hpp>
-#include <libtree/strategy/nth_element.hpp>
-#include <libtree/strategy/pdq_select.hpp>
+#include <libtree/paper/nary_tree.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/strategy/floyd_rivest.hpp>
+#include <treeform/tree/strategy/heap_select.hpp>
+#include <treeform/tree/strategy/median_of_3_random.hpp>
+#include <treeform/tree/strategy/median_of_medians.hpp>
+#include <treeform/tree/strategy/median_of_ninthers.hpp>
+#include <treeform/tree/strategy/nth_element.hpp>
+#include <treeform/tree/strategy/pdq_select.hpp>
 
 #include <fmt/core.h>
 
@@ -20,7 +20,7 @@
 #include <array>
 #include <string_view>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 template <class Strategy>
@@ -137,4 +137,4 @@ section draw_strategies(const std::vector<outcome>& outcomes, const std::string&
                      {"f6_strategies_tree.svg", svg(own)}}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

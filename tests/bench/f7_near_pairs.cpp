@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 using truth = std::function<double()>;
@@ -113,4 +113,4 @@ section draw_near_pairs(const std::vector<outcome>& outcomes, const std::string&
                                      curves})}}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 struct shapes {
@@ -108,4 +108,4 @@ section draw_arities(const std::vector<outcome>& outcomes, const std::string& ma
             .pictures = {{"f8_arity.svg", svg(map)}}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -2,10 +2,10 @@
 /// \file
 /// The boxes of faces, as trees want them.
 
-#include <libmesh/mesh.hpp>
-#include <libtree/aabb.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/aabb.hpp>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// Makes the box of a face of `mesh`, in double.
 /// \pre `mesh` outlives the result
@@ -17,4 +17,4 @@ namespace tf::bench {
     };
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

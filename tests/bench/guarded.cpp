@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 [[noreturn]] void work_and_exit(const std::function<bool()>& work) {
@@ -94,4 +94,4 @@ std::vector<signed char> values_of(std::size_t count,
     return result;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 enum class ending { done, failed, crashed, late };
 [[nodiscard]] std::string_view name_of(ending ending);
@@ -22,4 +22,4 @@ enum class ending { done, failed, crashed, late };
 [[nodiscard]] std::vector<signed char> values_of(
     std::size_t count, const std::function<signed char(std::size_t)>& work, signed char lost);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -19,7 +19,7 @@
 
 namespace {
 
-namespace bench = tf::bench;
+namespace bench = treeform::bench;
 
 /// Names one contestant of one contest to a process that measures its memory.
 std::string key_of(const bench::contest& contest, const bench::contestant& contestant) {

@@ -1,6 +1,6 @@
 #include "bench/measure.hpp"
 
-#include <libtree/parallel.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <benchmark/benchmark.h>
 
@@ -10,7 +10,7 @@
 #include <mutex>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 using benchmark::BenchmarkReporter;
@@ -113,4 +113,4 @@ std::vector<measured> measure(const contest& contest, const setting& setting) {
     return results;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

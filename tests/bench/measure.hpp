@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 struct measured {
     std::string who;
@@ -41,4 +41,4 @@ struct measured {
 /// nothing freed here counts as its memory.
 [[nodiscard]] std::optional<double> number_printed_by(const std::vector<std::string>& command);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -1,9 +1,9 @@
 #include "bench/models.hpp"
 
 #include "bench/subdivide.hpp"
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 
 #include <unistd.h>
 
@@ -14,7 +14,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -164,4 +164,4 @@ shared_mesh cached(const setting& setting, const std::string& name,
     return result;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -3,7 +3,8 @@
 /// The models that workloads share.
 
 #include "bench/workload.hpp"
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstddef>
 #include <memory>
@@ -11,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// A model of a wanted size, made from a smaller real one.
 struct model {
@@ -42,4 +43,4 @@ using shared_mesh = std::shared_ptr<const tf::mesh>;
 [[nodiscard]] shared_mesh cached(const setting& setting, const std::string& name,
                                  const std::function<tf::mesh()>& make);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

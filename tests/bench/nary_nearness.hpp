@@ -6,14 +6,14 @@
 /// \source Sajovic, Knez and Korez, tf::tree, section III-D, without its bound from above by the
 ///         min-max distance of boxes: two boxes may lie on each other and their contents far apart
 
-#include <libtree/nary_tree.hpp>
+#include <libtree/paper/nary_tree.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// Squared distance of a point, anything with [], from a box.
 template <class T, std::size_t D, class Point>
@@ -143,4 +143,4 @@ template <class T, std::size_t D, class Check, class Accept>
     });
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -2,15 +2,15 @@
 
 #include "bench/nary_nearness.hpp"
 #include "support/random.hpp"
-#include <libtree/build.hpp>
-#include <libtree/nary_search.hpp>
-#include <libtree/search_self.hpp>
+#include <libtree/paper/nary_search.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/search_self.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 point3 random_in_cube(test::random& random, double low, double high) {
@@ -105,4 +105,4 @@ pair_lists near_pairs(const nary_tree<double, 3>& tree, const std::vector<point3
         });
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -3,16 +3,16 @@
 /// Clouds with near copies of some of their points, and who is within reach of whom.
 
 #include "bench/workload.hpp"
-#include <libmesh/points.hpp>
-#include <libtree/candidates.hpp>
-#include <libtree/nary_tree.hpp>
-#include <libtree/tree.hpp>
+#include <libtree/paper/nary_tree.hpp>
+#include <treeform/mesh/points.hpp>
+#include <treeform/tree/candidates.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <cstddef>
 #include <memory>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 using shared_cloud = std::shared_ptr<const std::vector<point3>>;
 
@@ -42,4 +42,4 @@ using pair_lists = std::vector<std::vector<id_pair>>;
 [[nodiscard]] pair_lists near_pairs(const nary_tree<double, 3>& tree,
                                     const std::vector<point3>& points);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

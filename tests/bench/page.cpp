@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr std::string_view head =
@@ -174,4 +174,4 @@ std::vector<curve> curves_by_size(std::span<const outcome> outcomes) {
     return curves;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

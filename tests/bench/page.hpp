@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// The results of one contest.
 struct outcome {
@@ -70,4 +70,4 @@ class page {
 /// with several.
 [[nodiscard]] std::vector<curve> curves_by_size(std::span<const outcome> outcomes);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -1,5 +1,5 @@
 #include "bench/measure.hpp"
-#include <libtree/parallel.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <malloc.h>
 #include <spawn.h>
@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 /// The peak of this address space. getrusage would tell that of the parent too: a child inherits
@@ -73,4 +73,4 @@ std::optional<double> number_printed_by(const std::vector<std::string>& command)
     return end == text.c_str() ? std::nullopt : std::optional(value);
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

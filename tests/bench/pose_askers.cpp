@@ -2,13 +2,13 @@
 
 #include "bench/face_boxes.hpp"
 #include "bench/nary_nearness.hpp"
-#include <libmesh/face_tree.hpp>
+#include <libmesh/base/face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/nearness/distance_model.hpp>
-#include <libtree/nary_search.hpp>
-#include <libtree/strategy/nearness_order.hpp>
+#include <libtree/paper/nary_search.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tree/strategy/nearness_order.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 #include <optional>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 using box = aabb<double, 3>;
@@ -216,4 +216,4 @@ ask_pose paper_distance(const scene& scene, open_by order, const tree_config& co
                : paper_distance_by<strategy::priority_queue>(scene, config, std::move(counted));
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

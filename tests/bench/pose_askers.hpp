@@ -3,12 +3,12 @@
 /// The questions about poses by treeform, and by the paper's layout and searches.
 
 #include "bench/poses.hpp"
-#include <libtree/tree_config.hpp>
+#include <treeform/tree/tree_config.hpp>
 
 #include <cstdint>
 #include <memory>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// With the default trees and the ready-made functions of libmesh.
 [[nodiscard]] ask_pose own_collide(const scene& scene);
@@ -31,4 +31,4 @@ struct box_count {
                                       const tree_config& config = {},
                                       std::shared_ptr<box_count> counted = nullptr);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -1,9 +1,9 @@
 #include "bench/poses.hpp"
 
 #include "support/random.hpp"
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <map>
 #include <numeric>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 shared_mesh in_unit_sphere(const mesh& given) {
@@ -137,4 +137,4 @@ unit per_pose(std::size_t poses) {
     return {.name = "us/pose", .scale = 1e6 / static_cast<double>(poses)};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

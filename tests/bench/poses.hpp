@@ -4,7 +4,7 @@
 
 #include "bench/models.hpp"
 #include "bench/workload.hpp"
-#include <libtree/transform.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// Two models, each centred and scaled to the unit sphere, and positions of the second.
 struct scene {
@@ -71,4 +71,4 @@ struct asker {
 /// The unit of a contest about positions: a time for each of them.
 [[nodiscard]] unit per_pose(std::size_t poses);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -1,8 +1,8 @@
 #include "bench/report.hpp"
 
 #include "bench/peers/versions.hpp"
-#include <libtree/parallel.hpp>
-#include <libtree/version.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/version.hpp>
 
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 double value_of(const unit& unit, double seconds) {
@@ -173,4 +173,4 @@ void write_machine(const std::string& folder) {
          << nanoflann_name() << '\n';
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// Writes DIR/bench.csv row by row, so that a run that is cut short leaves what it measured:
 /// id,case,size,threads,who,value,unit,peak_mb,error with `value` a median. A figure of a
@@ -42,4 +42,4 @@ class table {
 /// Writes DIR/machine.txt: processor, threads, memory, compiler, versions of the peers.
 void write_machine(const std::string& folder);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

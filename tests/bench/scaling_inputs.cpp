@@ -1,7 +1,7 @@
 #include "bench/scaling_inputs.hpp"
 
 #include "bench/near_pairs.hpp"
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/write.hpp>
 
 #include <support/soups.hpp>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 #include <numbers>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 void write(const std::string& path, mesh m, precision stored_as = precision::double_) {
@@ -79,4 +79,4 @@ std::shared_ptr<const scaling_files> files_of_size(const setting& setting, std::
     return made;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -4,13 +4,13 @@
 
 #include "bench/tool_run.hpp"
 #include "bench/workload.hpp"
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <cstddef>
 #include <memory>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// A closed ring with a rippled surface, of about `faces` triangles, as dense one way as the other.
 [[nodiscard]] mesh ring(std::size_t faces);
@@ -33,4 +33,4 @@ struct scaling_files {
 [[nodiscard]] std::shared_ptr<const scaling_files> files_of_size(const setting& setting,
                                                                  std::size_t n);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -4,7 +4,7 @@
 
 #include "bench/models.hpp"
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// 50k, 125k, 250k, 500k, 750k and 1M triangles; the smaller ones for less effort.
 [[nodiscard]] inline std::vector<model> one_model_by_size(const setting& setting) {
@@ -17,4 +17,4 @@ namespace tf::bench {
     return all;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

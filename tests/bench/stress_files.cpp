@@ -4,6 +4,8 @@
 
 #include "support/stress_files.hpp"
 
+#include <treeform/tf.hpp>
+
 #include <cstddef>
 #include <cstdio>
 #include <exception>

@@ -1,7 +1,7 @@
 #include "bench/subdivide.hpp"
 
 #include "support/random.hpp"
-#include <libmesh/intersect/self_intersections.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFF;
@@ -173,4 +173,4 @@ mesh refined(const mesh& base, std::size_t triangles, std::uint64_t seed) {
     return result;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -2,12 +2,13 @@
 /// \file
 /// Making a larger model of a given one.
 
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstddef>
 #include <cstdint>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// `base` with at least `triangles` triangles (at most two more), or `base` itself when it has
 /// them.
@@ -21,4 +22,4 @@ namespace tf::bench {
 /// \same   on any machine, for a seed
 [[nodiscard]] tf::mesh refined(const tf::mesh& base, std::size_t triangles, std::uint64_t seed);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 std::vector<scene_name> scenes(const setting& setting) {
@@ -182,4 +182,4 @@ section draw_poses(const std::vector<outcome>& outcomes, const std::string& mach
         .table = table_of(outcomes)};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 scratch::~scratch() {
     std::error_code ignored;
@@ -38,4 +38,4 @@ job tool_job(const std::string& tool, std::vector<std::string> arguments, const 
         .peak_mb = [=, kept = std::move(inputs)] { return *last_peak; }};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// A file, or a folder with what is in it, that is removed with its last user.
 class scratch {
@@ -32,4 +32,4 @@ class scratch {
 [[nodiscard]] job tool_job(const std::string& tool, std::vector<std::string> arguments,
                            const std::string& output, std::shared_ptr<const void> inputs);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

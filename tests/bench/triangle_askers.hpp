@@ -5,14 +5,14 @@
 #include "bench/peers/cgal_predicates.hpp"
 #include "bench/peers/sign_triangles.hpp"
 #include "support/stress_families.hpp"
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <cstddef>
 #include <functional>
 #include <span>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 using pairs_view = std::span<const test::triangle_pair>;
 /// What asks all of the pairs at once.
@@ -51,4 +51,4 @@ template <class Signs>
     return [](pairs_view pairs) { return cgal_filtered(question::triangles_meet, pairs); };
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

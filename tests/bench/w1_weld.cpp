@@ -5,7 +5,7 @@
 #include "bench/peers/nanoflann_weld.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/weld_answers.hpp"
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/equal_points.hpp>
 
 #include <fmt/core.h>
 
@@ -14,7 +14,7 @@
 #include <memory>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr std::array searches{std::pair{"treeform", neighbor_search::automatic},
@@ -93,4 +93,4 @@ void weld(const setting& setting, const contest_visitor& visit) {
     }
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <array>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 constexpr const char* chain_name = "treeform rule chain";
@@ -106,4 +106,4 @@ section draw_weld_quality(const std::vector<outcome>& outcomes, const std::strin
                                           })}}};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -1,8 +1,8 @@
 #include "bench/weld_answers.hpp"
 
-#include <libtree/build.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/search_self.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search_self.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <numeric>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 double squared_distance_of(const point3& a, const point3& b) {
@@ -87,4 +87,4 @@ weld_answer weld_by_rounding(const std::vector<point3>& points, double tolerance
     return answer;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

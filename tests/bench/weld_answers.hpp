@@ -4,7 +4,7 @@
 
 #include "bench/near_pairs.hpp"
 #include "bench/workload.hpp"
-#include <libmesh/weld/weld_points.hpp>
+#include <treeform/mesh/weld_points.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// [V] the point that each point becomes; one that is kept becomes itself.
 using weld_answer = std::vector<std::uint32_t>;
@@ -38,4 +38,4 @@ struct weld_quality {
 
 inline const std::string rounding_name = "grid rounding";
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// How much is measured: everything, what fits in three minutes, or just enough to see it run.
 enum class effort { full, quick, tiny };
@@ -103,4 +103,4 @@ template <class Run, class Error = no_error, class Figures = no_figures>
             .figures = [last, figures] { return figures(**last); }};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 // One file each, named by the id. A new workload is a file, a line of each list here, and a line in
 // CMakeLists.txt.
@@ -105,4 +105,4 @@ std::span<const workload> workloads() {
     return all;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

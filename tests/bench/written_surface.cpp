@@ -1,14 +1,14 @@
 #include "bench/written_surface.hpp"
 
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 struct edge_use {
@@ -57,4 +57,4 @@ surface_defects defects_of(const mesh& written) {
     return found;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

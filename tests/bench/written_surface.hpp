@@ -2,11 +2,11 @@
 /// \file
 /// What is wrong with a surface once it is in a file: found by reading it as a reader would.
 
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <cstddef>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 struct surface_defects {
     std::size_t intersections = 0;  ///< pairs of faces that meet where they should not
@@ -21,4 +21,4 @@ struct surface_defects {
 /// Of a surface as written, points with equal coordinates being one. Decided exactly.
 [[nodiscard]] surface_defects defects_of(const mesh& written);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -51,15 +51,15 @@ run_tool() {
         grep -q "libtreeform_mesh.* => $WORK/" <<<"$(ldd "$installed/bin/tf-selfintersect")"
 }
 
-# Every header without "detail/" in its path is installed, and what the installed ones include is.
+# Every header of the door is installed, and what the installed ones include is.
 check_headers() {
-    local include=$installed/include/treeform header status=0
+    local include=$installed/include header status=0
     while read -r header; do
         [[ -f $include/$header ]] || { echo "not installed: $header"; status=1; }
-    done < <(cd "$SOURCE" && find libtree libmesh -name '*.hpp' -not -path '*/detail/*')
+    done < <(cd "$SOURCE" && find lib*/include -name '*.hpp' | cut -d/ -f3-)
     while read -r header; do
         [[ -f $include/$header ]] || { echo "included, not installed: $header"; status=1; }
-    done < <(grep -rhoE '#include <lib(tree|mesh)/[^>]+' "$include" | sed 's/.*<//' | sort -u)
+    done < <(grep -rhoE '#include <(treeform|lib(tree|mesh))/[^>]+' "$include" | sed 's/.*<//' | sort -u)
     return $status
 }
 

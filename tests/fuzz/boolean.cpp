@@ -3,10 +3,11 @@
 /// of, and operands that are known to be sound get the same result.
 
 #include "bytes.hpp"
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/validate.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tf.hpp>
 
 #include <array>
 #include <span>

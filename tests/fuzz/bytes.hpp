@@ -3,8 +3,8 @@
 /// Geometry out of a fuzzer's bytes, with shapes that matter within reach of few of them: corners
 /// that are equal, on a line or in a plane, or off by an ulp.
 
-#include <libmesh/mesh.hpp>
-#include <libmesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/points.hpp>
 
 #include <bit>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include <cstring>
 #include <vector>
 
-namespace tf::fuzz {
+namespace treeform::fuzz {
 
 /// Ends the program when what a target promises does not hold.
 inline void require(bool holds, const char* what) {
@@ -151,4 +151,4 @@ class bytes {
     std::vector<point3> points_;
 };
 
-}  // namespace tf::fuzz
+}  // namespace treeform::fuzz

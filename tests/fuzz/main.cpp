@@ -4,6 +4,8 @@
 /// them instead, cut at -b bytes (4096). Run r of the same files is the same each time: when it
 /// ends badly, its number is printed, and `-f r -n 1` runs it again.
 
+#include <treeform/tf.hpp>
+
 #include <support/stress_random.hpp>
 #include <unistd.h>
 

@@ -2,6 +2,7 @@
 /// Every predicate against GMP's integers.
 
 #include "bytes.hpp"
+#include <treeform/tf.hpp>
 
 #include <support/gmp_predicates.hpp>
 

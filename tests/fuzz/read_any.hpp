@@ -2,8 +2,8 @@
 /// \file
 /// What every reader promises for any bytes.
 
-#include <libmesh/io/read.hpp>
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/write.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-namespace tf::fuzz {
+namespace treeform::fuzz {
 
 /// Reads the bytes as a file of that format. They are refused with io_error, or they are a mesh
 /// whose corners are points, of a size in proportion to theirs, and which can be written again.
@@ -51,4 +51,4 @@ inline void check_round_trip(const std::uint8_t* data, std::size_t size,
     if (written(std::as_bytes(std::span(once))) != once) std::abort();
 }
 
-}  // namespace tf::fuzz
+}  // namespace treeform::fuzz

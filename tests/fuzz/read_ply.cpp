@@ -1,4 +1,5 @@
 #include "read_any.hpp"
+#include <treeform/tf.hpp>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const int result = tf::fuzz::read_any(data, size, "ply");

@@ -2,10 +2,11 @@
 /// Repair of any small mesh: what is certified is clean.
 
 #include "bytes.hpp"
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/repair/repair.hpp>
-#include <libmesh/validate.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tf.hpp>
 
 #include <stdexcept>
 

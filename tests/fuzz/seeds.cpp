@@ -3,7 +3,8 @@
 /// family of trouble as files of each format, and the numbers of hard pairs for the targets that
 /// decide. Beside each, FOLDER/new/TARGET is for what a fuzzer finds.
 
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <support/stress_families.hpp>
 #include <support/stress_meshes.hpp>

@@ -2,8 +2,9 @@
 /// Pairs of faces without a common corner that a mesh's search finds, against all pairs.
 
 #include "bytes.hpp"
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <utility>

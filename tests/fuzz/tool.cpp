@@ -11,12 +11,13 @@
 #include "tool.hpp"
 
 #include "bytes.hpp"
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/validate.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <nlohmann/json.hpp>
 #include <support/stress_random.hpp>

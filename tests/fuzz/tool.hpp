@@ -4,7 +4,7 @@
 
 #include <span>
 
-namespace tf::fuzz {
+namespace treeform::fuzz {
 
 /// What @out.EXT holds where it is written: a file that can be read; faces that have nothing but
 /// corners and edges in common, once equal corners are one; such faces without an open edge.
@@ -21,4 +21,4 @@ struct tool_command {
 /// Those of the tool that the target is for.
 [[nodiscard]] std::span<const tool_command> tool_commands();
 
-}  // namespace tf::fuzz
+}  // namespace treeform::fuzz

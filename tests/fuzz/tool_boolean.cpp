@@ -1,4 +1,5 @@
 #include "tool.hpp"
+#include <treeform/tf.hpp>
 
 #include <array>
 

@@ -3,6 +3,7 @@
 /// integers alone.
 
 #include "bytes.hpp"
+#include <treeform/tf.hpp>
 
 #include <support/gmp_lattice.hpp>
 #include <support/unfiltered.hpp>

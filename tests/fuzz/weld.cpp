@@ -2,7 +2,8 @@
 /// Welding of small clouds against the rules as they read, by every search.
 
 #include "bytes.hpp"
-#include <libmesh/weld/weld_points.hpp>
+#include <treeform/mesh/weld_points.hpp>
+#include <treeform/tf.hpp>
 
 #include <support/brute_weld.hpp>
 

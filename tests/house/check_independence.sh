@@ -18,7 +18,7 @@ cmake --build "$work"
 
 status=0
 read_headers=$(ninja -C "$work" -t deps)
-grep -q 'libmesh/exact/predicates.hpp' <<<"$read_headers" || {
+grep -q 'treeform/mesh/predicates.hpp' <<<"$read_headers" || {
     echo "the list of headers read is not what it should be"
     exit 1
 }

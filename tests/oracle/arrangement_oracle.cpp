@@ -5,7 +5,8 @@
 /// TREEFORM_STRESS_COUNT sets the number of meshes of each kind (default 12).
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/intersections.h>

@@ -2,10 +2,11 @@
 /// Booleans of pairs of real files against what an exact kernel found: the volumes of
 /// TRUTH_PAIRS.csv. Without TREEFORM_MODELS_DIR nothing is checked.
 
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/volume.hpp>
-#include <libtree/transform.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <doctest/doctest.h>
 #include <support/certified.hpp>

@@ -6,13 +6,14 @@
 /// TREEFORM_STRESS_COUNT sets the faces of the largest file repaired (default 12000),
 /// TREEFORM_STRESS_ONLY names a file or pair to look at alone.
 
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/repair/repair.hpp>
-#include <libmesh/validate.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libtree/transform.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <doctest/doctest.h>
 #include <support/certified.hpp>

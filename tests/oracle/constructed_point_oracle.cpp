@@ -5,7 +5,8 @@
 /// TREEFORM_STRESS_COUNT sets the calls of each predicate in each family (default 20,000).
 
 #include <libmesh/exact/constructed_point.hpp>
-#include <libmesh/exact/detail/dyadic.hpp>
+#include <libmesh/exact/dyadic.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>
@@ -267,7 +268,7 @@ void run(groups& from, tallies& result) {
     }
 }
 
-mpq_class rational(const tf::detail::dyadic& a) {
+mpq_class rational(const tf::detail::exact::dyadic& a) {
     mpz_class magnitude;
     mpz_import(magnitude.get_mpz_t(), a.size(), -1, 8, 0, 0, a.limbs());
     mpq_class result(a.sign() < 0 ? mpz_class(-magnitude) : magnitude);
@@ -280,8 +281,8 @@ mpq_class rational(const tf::detail::dyadic& a) {
 }
 
 /// Up to eight doubles of any exponents, multiplied and added.
-tf::detail::dyadic any_dyadic(tf::test::point_stream& stream) {
-    using tf::detail::dyadic;
+tf::detail::exact::dyadic any_dyadic(tf::test::point_stream& stream) {
+    using tf::detail::exact::dyadic;
     const std::vector<point3> p = stream.next(3);
     return dyadic(p[0].x) * dyadic(p[0].y) * dyadic(p[0].z) - dyadic(p[1].x) * dyadic(p[1].y) +
            dyadic(p[1].z) * dyadic(p[2].x) * dyadic(p[2].y);
@@ -314,7 +315,7 @@ TEST_CASE("constructed points are where GMP's rationals are, and so are all sign
 }
 
 TEST_CASE("numbers of any size add, multiply and round as GMP's and MPFR's do") {
-    using tf::detail::quotient;
+    using tf::detail::exact::quotient;
     for (std::size_t f = 0; f < tf::test::point_family_names.size(); ++f) {
         CAPTURE(tf::test::point_family_names[f]);
         tf::test::point_stream stream(static_cast<tf::test::point_family>(f), 900 + f);
@@ -327,11 +328,12 @@ TEST_CASE("numbers of any size add, multiply and round as GMP's and MPFR's do") 
             REQUIRE(rational(a - b) == p - q);
             REQUIRE(rational(a * b) == p * q);
             if (q == 0) continue;
-            const auto in_double = quotient(a, b, 0, tf::detail::double_format);
+            const auto in_double = quotient(a, b, 0, tf::detail::exact::double_format);
             REQUIRE(in_double.value == nearest_double(p / q));
             if (std::isfinite(in_double.value))
                 REQUIRE(in_double.exact == (mpq_class(in_double.value) == p / q));
-            REQUIRE(quotient(a, b, 0, tf::detail::float_format_32).value == nearest_float(p / q));
+            REQUIRE(quotient(a, b, 0, tf::detail::exact::float_format_32).value ==
+                    nearest_float(p / q));
         }
     }
 }

@@ -5,11 +5,12 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the faces of the largest file (default 3000).
 
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>

@@ -4,6 +4,8 @@
 /// TREEFORM_STRESS_COUNT sets the calls of each predicate in each family (default 100,000):
 ///     TREEFORM_STRESS_COUNT=10000000 ctest --test-dir build/release -R exact_oracle -V
 
+#include <treeform/tf.hpp>
+
 #include <doctest/doctest.h>
 #include <support/gmp_predicates.hpp>
 #include <support/point_families.hpp>

@@ -2,16 +2,17 @@
 /// Placements of real meshes: what has been placed penetrates nothing, and could not have been
 /// placed much further. Without TREEFORM_MODELS_DIR nothing is checked.
 
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libmesh/place/arrange.hpp>
-#include <libmesh/place/first_contact.hpp>
-#include <libmesh/place/relation.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/nearest_float.hpp>
 #include <libmesh/place/settle.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/arrange.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/first_contact.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/relation.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/models.hpp>
@@ -58,8 +59,8 @@ tf::mesh dropped(tf::mesh a, double way, bool to_single) {
     for (tf::point3& p : a.points) {
         p.z -= way;
         if (to_single)
-            p = {tf::detail::nearest_float(p.x), tf::detail::nearest_float(p.y),
-                 tf::detail::nearest_float(p.z)};
+            p = {tf::detail::base::nearest_float(p.x), tf::detail::base::nearest_float(p.y),
+                 tf::detail::base::nearest_float(p.z)};
     }
     return a;
 }

@@ -3,13 +3,14 @@
 /// of TRUTH_PAIRS.csv, where the moved points are those that doubles give. Without
 /// TREEFORM_MODELS_DIR nothing is checked.
 
-#include <libmesh/face_tree.hpp>
+#include <libmesh/base/face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/place/measure.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libtree/transform.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <doctest/doctest.h>
 #include <support/models.hpp>

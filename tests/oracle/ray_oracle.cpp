@@ -3,12 +3,13 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the pairs of each family (default 5,000).
 
-#include <libmesh/face_tree.hpp>
-#include <libmesh/geometry/ray_triangle.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/intersect/ray_query.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/ray_query.hpp>
+#include <treeform/mesh/ray_triangle.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>

@@ -3,7 +3,8 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the calls of each in each family (default 20,000).
 
-#include <libmesh/exact/ray_predicates.hpp>
+#include <treeform/mesh/ray_predicates.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>

@@ -4,15 +4,16 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the points whose winding is compared for each file (default 500).
 
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/repair/repair.hpp>
-#include <libmesh/validate.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/models.hpp>

@@ -4,7 +4,8 @@
 /// TREEFORM_STRESS_COUNT sets the pairs of each family (default 1100, of which some meet where they
 /// are and are passed over).
 
-#include <libmesh/geometry/triangle_sweep.hpp>
+#include <treeform/mesh/triangle_sweep.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>

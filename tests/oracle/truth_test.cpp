@@ -2,13 +2,14 @@
 /// Real files against what an exact kernel found in them: every count of TRUTH.csv that concerns
 /// points, topology and self-intersections. Without TREEFORM_MODELS_DIR nothing is checked.
 
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/validate.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/invariances.hpp>
@@ -32,7 +33,7 @@ namespace {
 using counts = std::map<std::string, std::int64_t>;
 
 void round_to_float(tf::mesh& mesh) {
-    using tf::detail::nearest_float;
+    using tf::detail::base::nearest_float;
     for (tf::point3& p : mesh.points)
         p = {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
 }

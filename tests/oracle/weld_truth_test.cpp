@@ -2,9 +2,10 @@
 /// Groups of the points of real files against those that an exact kernel found: the columns of
 /// TRUTH.csv about welding. Without TREEFORM_MODELS_DIR nothing is checked.
 
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/weld/weld_points.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/weld_points.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/models.hpp>
@@ -29,7 +30,7 @@ constexpr std::array columns{
     tolerance_column{"weld_1e-4", "eps_1e-4"}, tolerance_column{"weld_1e-3", "eps_1e-3"}};
 
 std::vector<tf::point3> finite_points(const std::vector<tf::point3>& stored, bool as_float) {
-    using tf::detail::nearest_float;
+    using tf::detail::base::nearest_float;
     std::vector<tf::point3> points;
     for (tf::point3 p : stored) {
         if (as_float) p = {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};

@@ -3,10 +3,11 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the pairs of each family (default 40), TREEFORM_STRESS_SEED the seed.
 
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/volume.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>

@@ -4,7 +4,8 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the cases of each family (default 6), TREEFORM_STRESS_SEED the seed.
 
-#include <libmesh/boolean/boolean.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>

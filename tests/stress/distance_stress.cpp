@@ -3,12 +3,13 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the poses (default 3000).
 
-#include <libmesh/face_tree.hpp>
+#include <libmesh/base/face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/distance_model.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libmesh/place/measure.hpp>
-#include <libtree/transform.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <doctest/doctest.h>
 #include <support/solids.hpp>

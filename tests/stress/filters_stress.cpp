@@ -9,9 +9,10 @@
 /// tests.
 
 #include <libmesh/exact/constructed_point.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/point_families.hpp>
@@ -69,27 +70,27 @@ void ask_all(const std::vector<point3>& p, tally& sum) {
     const auto flat = [&](std::size_t i) { return tf::point2{p[i].x, p[i].y}; };
     sum.add(tf::orient2d(flat(3), flat(4), flat(5)), integer_orient2d(2, p[3], p[4], p[5]));
     sum.add(tf::collinear(p[6], p[7], p[8]) ? 0 : 1,
-            integer_sign<normal_polynomial>(p[6], p[7], p[8]));
+            integer_sign<exact::normal_polynomial>(p[6], p[7], p[8]));
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{5}}) {
         sum.add(tf::orient3d(p[i], p[i + 1], p[i + 2], p[i + 3]),
-                integer_sign<orient3d_polynomial>(p[i], p[i + 1], p[i + 2], p[i + 3]));
+                integer_sign<exact::orient3d_polynomial>(p[i], p[i + 1], p[i + 2], p[i + 3]));
         sum.add(tf::compare_along(p[i], p[i + 1], p[i + 2], p[i + 3]),
-                integer_sign<compare_along_polynomial>(p[i], p[i + 1], p[i + 2], p[i + 3]));
+                integer_sign<exact::compare_along_polynomial>(p[i], p[i + 1], p[i + 2], p[i + 3]));
         sum.add(tf::compare_distance(p[i], p[i + 1], p[i], p[i + 3]),
-                integer_sign<compare_distance_polynomial>(p[i], p[i + 1], p[i], p[i + 3]));
+                integer_sign<exact::compare_distance_polynomial>(p[i], p[i + 1], p[i], p[i + 3]));
     }
     sum.add(tf::normal_dot(n, m),
-            integer_sign<normal_dot_polynomial>(n.a, n.b, n.c, m.a, m.b, m.c));
+            integer_sign<exact::normal_dot_polynomial>(n.a, n.b, n.c, m.a, m.b, m.c));
     for (int axis = 0; axis < 3; ++axis) {
         const auto at = [&](const point3& q) { return turned(axis, q); };
         sum.add(tf::orient2d(axis, p[0], p[4], p[8]), integer_orient2d(axis, p[0], p[4], p[8]));
         sum.add(tf::normal_cross(axis, n, m),
-                integer_sign<normal_cross_polynomial>(at(n.a), at(n.b), at(n.c), at(m.a), at(m.b),
-                                                      at(m.c)));
+                integer_sign<exact::normal_cross_polynomial>(at(n.a), at(n.b), at(n.c), at(m.a),
+                                                             at(m.b), at(m.c)));
     }
     sum.add(tf::normal_turn(n, m, p[7], p[8]),
-            integer_sign<normal_turn_polynomial>(n.a, n.b, n.c, m.a, m.b, m.c, p[7], p[8]));
-    sum.add(tf::normal_determinant(n, m, k), integer_sign<normal_determinant_polynomial>(
+            integer_sign<exact::normal_turn_polynomial>(n.a, n.b, n.c, m.a, m.b, m.c, p[7], p[8]));
+    sum.add(tf::normal_determinant(n, m, k), integer_sign<exact::normal_determinant_polynomial>(
                                                  n.a, n.b, n.c, m.a, m.b, m.c, k.a, k.b, k.c));
 }
 

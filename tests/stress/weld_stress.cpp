@@ -3,7 +3,8 @@
 ///
 /// Points a cloud: 20000, or 10 times $TREEFORM_STRESS_COUNT.
 
-#include <libmesh/weld/weld_points.hpp>
+#include <treeform/mesh/weld_points.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/brute_weld.hpp>

@@ -2,7 +2,8 @@
 /// \file
 /// Boxes that trees find hard in different ways, and what brute force says about them.
 
-#include <libtree/aabb.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <support/random.hpp>
 

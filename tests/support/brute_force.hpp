@@ -3,10 +3,11 @@
 /// Self-intersections by looking at every pair of faces: the words of `tf::self_intersections` as
 /// two nested loops.
 
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tf.hpp>
 
 #include <support/reference_intersection.hpp>
 

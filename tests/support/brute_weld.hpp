@@ -2,14 +2,14 @@
 /// \file
 /// The rules of welding as their definitions read: all pairs, one after the other.
 
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/points.hpp>
+#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <cstdint>
 #include <numeric>
 #include <vector>
 
-namespace tf::test {
+namespace treeform::test {
 
 /// Whether a and b are within `tolerance`. Rounded distances that differ by a part in 2^40 of a
 /// number in the middle of the doubles' range need no look at the coordinates.
@@ -69,4 +69,4 @@ std::vector<std::uint32_t> brute_chains(points_view points, const Linked& linked
     return lowest;
 }
 
-}  // namespace tf::test
+}  // namespace treeform::test

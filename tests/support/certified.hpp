@@ -2,11 +2,12 @@
 /// \file
 /// What is looked at again in surfaces that were rounded, and how often they were certified.
 
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/mesh.hpp>
-#include <libmesh/validate.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/solid_checks.hpp>
@@ -33,8 +34,9 @@ inline double area(tf::mesh_view mesh) {
 
 inline bool is_in_floats(const tf::mesh& mesh) {
     return std::ranges::all_of(mesh.points, [](const tf::point3& p) {
-        return tf::detail::nearest_float(p.x) == p.x && tf::detail::nearest_float(p.y) == p.y &&
-               tf::detail::nearest_float(p.z) == p.z;
+        return tf::detail::base::nearest_float(p.x) == p.x &&
+               tf::detail::base::nearest_float(p.y) == p.y &&
+               tf::detail::base::nearest_float(p.z) == p.z;
     });
 }
 

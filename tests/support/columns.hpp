@@ -2,7 +2,8 @@
 /// \file
 /// Attributes made in place.
 
-#include <libmesh/attributes.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/tf.hpp>
 
 #include <string>
 #include <utility>

@@ -2,9 +2,10 @@
 /// \file
 /// A dynamic tree and what should be in it.
 
-#include <libtree/detail/node_bounds.hpp>
-#include <libtree/dynamic_tree.hpp>
-#include <libtree/validate.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/detail/node_bounds.hpp>
+#include <treeform/tree/dynamic_tree.hpp>
+#include <treeform/tree/validate.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace tf::test {
+namespace treeform::test {
 
 inline void reduce(homogeneous<mpz_class>&) {}  // numbers stay short enough
 
@@ -62,4 +62,4 @@ inline lattice_pair on_lattice(const triangle_pair& pair) {
     return {integral(pair.a), integral(pair.b), step == std::numeric_limits<int>::max() ? 0 : step};
 }
 
-}  // namespace tf::test
+}  // namespace treeform::test

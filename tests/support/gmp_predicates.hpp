@@ -3,7 +3,7 @@
 /// The predicates and what they mean in GMP's integers.
 
 #include <libmesh/exact/constructed_point.hpp>
-#include <libmesh/exact/predicates.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <gmpxx.h>
 
@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-namespace tf::test {
+namespace treeform::test {
 
 using exact_vector = std::array<mpz_class, 3>;
 
@@ -159,4 +159,4 @@ inline const std::array gmp_predicates = {
                   }},
 };
 
-}  // namespace tf::test
+}  // namespace treeform::test

@@ -2,8 +2,9 @@
 /// \file
 /// What must not change the pairs that intersect.
 
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <support/soups.hpp>
 

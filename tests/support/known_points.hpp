@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace tf::test {
+namespace treeform::test {
 
 using rational_vector = std::array<mpq_class, 3>;
 
@@ -83,4 +83,4 @@ inline std::optional<known_point> planes(const plane_points& p, const plane_poin
     return known_point{constructed_point::where_planes_meet(p, q, r), at};
 }
 
-}  // namespace tf::test
+}  // namespace treeform::test

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-namespace tf::test {
+namespace treeform::test {
 namespace {
 
 /// `x` without what a float does not hold, towards zero.
@@ -115,4 +115,4 @@ std::vector<point3> point_stream::next(std::size_t count) {
     return points;
 }
 
-}  // namespace tf::test
+}  // namespace treeform::test

@@ -2,7 +2,7 @@
 /// \file
 /// Points that are hard to decide about: seeded streams of groups of points, a group for a call.
 
-#include <libmesh/exact/point.hpp>
+#include <treeform/mesh/point.hpp>
 
 #include <support/stress_families.hpp>
 
@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tf::test {
+namespace treeform::test {
 
 enum class point_family : std::uint8_t {
     random,        ///< uniform doubles
@@ -46,4 +46,4 @@ class point_stream {
     random_source random_;
 };
 
-}  // namespace tf::test
+}  // namespace treeform::test

@@ -2,7 +2,8 @@
 /// \file
 /// Points in rational numbers, and the volumes of meshes.
 
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <gmpxx.h>
 

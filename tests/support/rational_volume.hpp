@@ -4,10 +4,11 @@
 
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/boolean/expression.hpp>
 #include <libmesh/exact/constructed_point.hpp>
-#include <libmesh/mesh.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/expression.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <gmpxx.h>
 #include <support/rational_points.hpp>

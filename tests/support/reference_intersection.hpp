@@ -7,7 +7,7 @@
 /// `Integer` is a signed type that does not overflow: std::int64_t for coordinates up to 4 or so,
 /// a big integer otherwise. `reduce(point)` may divide out common factors.
 
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 #include <numeric>
 #include <vector>
 
-namespace tf::test {
+namespace treeform::test {
 
 template <class Integer>
 using vector_of = std::array<Integer, 3>;
@@ -236,4 +236,4 @@ inline bool agrees(const triangle_contact& found, const reference_contact& expec
     return n == 0;
 }
 
-}  // namespace tf::test
+}  // namespace treeform::test

@@ -4,7 +4,7 @@
 /// t d in the convex hull of the differences of corners, found by trying every set of up to three
 /// of these nine points. Slow, and shares nothing with the library but the types of the question.
 
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <gmpxx.h>
 
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::test {
+namespace treeform::test {
 
 using rational_point = std::array<mpq_class, 3>;
 
@@ -83,4 +83,4 @@ inline std::optional<mpq_class> first_time(const triangle3& a, const triangle3& 
     return best;
 }
 
-}  // namespace tf::test
+}  // namespace treeform::test

@@ -3,8 +3,9 @@
 /// Solids made of tetrahedra that fit together, and surfaces that wind around them as asked: what
 /// cells and windings of a surface are to be is known by construction.
 
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tf.hpp>
 
 #include <support/random.hpp>
 

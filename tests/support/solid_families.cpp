@@ -1,4 +1,5 @@
-#include <libmesh/exact/predicates.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tf.hpp>
 
 #include <support/solid_families.hpp>
 #include <support/solids.hpp>

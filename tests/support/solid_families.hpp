@@ -2,8 +2,9 @@
 /// \file
 /// Solids whose set operations are hard to write down: kinds of trouble, each a seeded series.
 
-#include <libmesh/boolean/expression.hpp>
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/expression.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <support/random.hpp>
 

@@ -2,7 +2,8 @@
 /// \file
 /// Closed meshes of simple shape, outward.
 
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <support/random.hpp>
 

@@ -2,7 +2,8 @@
 /// \file
 /// Small meshes full of trouble, the same for the same random source.
 
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <support/random.hpp>
 

@@ -2,10 +2,11 @@
 /// \file
 /// Meshes that stand still, as what moves among them takes them.
 
-#include <libmesh/face_tree.hpp>
-#include <libmesh/mesh.hpp>
-#include <libmesh/place/still_part.hpp>
-#include <libtree/tree.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/still_part.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <deque>
 #include <vector>

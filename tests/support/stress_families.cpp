@@ -8,7 +8,7 @@
 #include <iterator>
 #include <utility>
 
-namespace tf::test {
+namespace treeform::test {
 namespace {
 
 using namespace stress;
@@ -339,4 +339,4 @@ triangle_pair stress_stream::next() {
     return pair;
 }
 
-}  // namespace tf::test
+}  // namespace treeform::test

@@ -9,7 +9,7 @@
 /// ones (a rotation, the same translations, a scale from 1e-30 to 1e30); of both, half are then
 /// rounded to float.
 
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <support/stress_random.hpp>
 
@@ -18,7 +18,7 @@
 #include <optional>
 #include <string_view>
 
-namespace tf::test {
+namespace treeform::test {
 
 enum class stress_family : std::uint8_t {
     near_coplanar,    ///< tilted against each other by 1e-1 to 1e-16, or not at all
@@ -59,4 +59,4 @@ class stress_stream {
     random_source random_;
 };
 
-}  // namespace tf::test
+}  // namespace treeform::test

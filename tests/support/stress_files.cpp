@@ -2,8 +2,8 @@
 
 #include "support/stress_meshes.hpp"
 #include "support/stress_placement.hpp"
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/write.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::test {
+namespace treeform::test {
 namespace {
 
 bool within(const mesh& m, double largest) {
@@ -79,4 +79,4 @@ std::size_t write_stress_files(const std::filesystem::path& folder,
     return to.close();
 }
 
-}  // namespace tf::test
+}  // namespace treeform::test

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <span>
 
-namespace tf::test {
+namespace treeform::test {
 
 /// Writes FAMILY-SIZE-PLACEMENT-PRECISION.ply (binary) into `folder` for every family given (all of
 /// them when none is), at sizes of 10^2 faces to `most_faces` by factors of ten, in every named
@@ -22,4 +22,4 @@ namespace tf::test {
 std::size_t write_stress_files(const std::filesystem::path& folder,
                                std::span<const stress_family> families, std::size_t most_faces);
 
-}  // namespace tf::test
+}  // namespace treeform::test

@@ -2,14 +2,14 @@
 
 #include "support/stress_parts.hpp"
 #include "support/stress_placement.hpp"
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/equal_points.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
 
-namespace tf::test {
+namespace treeform::test {
 namespace {
 
 using namespace stress;
@@ -380,4 +380,4 @@ mesh stress_mesh(stress_family family, std::size_t faces, std::uint64_t seed) {
     return {};
 }
 
-}  // namespace tf::test
+}  // namespace treeform::test

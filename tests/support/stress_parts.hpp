@@ -3,7 +3,7 @@
 /// What the families of hard pairs and of hard meshes are made of: points and triangles drawn in an
 /// order that the language fixes, by operations that every machine rounds alike.
 
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <support/stress_random.hpp>
 
@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace tf::test::stress {
+namespace treeform::test::stress {
 
 inline point3 operator+(const point3& p, const point3& q) {
     return {p.x + q.x, p.y + q.y, p.z + q.z};
@@ -107,4 +107,4 @@ inline double extreme_coordinate(double unit, random_source& random) {
 }
 inline constexpr double extreme_units[] = {0x1p-1074, 0x1p-1023, 1e-310, 1e-150, 1.0, 1e150, 1e300};
 
-}  // namespace tf::test::stress
+}  // namespace treeform::test::stress

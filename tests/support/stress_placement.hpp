@@ -2,9 +2,9 @@
 /// \file
 /// Where a shape is put: turned, moved, scaled, and rounded to float.
 
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/mesh.hpp>
-#include <libmesh/points.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/points.hpp>
 
 #include <support/stress_parts.hpp>
 
@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::test {
+namespace treeform::test {
 
 /// Rows; takes a point to its turned place.
 using turn_rows = std::array<point3, 3>;
@@ -30,7 +30,7 @@ struct placement {
 
 /// `x` rounded to float, unless no float is so large.
 inline double as_float(double x) {
-    return std::abs(x) > std::numeric_limits<float>::max() ? x : detail::nearest_float(x);
+    return std::abs(x) > std::numeric_limits<float>::max() ? x : detail::base::nearest_float(x);
 }
 
 inline point3 placed(const point3& p, const placement& where) {
@@ -101,4 +101,4 @@ inline std::vector<named_placement> named_placements() {
             {"times-1e30", {.scale = 1e30}}};
 }
 
-}  // namespace tf::test
+}  // namespace treeform::test

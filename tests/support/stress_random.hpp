@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-namespace tf::test {
+namespace treeform::test {
 
 class random_source {
   public:
@@ -26,4 +26,4 @@ class random_source {
     std::mt19937_64 engine_;
 };
 
-}  // namespace tf::test
+}  // namespace treeform::test

@@ -2,7 +2,8 @@
 /// \file
 /// TRUTH.csv of a folder of models: exact facts about each file, found by an exact kernel.
 
-#include <libtree/transform.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <charconv>
 #include <cstddef>

@@ -4,9 +4,9 @@
 /// and edge of one looked at against the other, nothing skipped. No filter and no short cut of the
 /// library takes part; the integers are compared with GMP's in tests/oracle.
 
-#include <libmesh/exact/detail/exact_sign.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <libmesh/exact/exact_sign.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,20 +14,21 @@
 #include <cstdint>
 #include <optional>
 
-namespace tf::test {
+namespace treeform::test {
 
 /// Sign of a polynomial of libmesh/exact/detail/polynomials.hpp.
 template <class Polynomial, class... Points>
 int integer_sign(const Points&... points) {
-    return detail::exact_sign<Polynomial>({detail::vector_of(points)...}, nullptr);
+    return detail::exact::exact_sign<Polynomial>({detail::exact::vector_of(points)...}, nullptr);
 }
 
 inline int integer_orient3d(const point3& a, const point3& b, const point3& c, const point3& d) {
-    return integer_sign<detail::orient3d_polynomial>(a, b, c, d);
+    return integer_sign<detail::exact::orient3d_polynomial>(a, b, c, d);
 }
 inline int integer_orient2d(int axis, const point3& a, const point3& b, const point3& c) {
-    return integer_sign<detail::orient2d_polynomial>(
-        detail::projection(axis, a), detail::projection(axis, b), detail::projection(axis, c));
+    return integer_sign<detail::exact::orient2d_polynomial>(detail::exact::projection(axis, a),
+                                                            detail::exact::projection(axis, b),
+                                                            detail::exact::projection(axis, c));
 }
 
 /// All that two proper triangles have in common, but for the order of the ends.
@@ -156,4 +157,4 @@ class unfiltered_contacts {
     bool crossing_ = false;
 };
 
-}  // namespace tf::test
+}  // namespace treeform::test

@@ -2,7 +2,8 @@
 /// \file
 /// Clouds that are hard to weld.
 
-#include <libmesh/points.hpp>
+#include <treeform/mesh/points.hpp>
+#include <treeform/tf.hpp>
 
 #include <cmath>
 #include <cstddef>

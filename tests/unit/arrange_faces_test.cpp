@@ -2,9 +2,10 @@
 /// The arrangement of faces: what must hold of any complex, and the thread count.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/solids.hpp>

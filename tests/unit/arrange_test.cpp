@@ -1,7 +1,8 @@
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libmesh/place/arrange.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/arrange.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

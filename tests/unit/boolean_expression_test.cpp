@@ -1,4 +1,5 @@
-#include <libmesh/boolean/expression.hpp>
+#include <treeform/mesh/expression.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

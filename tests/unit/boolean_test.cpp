@@ -1,11 +1,12 @@
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/volume.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/transform.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -1,8 +1,9 @@
 /// \file
 /// Trees over what reaches into a box, against whole trees and against counting one by one.
 
-#include <libtree/build_within.hpp>
-#include <libtree/search.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build_within.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,9 +1,10 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

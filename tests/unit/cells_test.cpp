@@ -1,6 +1,7 @@
 #include <libmesh/arrange/cells.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

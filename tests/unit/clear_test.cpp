@@ -1,9 +1,10 @@
-#include <libmesh/face_tree.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libmesh/place/clear.hpp>
-#include <libmesh/place/relation.hpp>
-#include <libmesh/place/settle_among.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/clear.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/relation.hpp>
+#include <treeform/mesh/settle_among.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -1,10 +1,11 @@
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/volume.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -1,6 +1,7 @@
 #include <libmesh/geometry/closest_point.hpp>
-#include <libmesh/nearness/closest_point_query.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/closest_point_query.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/soups.hpp>

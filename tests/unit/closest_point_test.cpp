@@ -1,4 +1,5 @@
 #include <libmesh/geometry/closest_point.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -1,4 +1,5 @@
-#include <libmesh/round/detail/coarse_grid.hpp>
+#include <libmesh/round/coarse_grid.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
@@ -13,7 +14,7 @@
 namespace {
 
 using box3 = tf::aabb<double, 3>;
-using tf::detail::coarse_grid;
+using tf::detail::round::coarse_grid;
 
 box3 box_of(const tf::mesh& mesh, const tf::face& f) {
     box3 box;

@@ -1,4 +1,5 @@
 #include <libmesh/exact/constructed_point.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/point_families.hpp>

@@ -1,6 +1,7 @@
 #include "support/reference_intersection.hpp"
 #include "support/stress_families.hpp"
 #include <libmesh/geometry/contact_point.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,6 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/place/convex_hull.hpp>
+#include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -1,9 +1,10 @@
 /// \file
 /// Curves joined into paths: how many, closed or not, and named by what.
 
-#include <libmesh/intersect/curve_paths.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/curve_paths.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/solids.hpp>

@@ -1,6 +1,7 @@
 #include <libmesh/intersect/curves.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 

@@ -2,10 +2,11 @@
 /// The models in data/ have the defects that data/expected.csv gives them: worked out by hand for
 /// all but two_spheres.stl, whose count an exact kernel gave.
 
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/validate.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,7 @@
-#include <libmesh/face_tree.hpp>
+#include <libmesh/base/face_tree.hpp>
 #include <libmesh/nearness/distance_model.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/soups.hpp>
@@ -90,8 +91,8 @@ TEST_CASE("node discs: the discs of every node hold the triangles below it") {
           test::scaled(waves(20, 1.0), 0x1p-700), test::lattice_soup(source, 600, 90, 5),
           test::moved(waves(30, 1e-6), {1e6, -1e6, 3})}) {
         const tf::tree<3> tree = tf::face_tree(mesh);
-        const auto triangles = tf::detail::triangle_blocks(mesh, tree);
-        const tf::detail::node_discs discs(tree, triangles);
+        const auto triangles = tf::detail::nearness::triangle_blocks(mesh, tree);
+        const tf::detail::nearness::node_discs discs(tree, triangles);
         const tf::tree_frame<3>& frame = tree.frame();
         bool all_inside = true;
         for (unsigned level = 0; level + 1 < tree.levels(); ++level)

@@ -1,11 +1,12 @@
 /// \file
 /// Searches of sets of boxes that change, against brute force over what there is.
 
-#include <libtree/build.hpp>
-#include <libtree/dynamic_nearness.hpp>
-#include <libtree/dynamic_ray.hpp>
-#include <libtree/dynamic_search.hpp>
-#include <libtree/dynamic_tree.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/dynamic_nearness.hpp>
+#include <treeform/tree/dynamic_ray.hpp>
+#include <treeform/tree/dynamic_search.hpp>
+#include <treeform/tree/dynamic_tree.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,9 +1,10 @@
 /// \file
 /// Sets of boxes that change: ids, slots, what an update costs, what is refused.
 
-#include <libtree/dynamic_search.hpp>
-#include <libtree/dynamic_tree.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/dynamic_search.hpp>
+#include <treeform/tree/dynamic_tree.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,5 +1,6 @@
-#include <libmesh/arrange/detail/edge_stars.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/arrange/edge_stars.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
@@ -30,7 +31,7 @@ void check(const tf::mesh& mesh) {
     const stars expected = by_definition(mesh);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        const tf::detail::edge_stars found(mesh.points.size(), mesh.faces);
+        const tf::detail::arrange::edge_stars found(mesh.points.size(), mesh.faces);
         REQUIRE(found.size() == expected.size());
         bool same = true;
         for (std::size_t p = 0; p < expected.size(); ++p)
@@ -44,7 +45,7 @@ void check(const tf::mesh& mesh) {
 TEST_CASE("edge_stars: no faces, no points") {
     check({});
     check({{{0, 0, 0}, {1, 0, 0}}, {}});
-    CHECK(tf::detail::edge_stars(0, {}).size() == 0);
+    CHECK(tf::detail::arrange::edge_stars(0, {}).size() == 0);
 }
 
 TEST_CASE("edge_stars: each point has the faces of which it is not the highest corner, ascending") {

@@ -1,6 +1,7 @@
-#include <libmesh/weld/detail/few_equal_points.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/weld/few_equal_points.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
@@ -46,7 +47,7 @@ void check(const points& list) {
         const tf::equal_points found = tf::find_equal_points(list);
         CHECK((found.new_of_old == expected.new_of_old));
         CHECK((found.first_of_new == expected.first_of_new));
-        const auto few = tf::detail::few_equal_points(list);
+        const auto few = tf::detail::weld::few_equal_points(list);
         REQUIRE(few.has_value() == (expected.first_of_new.size() < list.size()));
         if (!few) continue;
         CHECK((few->new_of_old == expected.new_of_old));

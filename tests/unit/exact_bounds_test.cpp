@@ -1,11 +1,12 @@
 /// \file
 /// The constants that the filter and the widths rest on, recomputed from the polynomials.
 
-#include <libmesh/exact/detail/constructed_polynomials.hpp>
-#include <libmesh/exact/detail/exact_place.hpp>
-#include <libmesh/exact/detail/exact_sign.hpp>
-#include <libmesh/exact/detail/filter.hpp>
-#include <libmesh/exact/detail/ray_polynomials.hpp>
+#include <libmesh/exact/constructed_polynomials.hpp>
+#include <libmesh/exact/exact_place.hpp>
+#include <libmesh/exact/exact_sign.hpp>
+#include <libmesh/exact/filter.hpp>
+#include <libmesh/exact/ray_polynomials.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 
@@ -19,7 +20,7 @@
 
 namespace {
 
-namespace detail = tf::detail;
+namespace detail = treeform::detail;
 
 /// Counts the factors (1 + e) on the worst product of an expression.
 struct rounding_count {
@@ -43,29 +44,29 @@ operation_count operator-(operation_count a, operation_count b) { return a * b; 
 
 template <class Polynomial, class Count>
 auto evaluated(Count difference) {
-    detail::points_of<Polynomial, double> points{};
-    return Polynomial::value(
-        detail::transform(Polynomial::differences(points), [&](double) { return difference; }));
+    detail::exact::points_of<Polynomial, double> points{};
+    return Polynomial::value(detail::exact::transform(Polynomial::differences(points),
+                                                      [&](double) { return difference; }));
 }
 
 int factors_of(rounding_count c) { return c.factors; }
-int factors_of(const detail::vector3<rounding_count>& v) {
+int factors_of(const detail::exact::vector3<rounding_count>& v) {
     return std::max({v.x.factors, v.y.factors, v.z.factors});
 }
-int factors_of(const detail::vector2<rounding_count>& v) {
+int factors_of(const detail::exact::vector2<rounding_count>& v) {
     return std::max(v.x.factors, v.y.factors);
 }
-int factors_of(const detail::place<rounding_count, rounding_count>& v) {
+int factors_of(const detail::exact::place<rounding_count, rounding_count>& v) {
     return std::max(factors_of(v.over), v.under.factors);
 }
 int operations_of(operation_count c) { return c.operations; }
-int operations_of(const detail::vector3<operation_count>& v) {
+int operations_of(const detail::exact::vector3<operation_count>& v) {
     return std::max({v.x.operations, v.y.operations, v.z.operations});
 }
-int operations_of(const detail::vector2<operation_count>& v) {
+int operations_of(const detail::exact::vector2<operation_count>& v) {
     return std::max(v.x.operations, v.y.operations);
 }
-int operations_of(const detail::place<operation_count, operation_count>& v) {
+int operations_of(const detail::exact::place<operation_count, operation_count>& v) {
     return std::max(operations_of(v.over), v.under.operations);
 }
 
@@ -77,33 +78,33 @@ void check_error_factor() {
     // What the filter compares is rounded too: `factors` times in the permanent, once with c.
     const long double error = std::expm1(factors * std::log1p(u));
     const long double least = (error + u / 2) / std::pow(1 - u, factors + 1.0L);
-    CHECK(static_cast<long double>(detail::error_factor<Polynomial>) >= least);
+    CHECK(static_cast<long double>(detail::exact::error_factor<Polynomial>) >= least);
     CHECK(operations_of(evaluated<Polynomial>(operation_count{1})) < 128);
 }
 
 TEST_CASE("the filter's constant exceeds the error bound of its polynomial") {
-    check_error_factor<detail::orient2d_polynomial>();
-    check_error_factor<detail::normal_polynomial>();
-    check_error_factor<detail::orient3d_polynomial>();
-    check_error_factor<detail::compare_along_polynomial>();
-    check_error_factor<detail::compare_distance_polynomial>();
-    check_error_factor<detail::normal_dot_polynomial>();
-    check_error_factor<detail::normal_cross_polynomial>();
-    check_error_factor<detail::normal_turn_polynomial>();
-    check_error_factor<detail::normal_determinant_polynomial>();
-    check_error_factor<detail::direction_side_polynomial>();
-    check_error_factor<detail::line_side_polynomial>();
-    check_error_factor<detail::cut_polynomial>();
-    check_error_factor<detail::compare_cut_polynomial>();
-    check_error_factor<detail::compare_cuts_polynomial>();
-    check_error_factor<detail::lines_polynomial>();
-    check_error_factor<detail::line_plane_polynomial>();
-    check_error_factor<detail::planes_polynomial>();
+    check_error_factor<detail::exact::orient2d_polynomial>();
+    check_error_factor<detail::exact::normal_polynomial>();
+    check_error_factor<detail::exact::orient3d_polynomial>();
+    check_error_factor<detail::exact::compare_along_polynomial>();
+    check_error_factor<detail::exact::compare_distance_polynomial>();
+    check_error_factor<detail::exact::normal_dot_polynomial>();
+    check_error_factor<detail::exact::normal_cross_polynomial>();
+    check_error_factor<detail::exact::normal_turn_polynomial>();
+    check_error_factor<detail::exact::normal_determinant_polynomial>();
+    check_error_factor<detail::exact::direction_side_polynomial>();
+    check_error_factor<detail::exact::line_side_polynomial>();
+    check_error_factor<detail::exact::cut_polynomial>();
+    check_error_factor<detail::exact::compare_cut_polynomial>();
+    check_error_factor<detail::exact::compare_cuts_polynomial>();
+    check_error_factor<detail::exact::lines_polynomial>();
+    check_error_factor<detail::exact::line_plane_polynomial>();
+    check_error_factor<detail::exact::planes_polynomial>();
 }
 
 TEST_CASE("the guards keep what underflow loses below the slack, and products finite") {
     const auto check = []<int Degree>() {
-        const double largest = detail::largest_difference<Degree>;
+        const double largest = detail::exact::largest_difference<Degree>;
         CHECK(std::log2(largest) * (Degree - 1) <= 400.0);
         CHECK(std::log2(largest) * Degree + 6 < 1023.0);
     };
@@ -114,7 +115,7 @@ TEST_CASE("the guards keep what underflow loses below the slack, and products fi
     check.operator()<6>();
     check.operator()<7>();
     // 2^400 of further factors, 2^-1020 lost an operation, 2^7 operations, coefficients below 2^6
-    CHECK(400 - 1020 + 7 + 6 < std::log2(detail::least_permanent) - 52 - 1);
+    CHECK(400 - 1020 + 7 + 6 < std::log2(detail::exact::least_permanent) - 52 - 1);
 }
 
 /// Bounds a value of some degree in coordinates of m bits: its magnitude is below
@@ -141,7 +142,7 @@ int sign_of(bit_count) { return 1; }
 }  // namespace
 
 template <>
-struct tf::detail::one_of<bit_count> {
+struct tf::detail::exact::one_of<bit_count> {
     static bit_count value() { return {0, 1}; }
 };
 
@@ -149,24 +150,26 @@ namespace {
 
 TEST_CASE("no value of a constructed point outgrows the limbs of its degree") {
     using tf::constructed_point;
-    using place = detail::places_of<bit_count>::large;
+    using place = detail::exact::places_of<bit_count>::large;
     using origin = constructed_point::origin;
     const bit_count coordinate{1, 0};
-    std::array<detail::vector3<bit_count>, 9> points;
+    std::array<detail::exact::vector3<bit_count>, 9> points;
     points.fill({coordinate, coordinate, coordinate});
-    const auto at = [&](origin kind) { return detail::place_of<place>(kind, points.data()); };
+    const auto at = [&](origin kind) {
+        return detail::exact::place_of<place>(kind, points.data());
+    };
     const std::array places{at(origin::given), at(origin::lines), at(origin::line_plane),
                             at(origin::planes)};
     for (const place& p : places) {
         CHECK(p.over.x.degree == p.under.degree + 1);
-        CHECK(detail::side_of_place(points.data(), p) == 1);
+        CHECK(detail::exact::side_of_place(points.data(), p) == 1);
         for (const place& q : places) {
-            CHECK(detail::compare_places(0, p, q) == 1);
-            for (const place& r : places) CHECK(detail::orient2d_of_places(0, p, q, r) == 1);
+            CHECK(detail::exact::compare_places(0, p, q) == 1);
+            for (const place& r : places) CHECK(detail::exact::orient2d_of_places(0, p, q, r) == 1);
         }
     }
-    using small = detail::places_of<detail::integer<2>>::small;
-    using large = detail::places_of<detail::integer<2>>::large;
+    using small = detail::exact::places_of<detail::exact::integer<2>>::small;
+    using large = detail::exact::places_of<detail::exact::integer<2>>::large;
     CHECK(places[2].over.x.degree * 2 == sizeof(small{}.over.x) / 8);
     CHECK(places[3].over.x.degree * 2 == sizeof(large{}.over.x) / 8);
     CHECK(places[2].under.degree * 2 == sizeof(small{}.under) / 8);
@@ -182,26 +185,26 @@ whole operator+(whole a, whole b) { return {a.value + b.value}; }
 whole operator-(whole a, whole b) { return {a.value - b.value}; }
 
 int magnitude_of(whole a) { return std::abs(a.value); }
-int magnitude_of(const detail::vector2<whole>& v) {
+int magnitude_of(const detail::exact::vector2<whole>& v) {
     return std::max(magnitude_of(v.x), magnitude_of(v.y));
 }
-int magnitude_of(const detail::vector3<whole>& v) {
+int magnitude_of(const detail::exact::vector3<whole>& v) {
     return std::max({magnitude_of(v.x), magnitude_of(v.y), magnitude_of(v.z)});
 }
 
 /// The largest value for differences of `choices` (such as -1 and 1), by trying all.
 template <class Polynomial>
 int largest_value(const std::vector<int>& choices) {
-    detail::points_of<Polynomial, double> points{};
+    detail::exact::points_of<Polynomial, double> points{};
     const auto zeros = Polynomial::differences(points);
     std::size_t components = 0;
-    detail::for_each_component(zeros, [&](double) { ++components; });
+    detail::exact::for_each_component(zeros, [&](double) { ++components; });
     std::uint64_t cases = 1;
     for (std::size_t i = 0; i < components; ++i) cases *= choices.size();
     int largest = 0;
     for (std::uint64_t i = 0; i < cases; ++i) {
         std::uint64_t rest = i;
-        const auto differences = detail::transform(zeros, [&](double) {
+        const auto differences = detail::exact::transform(zeros, [&](double) {
             const whole chosen{choices[rest % choices.size()]};
             rest /= choices.size();
             return chosen;
@@ -220,37 +223,37 @@ void check_growth(const std::vector<int>& choices) {
 
 TEST_CASE("no value exceeds its polynomial's growth, and half the growth would be exceeded") {
     const std::vector<int> ends = {-1, 1};  // all but one are linear in each difference
-    check_growth<detail::orient2d_polynomial>(ends);
-    check_growth<detail::normal_polynomial>(ends);
-    check_growth<detail::orient3d_polynomial>(ends);
-    check_growth<detail::compare_along_polynomial>(ends);
-    check_growth<detail::compare_distance_polynomial>({0, 1});
-    check_growth<detail::normal_dot_polynomial>(ends);
-    check_growth<detail::normal_cross_polynomial>(ends);
-    check_growth<detail::normal_turn_polynomial>(ends);
-    check_growth<detail::normal_determinant_polynomial>(ends);
-    check_growth<detail::direction_side_polynomial>(ends);
-    check_growth<detail::line_side_polynomial>(ends);
-    check_growth<detail::cut_polynomial>(ends);
-    check_growth<detail::compare_cut_polynomial>(ends);
-    check_growth<detail::compare_cuts_polynomial>(ends);
+    check_growth<detail::exact::orient2d_polynomial>(ends);
+    check_growth<detail::exact::normal_polynomial>(ends);
+    check_growth<detail::exact::orient3d_polynomial>(ends);
+    check_growth<detail::exact::compare_along_polynomial>(ends);
+    check_growth<detail::exact::compare_distance_polynomial>({0, 1});
+    check_growth<detail::exact::normal_dot_polynomial>(ends);
+    check_growth<detail::exact::normal_cross_polynomial>(ends);
+    check_growth<detail::exact::normal_turn_polynomial>(ends);
+    check_growth<detail::exact::normal_determinant_polynomial>(ends);
+    check_growth<detail::exact::direction_side_polynomial>(ends);
+    check_growth<detail::exact::line_side_polynomial>(ends);
+    check_growth<detail::exact::cut_polynomial>(ends);
+    check_growth<detail::exact::compare_cut_polynomial>(ends);
+    check_growth<detail::exact::compare_cuts_polynomial>(ends);
 }
 
 TEST_CASE("widths hold what they are said to, and the widest holds all doubles") {
-    using detail::most_bits;
-    CHECK(most_bits<detail::orient2d_polynomial>(0) == 62);
-    CHECK(most_bits<detail::orient3d_polynomial>(0) == 40);
-    CHECK(most_bits<detail::orient3d_polynomial>(1) == 62);
-    CHECK(most_bits<detail::orient3d_polynomial>(2) == 126);
-    CHECK(most_bits<detail::compare_along_polynomial>(1) == 61);
-    CHECK(most_bits<detail::normal_determinant_polynomial>(0) == 19);
-    CHECK(most_bits<detail::normal_determinant_polynomial>(6) >= 2098);
-    CHECK(most_bits<detail::compare_cuts_polynomial>(6) >= 2098);
-    CHECK(most_bits<detail::cut_polynomial>(6) >= 2098);
-    CHECK(detail::width_class_of<detail::orient3d_polynomial>(40) == 0);
-    CHECK(detail::width_class_of<detail::orient3d_polynomial>(41) == 1);
-    CHECK(detail::width_class_of<detail::orient3d_polynomial>(63) == 2);
-    CHECK(detail::width_class_of<detail::orient3d_polynomial>(2098) == 6);
+    using detail::exact::most_bits;
+    CHECK(most_bits<detail::exact::orient2d_polynomial>(0) == 62);
+    CHECK(most_bits<detail::exact::orient3d_polynomial>(0) == 40);
+    CHECK(most_bits<detail::exact::orient3d_polynomial>(1) == 62);
+    CHECK(most_bits<detail::exact::orient3d_polynomial>(2) == 126);
+    CHECK(most_bits<detail::exact::compare_along_polynomial>(1) == 61);
+    CHECK(most_bits<detail::exact::normal_determinant_polynomial>(0) == 19);
+    CHECK(most_bits<detail::exact::normal_determinant_polynomial>(6) >= 2098);
+    CHECK(most_bits<detail::exact::compare_cuts_polynomial>(6) >= 2098);
+    CHECK(most_bits<detail::exact::cut_polynomial>(6) >= 2098);
+    CHECK(detail::exact::width_class_of<detail::exact::orient3d_polynomial>(40) == 0);
+    CHECK(detail::exact::width_class_of<detail::exact::orient3d_polynomial>(41) == 1);
+    CHECK(detail::exact::width_class_of<detail::exact::orient3d_polynomial>(63) == 2);
+    CHECK(detail::exact::width_class_of<detail::exact::orient3d_polynomial>(2098) == 6);
 }
 
 }  // namespace

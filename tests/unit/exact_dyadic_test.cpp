@@ -1,4 +1,5 @@
-#include <libmesh/exact/detail/dyadic.hpp>
+#include <libmesh/exact/dyadic.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
@@ -12,11 +13,11 @@
 
 namespace {
 
-using tf::detail::double_format;
-using tf::detail::dyadic;
-using tf::detail::float_format_32;
-using tf::detail::quotient;
-using tf::detail::sign_of;
+using tf::detail::exact::double_format;
+using tf::detail::exact::dyadic;
+using tf::detail::exact::float_format_32;
+using tf::detail::exact::quotient;
+using tf::detail::exact::sign_of;
 
 constexpr double least = 0x1p-1074;
 constexpr double greatest = 0x1.fffffffffffffp+1023;

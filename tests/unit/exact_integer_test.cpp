@@ -1,4 +1,5 @@
-#include <libmesh/exact/detail/integer.hpp>
+#include <libmesh/exact/integer.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/stress_families.hpp>
@@ -10,8 +11,8 @@
 
 namespace {
 
-using tf::detail::integer;
-using tf::detail::sign_of;
+using tf::detail::exact::integer;
+using tf::detail::exact::sign_of;
 
 template <std::size_t Limbs>
 bool bit(const integer<Limbs>& a, std::size_t i) {
@@ -151,8 +152,8 @@ TEST_CASE("integers: the least one squared does not overflow") {
 }
 
 TEST_CASE("integers: a word product is right modulo 2^128 whatever its parts were") {
-    using tf::detail::double_word;
-    using tf::detail::word;
+    using tf::detail::exact::double_word;
+    using tf::detail::exact::word;
     const word big{std::numeric_limits<std::int64_t>::max()};
     const double_word square = big * big;
     const double_word wrapped = square * word{4} - square * word{3};  // the parts exceed 2^127

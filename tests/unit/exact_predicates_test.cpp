@@ -1,5 +1,6 @@
-#include <libmesh/exact/detail/filter.hpp>
-#include <libmesh/exact/predicates.hpp>
+#include <libmesh/exact/filter.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/point_families.hpp>
@@ -20,7 +21,7 @@ namespace {
 
 using tf::point2;
 using tf::point3;
-using tf::detail::undecided;
+using tf::detail::exact::undecided;
 using tf::test::point_family;
 
 constexpr point3 origin{0, 0, 0};
@@ -262,8 +263,8 @@ TEST_CASE("the smallest and the largest doubles are decided") {
 }
 
 TEST_CASE("the filter decides plain cases, and zero only by products without need to multiply") {
-    using tf::detail::orient2d_filter;
-    using tf::detail::orient3d_filter;
+    using tf::detail::exact::orient2d_filter;
+    using tf::detail::exact::orient3d_filter;
     CHECK(orient3d_filter(origin, ex, ey, ez) == 1);
     CHECK(orient3d_filter(origin, ey, ex, ez) == -1);
     CHECK(orient3d_filter(origin, ex, ey, {0.3, 0.7, 0}) == 0);
@@ -274,13 +275,13 @@ TEST_CASE("the filter decides plain cases, and zero only by products without nee
     CHECK(orient3d_filter(origin, ex, ey, {0, 0, least}) == undecided);
     CHECK(orient2d_filter({0, 0}, {1, 3}, {2, 6}) == undecided);
     CHECK(orient2d_filter({0.1, 0}, {0.1, 1}, {0.1, 5}) == 0);
-    CHECK(tf::detail::collinear_filter(origin, ex, ey) == 1);
-    CHECK(tf::detail::collinear_filter(origin, ex, {0.7, 0, 0}) == 0);
-    CHECK(tf::detail::collinear_filter(origin, {1, 1, 0}, {2, 2, 0}) == undecided);
+    CHECK(tf::detail::exact::collinear_filter(origin, ex, ey) == 1);
+    CHECK(tf::detail::exact::collinear_filter(origin, ex, {0.7, 0, 0}) == 0);
+    CHECK(tf::detail::exact::collinear_filter(origin, {1, 1, 0}, {2, 2, 0}) == undecided);
 }
 
 TEST_CASE("the filter's guards are inclusive") {
-    using tf::detail::orient2d_filter;
+    using tf::detail::exact::orient2d_filter;
     const auto right_angle = [](double x, double y) {
         const int sign = orient2d_filter({0, 0}, {x, 0}, {0, y});
         CHECK(tf::orient2d({0, 0}, {x, 0}, {0, y}) == 1);

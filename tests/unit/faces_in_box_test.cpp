@@ -1,6 +1,7 @@
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/intersect/faces_in_box.hpp>
-#include <libmesh/select_faces.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/faces_in_box.hpp>
+#include <treeform/mesh/select_faces.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 

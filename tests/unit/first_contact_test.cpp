@@ -1,8 +1,9 @@
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/place/first_contact.hpp>
-#include <libtree/build.hpp>
-#include <libtree/sweep.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/first_contact.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/sweep.hpp>
 
 #include <doctest/doctest.h>
 #include <support/solids.hpp>

@@ -1,8 +1,9 @@
 // Broken input of any kind: an io_error, never a crash, a hang or memory out of proportion. What a
 // sanitizer would see is the point of these tests; run them in the asan preset too.
 
-#include <libmesh/io/read.hpp>
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 

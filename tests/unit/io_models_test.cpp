@@ -1,7 +1,8 @@
 // Every STL, OBJ, PLY, OFF and XYZ file of TREEFORM_MODELS_DIR against its row of TRUTH.csv.
 
-#include <libmesh/io/read.hpp>
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/models.hpp>

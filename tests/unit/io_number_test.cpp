@@ -1,4 +1,5 @@
-#include <libmesh/io/detail/number.hpp>
+#include <libmesh/io/number.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 
@@ -13,8 +14,8 @@
 
 namespace {
 
-using tf::detail::parse_integer;
-using tf::detail::parse_number;
+using tf::detail::io::parse_integer;
+using tf::detail::io::parse_number;
 
 /// The number in all of `text`; fails the test when something is left.
 double number(const std::string& text) {

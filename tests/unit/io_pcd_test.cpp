@@ -1,7 +1,8 @@
-#include <libmesh/io/detail/lzf.hpp>
-#include <libmesh/io/point_stream.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/io/write.hpp>
+#include <libmesh/io/lzf.hpp>
+#include <treeform/mesh/point_stream.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 
@@ -58,15 +59,15 @@ std::string raw(T value) {
 }
 
 std::string packed(const std::string& bytes) {
-    std::string to(tf::detail::lzf_most_packed(bytes.size()), '\0');
-    to.resize(tf::detail::lzf_pack(bytes, to.data()));
+    std::string to(tf::detail::io::lzf_most_packed(bytes.size()), '\0');
+    to.resize(tf::detail::io::lzf_pack(bytes, to.data()));
     return to;
 }
 
 /// What came out of the packed bytes; "?" when they are refused.
 std::string unpacked(const std::string& bytes, std::size_t size) {
     std::string to(size, '\0');
-    return tf::detail::lzf_unpack(bytes, to.data(), size) ? to : "?";
+    return tf::detail::io::lzf_unpack(bytes, to.data(), size) ? to : "?";
 }
 
 /// A header by hand.

@@ -1,6 +1,7 @@
-#include <libmesh/io/point_stream.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/point_stream.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>

@@ -1,5 +1,6 @@
-#include <libmesh/io/read.hpp>
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,6 @@
-#include <libmesh/detail/used_points.hpp>
-#include <libmesh/round/detail/join_near.hpp>
+#include <libmesh/base/used_points.hpp>
+#include <libmesh/round/join_near.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
@@ -11,11 +12,11 @@
 
 namespace {
 
-tf::detail::joined_near join(const tf::mesh& mesh, const std::vector<std::uint8_t>& offending,
-                             double reach) {
+tf::detail::round::joined_near join(const tf::mesh& mesh,
+                                    const std::vector<std::uint8_t>& offending, double reach) {
     std::vector<std::uint32_t> source(mesh.faces.size());
     std::iota(source.begin(), source.end(), 0U);
-    return tf::detail::join_near(mesh, offending, {.reach = reach, .source = source});
+    return tf::detail::round::join_near(mesh, offending, {.reach = reach, .source = source});
 }
 
 }  // namespace
@@ -28,7 +29,7 @@ TEST_CASE("join near: corners go to the lowest that stays, of an offending face 
     // 2 goes to 0, so that 3 stays, and 6 to 4; 1 and 5 do not offend.
     mesh.faces = {{2, 7, 8}, {3, 7, 8}, {0, 7, 8}, {1, 7, 8}, {4, 7, 8}, {5, 7, 8}, {6, 7, 8}};
     const auto joined = join(mesh, {1, 1, 0, 0, 0, 0, 1}, 1.0);
-    CHECK(tf::detail::used_points(9, joined.surface.faces) ==
+    CHECK(tf::detail::base::used_points(9, joined.surface.faces) ==
           std::vector<std::uint32_t>{0, 1, 3, 4, 5, 7, 8});
     CHECK(joined.moved >= 0.5);
 }

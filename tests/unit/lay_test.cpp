@@ -1,7 +1,8 @@
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/place/lay.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/lay.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

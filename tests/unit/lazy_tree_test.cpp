@@ -1,7 +1,8 @@
 /// \file
 /// Trees that are split where searches come by, against whole trees and brute force.
 
-#include <libtree/lazy_tree.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/lazy_tree.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,8 +1,9 @@
-#include <libmesh/face_tree.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libmesh/place/mate.hpp>
-#include <libmesh/place/settle_among.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/mate.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/settle_among.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

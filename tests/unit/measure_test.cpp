@@ -1,4 +1,5 @@
-#include <libmesh/place/measure.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -1,7 +1,8 @@
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
-#include <libtree/build.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/soups.hpp>

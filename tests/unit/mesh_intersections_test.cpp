@@ -1,10 +1,11 @@
 /// \file
 /// Intersections of two meshes against all pairs looked at one by one, and under moves.
 
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/base/face_tree.hpp>
 #include <libmesh/nearness/distance_model.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/brute_force.hpp>

@@ -1,10 +1,11 @@
 /// \file
 /// The paper's searches over its own tree, against brute force and against the wide tree.
 
-#include <libtree/build.hpp>
-#include <libtree/nary_search.hpp>
-#include <libtree/nary_tree.hpp>
-#include <libtree/parallel.hpp>
+#include <libtree/paper/nary_search.hpp>
+#include <libtree/paper/nary_tree.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,5 +1,6 @@
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/points.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <treeform/mesh/points.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 
@@ -12,7 +13,7 @@ namespace {
 
 /// The loop that a compiler turned into copies.
 void round_all(std::vector<tf::point3>& points) {
-    using tf::detail::nearest_float;
+    using tf::detail::base::nearest_float;
     for (tf::point3& p : points) p = {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
 }
 
@@ -32,7 +33,7 @@ TEST_CASE("nearest_float: what comes back has the 24 bits of a float, in loops o
 }
 
 TEST_CASE("nearest_float: ties go to even, floats stay, the ends of the range are those of float") {
-    using tf::detail::nearest_float;
+    using tf::detail::base::nearest_float;
     CHECK(nearest_float(1.0 + 0x1p-24) == 1.0);
     CHECK(nearest_float(1.0 + 0x3p-24) == 1.0 + 0x1p-22);
     CHECK(nearest_float(1.0 + 0x1p-24 + 0x1p-52) == 1.0 + 0x1p-23);

@@ -1,5 +1,6 @@
-#include <libtree/build.hpp>
-#include <libtree/nearness_batch.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/nearness_batch.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,6 +1,7 @@
-#include <libtree/build.hpp>
-#include <libtree/nearness_pair.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/nearness_pair.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

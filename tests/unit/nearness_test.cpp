@@ -1,5 +1,6 @@
-#include <libtree/build.hpp>
-#include <libtree/nearness.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/nearness.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,9 +1,10 @@
 /// \file
 /// What the detection says of two faces, filter and all, against their exact intersection alone.
 
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/stress_families.hpp>

@@ -1,4 +1,5 @@
-#include <libtree/parallel.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,16 +1,17 @@
 /// \file
 /// Clouds of points among meshes: related, measured, slid and settled like these.
 
-#include <libmesh/face_tree.hpp>
-#include <libmesh/geometry/triangle_sweep.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/nearness/closest_point_query.hpp>
-#include <libmesh/place/clear.hpp>
-#include <libmesh/place/measure.hpp>
-#include <libmesh/place/point_faces.hpp>
-#include <libmesh/place/settle_among.hpp>
-#include <libmesh/place/slide.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/clear.hpp>
+#include <treeform/mesh/closest_point_query.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/point_faces.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/settle_among.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/mesh/triangle_sweep.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

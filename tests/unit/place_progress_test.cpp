@@ -2,20 +2,21 @@
 /// What every operation that finds a place says of its progress, and how it hears that it should
 /// stop.
 
-#include <libmesh/face_tree.hpp>
-#include <libmesh/place/arrange.hpp>
-#include <libmesh/place/clear.hpp>
-#include <libmesh/place/convex_hull.hpp>
+#include <libmesh/base/face_tree.hpp>
 #include <libmesh/place/first_approach.hpp>
-#include <libmesh/place/first_contact.hpp>
-#include <libmesh/place/fit.hpp>
-#include <libmesh/place/lay.hpp>
-#include <libmesh/place/measure.hpp>
-#include <libmesh/place/relation.hpp>
 #include <libmesh/place/settle.hpp>
-#include <libmesh/place/settle_among.hpp>
-#include <libmesh/place/slide.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/arrange.hpp>
+#include <treeform/mesh/clear.hpp>
+#include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/first_contact.hpp>
+#include <treeform/mesh/fit.hpp>
+#include <treeform/mesh/lay.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/relation.hpp>
+#include <treeform/mesh/settle_among.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/solids.hpp>

@@ -1,8 +1,9 @@
-#include <libmesh/face_tree.hpp>
-#include <libmesh/geometry/ray_triangle.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/ray_triangle.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -1,4 +1,5 @@
-#include <libtree/point_search.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/point_search.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,5 +1,6 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/exact/ray_predicates.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/ray_predicates.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

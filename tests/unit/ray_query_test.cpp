@@ -1,6 +1,7 @@
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/ray_query.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/ray_query.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -1,6 +1,7 @@
-#include <libtree/aabb.hpp>
-#include <libtree/build.hpp>
-#include <libtree/ray.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/ray.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

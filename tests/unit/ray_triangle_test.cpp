@@ -1,4 +1,5 @@
-#include <libmesh/geometry/ray_triangle.hpp>
+#include <treeform/mesh/ray_triangle.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

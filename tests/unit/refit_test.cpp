@@ -1,10 +1,11 @@
 /// \file
 /// New boxes for an old tree, against trees that are built.
 
-#include <libtree/parallel.hpp>
-#include <libtree/refit.hpp>
-#include <libtree/search.hpp>
-#include <libtree/validate.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/refit.hpp>
+#include <treeform/tree/search.hpp>
+#include <treeform/tree/validate.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

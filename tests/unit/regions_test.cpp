@@ -1,4 +1,5 @@
-#include <libmesh/intersect/regions.hpp>
+#include <treeform/mesh/regions.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -1,8 +1,9 @@
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/place/first_contact.hpp>
-#include <libmesh/place/relation.hpp>
+#include <libmesh/base/face_tree.hpp>
 #include <libmesh/place/settle.hpp>
+#include <treeform/mesh/first_contact.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/relation.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

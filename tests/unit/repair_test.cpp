@@ -1,14 +1,15 @@
 /// \file
 /// Repair: what is certified, what is inside, what stays as it was.
 
-#include <libmesh/face_tree.hpp>
-#include <libmesh/intersect/point_location.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/repair/detail/few_of_pairs.hpp>
-#include <libmesh/repair/repair.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/repair/few_of_pairs.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/solids.hpp>
@@ -346,7 +347,7 @@ TEST_CASE("repair: faces that only touch are deleted on request") {
 TEST_CASE("repair: of each pair one face is chosen, that in the most pairs first") {
     using pairs = std::vector<std::array<std::uint32_t, 2>>;
     const auto few = [](const pairs& p, std::vector<std::uint8_t> spared) {
-        return tf::detail::few_of_pairs(p, spared);
+        return tf::detail::repair::few_of_pairs(p, spared);
     };
     using chosen = std::vector<std::uint8_t>;
     CHECK(few({{0, 3}, {1, 3}, {2, 3}}, chosen(5, 0)) == chosen{0, 0, 0, 1, 0});

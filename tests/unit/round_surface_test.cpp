@@ -1,7 +1,8 @@
-#include <libmesh/boolean/boolean.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/round/round_surface.hpp>
-#include <libmesh/volume.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/solid_checks.hpp>

@@ -1,4 +1,5 @@
-#include <libmesh/intersect/detail/same_points.hpp>
+#include <libmesh/intersect/same_points.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 
@@ -30,7 +31,7 @@ std::vector<constructed_point> crossings(double x, std::uint32_t n) {
 TEST_CASE("same points: those of two definitions and no others, however far out they are") {
     for (const double x : {1.0, 0x1p60, 0x1p120, 0x1p-120}) {
         const std::vector<constructed_point> points = crossings(x, 200);
-        const auto pairs = tf::detail::equal_pairs(points);
+        const auto pairs = tf::detail::intersect::equal_pairs(points);
         CHECK(pairs.size() == 200);
         CHECK(std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) {
             return pair.first % 2 == 0 && pair.second == pair.first + 1;
@@ -45,7 +46,7 @@ TEST_CASE("same points: at the ends of the range of doubles, too") {
     for (const double y : {0.1, 0.3, 0.1})
         points.push_back(constructed_point::where_line_meets({0, y, 0}, {most, y, 0}, plane));
     points.push_back(tf::point3{most, 0.1, 0});
-    const auto pairs = tf::detail::equal_pairs(points);
+    const auto pairs = tf::detail::intersect::equal_pairs(points);
     CHECK(pairs.size() == 3);
     for (const auto& [a, b] : pairs) CHECK((a != 1 && b != 1));
 }

@@ -1,4 +1,5 @@
-#include <libmesh/place/scene_parts.hpp>
+#include <treeform/mesh/scene_parts.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 

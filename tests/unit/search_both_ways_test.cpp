@@ -1,8 +1,9 @@
 /// \file
 /// Pairs of two trees of which one is moved, their boxes compared in the frames of both.
 
-#include <libtree/build.hpp>
-#include <libtree/search_pair.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/search_pair.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,9 +1,10 @@
 /// \file
 /// Pairs of primitives of two trees, against every box held against every other.
 
-#include <libtree/build.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/search_pair.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search_pair.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,9 +1,10 @@
 /// \file
 /// The forms of the search of a tree by itself, against every box held against every other.
 
-#include <libtree/build.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/search_self.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search_self.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,8 +1,9 @@
 /// \file
 /// Search by a box and by whatever can be held against one, against all primitives one by one.
 
-#include <libtree/build.hpp>
-#include <libtree/search.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -2,7 +2,8 @@
 /// Self-intersections against all pairs looked at one by one, and under changes that must not
 /// matter.
 
-#include <libmesh/intersect/self_intersections.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/brute_force.hpp>

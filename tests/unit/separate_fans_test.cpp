@@ -1,9 +1,10 @@
-#include <libmesh/boolean/boolean.hpp>
 #include <libmesh/boolean/separate_fans.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/volume.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

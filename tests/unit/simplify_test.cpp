@@ -1,8 +1,9 @@
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/volume.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -1,8 +1,9 @@
-#include <libmesh/face_tree.hpp>
-#include <libmesh/nearness/mesh_distance.hpp>
+#include <libmesh/base/face_tree.hpp>
 #include <libmesh/place/first_approach.hpp>
-#include <libmesh/place/settle_among.hpp>
-#include <libmesh/place/slide.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/settle_among.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

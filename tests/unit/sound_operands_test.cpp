@@ -1,5 +1,6 @@
-#include <libmesh/boolean/boolean.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -1,12 +1,13 @@
 #include "support/random.hpp"
-#include <libtree/build.hpp>
-#include <libtree/strategy/floyd_rivest.hpp>
-#include <libtree/strategy/heap_select.hpp>
-#include <libtree/strategy/median_of_3_random.hpp>
-#include <libtree/strategy/median_of_medians.hpp>
-#include <libtree/strategy/median_of_ninthers.hpp>
-#include <libtree/strategy/nth_element.hpp>
-#include <libtree/strategy/pdq_select.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/strategy/floyd_rivest.hpp>
+#include <treeform/tree/strategy/heap_select.hpp>
+#include <treeform/tree/strategy/median_of_3_random.hpp>
+#include <treeform/tree/strategy/median_of_medians.hpp>
+#include <treeform/tree/strategy/median_of_ninthers.hpp>
+#include <treeform/tree/strategy/nth_element.hpp>
+#include <treeform/tree/strategy/pdq_select.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,10 +1,11 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/validate.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/stress_families.hpp>

@@ -1,7 +1,8 @@
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/round/detail/surface_faults.hpp>
-#include <libmesh/validate.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/round/surface_faults.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
@@ -31,12 +32,12 @@ bytes soundness(const tf::mesh& mesh, const std::vector<tf::face_pair>& pairs) {
 TEST_CASE("faults: of a surface of which nothing is known, all are found") {
     tf::mesh two =
         test::together(test::box(1, 1, 1), test::moved(test::box(1, 1, 1), {0.5, 0.5, 0.5}));
-    CHECK(tf::detail::find_faults(two, {}).pairs == tf::self_intersections(two).pairs);
-    CHECK_FALSE(tf::detail::find_faults(two, {}).open);
+    CHECK(tf::detail::round::find_faults(two, {}).pairs == tf::self_intersections(two).pairs);
+    CHECK_FALSE(tf::detail::round::find_faults(two, {}).open);
     two.faces.pop_back();
-    CHECK(tf::detail::find_faults(two, {}).open);
-    CHECK_FALSE(tf::detail::find_faults(two, {.solid = false}).open);
-    CHECK(tf::detail::find_faults({}, {}).pairs.empty());
+    CHECK(tf::detail::round::find_faults(two, {}).open);
+    CHECK_FALSE(tf::detail::round::find_faults(two, {.solid = false}).open);
+    CHECK(tf::detail::round::find_faults({}, {}).pairs.empty());
 }
 
 TEST_CASE("faults: what is sound is not looked at, and all else is found against everything") {
@@ -59,7 +60,8 @@ TEST_CASE("faults: what is sound is not looked at, and all else is found against
         for (const std::uint8_t s : sound) doubted += s == 0 ? 1 : 0;
         for (const unsigned threads : {1U, 2U, 8U}) {
             const tf::thread_scope scope(threads);
-            const auto found = tf::detail::find_faults(mesh, {.sound = sound, .solid = false});
+            const auto found =
+                tf::detail::round::find_faults(mesh, {.sound = sound, .solid = false});
             CHECK(found.pairs == pairs);
             CHECK(found.degenerate == tf::find_defects(mesh).degenerate_faces);
         }
@@ -85,7 +87,8 @@ TEST_CASE("faults: are found in soups of any size and place, flat ones, and amon
         }
         const auto pairs = tf::self_intersections(mesh).pairs;
         const bytes sound = soundness(mesh, pairs);
-        CHECK(tf::detail::find_faults(mesh, {.sound = sound, .solid = false}).pairs == pairs);
+        CHECK(tf::detail::round::find_faults(mesh, {.sound = sound, .solid = false}).pairs ==
+              pairs);
     }
 }
 
@@ -94,7 +97,7 @@ TEST_CASE("faults: edges of faces that are not sound are looked at, and no other
     const tf::face hole = mesh.faces[100];
     mesh.faces.erase(mesh.faces.begin() + 100);
     bytes sound(mesh.faces.size(), 1);
-    CHECK_FALSE(tf::detail::find_faults(mesh, {.sound = sound}).open);
+    CHECK_FALSE(tf::detail::round::find_faults(mesh, {.sound = sound}).open);
     sound[0] = 0;  // not at the hole
     const auto shared = [&](std::size_t f) {
         std::size_t count = 0;
@@ -103,14 +106,15 @@ TEST_CASE("faults: edges of faces that are not sound are looked at, and no other
         return count;
     };
     REQUIRE(shared(0) < 2);
-    CHECK_FALSE(tf::detail::find_faults(mesh, {.sound = sound}).open);
+    CHECK_FALSE(tf::detail::round::find_faults(mesh, {.sound = sound}).open);
     CHECK_FALSE(
-        tf::detail::find_faults(mesh, {.sound = bytes(sound.size(), 0), .solid = false}).open);
-    CHECK(tf::detail::find_faults(mesh, {.sound = bytes(sound.size(), 0)}).open);
+        tf::detail::round::find_faults(mesh, {.sound = bytes(sound.size(), 0), .solid = false})
+            .open);
+    CHECK(tf::detail::round::find_faults(mesh, {.sound = bytes(sound.size(), 0)}).open);
     std::size_t beside = 0;
     while (shared(beside) != 2) ++beside;
     sound[beside] = 0;
-    CHECK(tf::detail::find_faults(mesh, {.sound = sound}).open);
+    CHECK(tf::detail::round::find_faults(mesh, {.sound = sound}).open);
 }
 
 TEST_CASE("faults: parts that are turned inside out, or outside, are found where they have moved") {
@@ -132,15 +136,16 @@ TEST_CASE("faults: parts that are turned inside out, or outside, are found where
         std::vector<std::uint32_t> expected;
         for (std::uint32_t f = 0; f < s.mesh.faces.size(); ++f)
             if (f < of_ball ? s.ball_is_turned : s.box_is_turned) expected.push_back(f);
-        CHECK(tf::detail::find_faults(s.mesh, {}).turned == expected);
+        CHECK(tf::detail::round::find_faults(s.mesh, {}).turned == expected);
         bytes sound(s.mesh.faces.size(), 1);
-        CHECK(tf::detail::find_faults(s.mesh, {.sound = sound}).turned.empty());
+        CHECK(tf::detail::round::find_faults(s.mesh, {.sound = sound}).turned.empty());
         for (std::size_t f = of_ball; f < sound.size(); ++f) sound[f] = 0;
-        CHECK(tf::detail::find_faults(s.mesh, {.sound = sound}).turned == expected);
-        CHECK(tf::detail::find_faults(s.mesh, {.sound = sound, .solid = false}).turned.empty());
+        CHECK(tf::detail::round::find_faults(s.mesh, {.sound = sound}).turned == expected);
+        CHECK(tf::detail::round::find_faults(s.mesh, {.sound = sound, .solid = false})
+                  .turned.empty());
         // Of the ball some faces have moved: the others say what is inside.
         sound.assign(sound.size(), 1);
         sound[0] = sound[7] = 0;
-        CHECK(tf::detail::find_faults(s.mesh, {.sound = sound}).turned.empty());
+        CHECK(tf::detail::round::find_faults(s.mesh, {.sound = sound}).turned.empty());
     }
 }

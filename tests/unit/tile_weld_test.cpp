@@ -1,7 +1,8 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/weld/crowded_chain.hpp>
-#include <libmesh/weld/tile_weld.hpp>
-#include <libmesh/weld/weld_points.hpp>
+#include <treeform/mesh/crowded_chain.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/tile_weld.hpp>
+#include <treeform/mesh/weld_points.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -5,6 +5,7 @@
 #include "tools/common/page/scene.hpp"
 #include "tools/common/parse_value.hpp"
 #include "tools/common/sha256.hpp"
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,9 @@
 /// \file
 /// Affine maps: what they do to points, and one after another.
 
-#include <libmesh/exact/point.hpp>
-#include <libtree/transform.hpp>
+#include <treeform/mesh/point.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <doctest/doctest.h>
 

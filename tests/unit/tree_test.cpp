@@ -1,8 +1,10 @@
-#include <libtree/build.hpp>
-#include <libtree/nary_tree.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/search_self.hpp>
-#include <libtree/validate.hpp>
+#include <libtree/paper/nary_tree.hpp>
+#include <libtree/paper/validate.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search_self.hpp>
+#include <treeform/tree/validate.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

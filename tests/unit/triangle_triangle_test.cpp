@@ -1,5 +1,6 @@
 #include "support/reference_intersection.hpp"
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 

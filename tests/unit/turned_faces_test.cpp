@@ -1,6 +1,7 @@
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/round/detail/turned_faces.hpp>
-#include <libmesh/volume.hpp>
+#include <libmesh/round/turned_faces.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
@@ -35,7 +36,7 @@ bool may_be_turned(const tf::mesh& mesh, std::size_t first_moved, double by) {
     std::vector<std::uint8_t> sound(mesh.faces.size(), 0);
     std::fill_n(sound.begin(), first_moved, std::uint8_t{1});
     const std::vector<std::uint32_t> near = all_faces(mesh);
-    return tf::detail::may_be_turned(mesh, sound, {mesh, near}, by);
+    return tf::detail::round::may_be_turned(mesh, sound, {mesh, near}, by);
 }
 
 double to_float(double x) {
@@ -145,7 +146,7 @@ TEST_CASE("turned: a part that ends at edges of four faces is not loose by itsel
     wall(below, bottom);
     wall(bottom, top);
     REQUIRE(tf::self_intersections(standing).pairs.empty());
-    REQUIRE(tf::detail::find_turned_faces(standing).faces.empty());
+    REQUIRE(tf::detail::round::find_turned_faces(standing).faces.empty());
     CHECK(may_be_turned(standing, far.faces.size(), 1e-12));
 }
 
@@ -173,10 +174,10 @@ TEST_CASE("turned: where nothing is said to be turned, cells find nothing turned
         }
         const tf::mesh rounded = in_floats(exact);
         if (!tf::self_intersections(exact).pairs.empty() ||
-            !tf::detail::find_turned_faces(exact).faces.empty() || has_equal_points(rounded) ||
-            !tf::self_intersections(rounded).pairs.empty())
+            !tf::detail::round::find_turned_faces(exact).faces.empty() ||
+            has_equal_points(rounded) || !tf::self_intersections(rounded).pairs.empty())
             continue;
-        const bool any = !tf::detail::find_turned_faces(rounded).faces.empty();
+        const bool any = !tf::detail::round::find_turned_faces(rounded).faces.empty();
         const bool said = may_be_turned(rounded, far.faces.size(), largest_move(exact, rounded));
         CHECK((said || !any));
         told += said ? 0 : 1;

@@ -1,4 +1,5 @@
-#include <libtree/version.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/version.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,9 @@
-#include <libmesh/io/read.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/weld/detail/manifold_groups.hpp>
-#include <libmesh/weld/weld_mesh.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/weld/manifold_groups.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/weld_mesh.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
@@ -67,7 +68,7 @@ void check_harmless(const tf::mesh& mesh, double tolerance, tf::weld_rule rule) 
         tf::weld_points(mesh.points, {.tolerance = tolerance, .rule = rule});
     for (const int rounds : {0, 1, 2, 32}) {
         CAPTURE(rounds);
-        const auto split = tf::detail::split_to_manifold(mesh, groups, rounds);
+        const auto split = tf::detail::weld::split_to_manifold(mesh, groups, rounds);
         const ids& part = split.groups.group_of_point;
         check_edges(mesh, part);
         // Each within one of the groups, numbered by first points.

@@ -2,7 +2,8 @@
 /// What becomes of properties when a mesh is welded: those that must agree, that choose the point
 /// which is kept, and that follow their points and faces.
 
-#include <libmesh/weld/weld_mesh.hpp>
+#include <treeform/mesh/weld_mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/columns.hpp>

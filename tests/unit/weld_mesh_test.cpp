@@ -1,8 +1,9 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/io/read.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/weld/weld_mesh.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/weld_mesh.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/columns.hpp>

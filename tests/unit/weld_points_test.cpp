@@ -1,6 +1,7 @@
-#include <libmesh/exact/predicates.hpp>
-#include <libmesh/weld/weld_points.hpp>
-#include <libtree/parallel.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/weld_points.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/brute_weld.hpp>

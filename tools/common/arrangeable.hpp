@@ -3,7 +3,8 @@
 /// What meshes must be for faces to be cut along each other.
 
 #include "tools/common/exit_status.hpp"
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <cmath>
 #include <cstddef>

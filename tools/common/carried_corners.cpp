@@ -1,7 +1,8 @@
 #include "tools/common/carried_corners.hpp"
 
 #include "tools/common/face_shares.hpp"
-#include <libmesh/attributes.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <array>

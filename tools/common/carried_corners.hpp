@@ -3,6 +3,7 @@
 /// Texture coordinates and normals of the inputs' corners, for the corners of what is made of them.
 
 #include "tools/common/carried_properties.hpp"
+#include <treeform/tf.hpp>
 
 namespace tools {
 

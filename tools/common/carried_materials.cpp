@@ -1,6 +1,7 @@
 #include "tools/common/carried_materials.hpp"
 
 #include "tools/common/console.hpp"
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <iterator>

@@ -4,6 +4,7 @@
 
 #include "tools/common/carried_properties.hpp"
 #include "tools/common/run.hpp"
+#include <treeform/tf.hpp>
 
 #include <span>
 #include <string>

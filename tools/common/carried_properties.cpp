@@ -4,7 +4,8 @@
 #include "tools/common/carried_materials.hpp"
 #include "tools/common/face_kinds.hpp"
 #include "tools/common/face_shares.hpp"
-#include <libmesh/attributes.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <array>

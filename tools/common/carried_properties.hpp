@@ -2,8 +2,9 @@
 /// \file
 /// Properties of the inputs' points and faces, for the points and faces of what is made of them.
 
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/io/mesh_file.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 #include <span>

@@ -2,9 +2,10 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/read.hpp>
 #include <libmesh/round/rounding_harm.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <array>

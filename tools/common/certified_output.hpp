@@ -4,8 +4,9 @@
 
 #include "tools/common/run.hpp"
 #include "tools/common/written_form.hpp"
-#include <libmesh/io/mesh_file.hpp>
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <filesystem>
 

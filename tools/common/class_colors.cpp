@@ -1,5 +1,7 @@
 #include "tools/common/class_colors.hpp"
 
+#include <treeform/tf.hpp>
+
 #include <cstddef>
 #include <string>
 #include <string_view>

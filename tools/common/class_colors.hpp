@@ -2,7 +2,8 @@
 /// \file
 /// Faces and vertices in the colours of their classes.
 
-#include <libmesh/attributes.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 #include <span>

@@ -3,8 +3,9 @@
 #include "tools/common/exit_status.hpp"
 #include "tools/common/file_names.hpp"
 #include "tools/common/parse_value.hpp"
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/read.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,9 @@
 #include "tools/common/common_options.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/exit_status.hpp"
-#include <libmesh/intersect/curve_paths.hpp>
 #include <libmesh/intersect/curves.hpp>
+#include <treeform/mesh/curve_paths.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstddef>
 #include <utility>

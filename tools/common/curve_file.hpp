@@ -3,8 +3,9 @@
 /// The lines along which faces meet, as a file to be drawn.
 
 #include "tools/common/output_file.hpp"
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tf.hpp>
 
 #include <array>
 #include <cstdint>

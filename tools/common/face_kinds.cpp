@@ -1,6 +1,7 @@
 #include "tools/common/face_kinds.hpp"
 
 #include "tools/common/carried_materials.hpp"
+#include <treeform/tf.hpp>
 
 #include <cmath>
 #include <limits>

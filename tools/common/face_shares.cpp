@@ -1,5 +1,7 @@
 #include "tools/common/face_shares.hpp"
 
+#include <treeform/tf.hpp>
+
 #include <algorithm>
 #include <cmath>
 

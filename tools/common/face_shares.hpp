@@ -2,7 +2,8 @@
 /// \file
 /// Where in a face a point is, and how faces look.
 
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <array>
 

@@ -1,6 +1,7 @@
 #include "tools/common/folds.hpp"
 
 #include "tools/common/console.hpp"
+#include <treeform/tf.hpp>
 
 #include <string>
 

@@ -4,6 +4,7 @@
 
 #include "tools/common/run.hpp"
 #include <libmesh/round/rounding_harm.hpp>
+#include <treeform/tf.hpp>
 
 namespace tools {
 

@@ -1,7 +1,8 @@
 #include "tools/common/material_names.hpp"
 #include "tools/common/run.hpp"
 #include "tools/common/sha256.hpp"
-#include <libmesh/io/read.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/tf.hpp>
 
 #include <unistd.h>
 

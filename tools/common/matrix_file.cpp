@@ -1,6 +1,7 @@
 #include "tools/common/matrix_file.hpp"
 
 #include "tools/common/exit_status.hpp"
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,8 @@
 /// \file
 /// 4x4 matrices as text: row-major, column vectors, new = M * old.
 
-#include <libtree/transform.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <filesystem>
 #include <string>

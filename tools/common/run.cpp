@@ -1,9 +1,10 @@
 #include "tools/common/run.hpp"
 
 #include "tools/common/output_file.hpp"
-#include <libmesh/io/io_error.hpp>
-#include <libtree/parallel.hpp>
-#include <libtree/version.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/version.hpp>
 
 #include <unistd.h>
 

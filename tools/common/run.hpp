@@ -7,8 +7,9 @@
 #include "tools/common/console.hpp"
 #include "tools/common/exit_status.hpp"
 #include "tools/common/guard.hpp"
-#include <libmesh/io/mesh_file.hpp>
-#include <libtree/progress.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/progress.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,7 @@
 #include "tools/common/texture_files.hpp"
 
 #include "tools/common/console.hpp"
+#include <treeform/tf.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -2,7 +2,8 @@
 /// \file
 /// Texture files of several inputs, and the numbers by which their faces name them.
 
-#include <libmesh/io/mesh_file.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tf.hpp>
 
 #include <span>
 #include <string>

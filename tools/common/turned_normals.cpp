@@ -1,6 +1,7 @@
 #include "tools/common/turned_normals.hpp"
 
-#include <libmesh/attributes.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/tf.hpp>
 
 #include <array>
 #include <cmath>

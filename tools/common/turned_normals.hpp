@@ -2,8 +2,9 @@
 /// \file
 /// Normals of a file whose points are moved.
 
-#include <libmesh/io/mesh_file.hpp>
-#include <libtree/transform.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
 
 namespace tools {
 

@@ -1,5 +1,7 @@
 #include "tools/common/written_form.hpp"
 
+#include <treeform/tf.hpp>
+
 #include <algorithm>
 
 namespace tools {

@@ -3,7 +3,8 @@
 /// In which format, and with which numbers, a mesh is written.
 
 #include "tools/common/run.hpp"
-#include <libmesh/io/mesh_file.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tf.hpp>
 
 #include <filesystem>
 #include <optional>

@@ -9,7 +9,8 @@
 #include "tools/tf-boolean/settings.hpp"
 #include "tools/tf-boolean/solids.hpp"
 #include "tools/tf-boolean/words.hpp"
-#include <libmesh/boolean/boolean.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -7,13 +7,14 @@
 #include "tools/common/curve_file.hpp"
 #include "tools/common/output_file.hpp"
 #include "tools/tf-boolean/words.hpp"
+#include <libmesh/base/finite.hpp>
 #include <libmesh/boolean/separate_fans.hpp>
-#include <libmesh/detail/finite.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
 #include <libmesh/round/rounding_harm.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/volume.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -179,7 +180,7 @@ void write_curves(job& work, const boolean_settings& settings, const std::vector
         const tf::mesh& one = solids[i].file.mesh;
         const auto offset = static_cast<std::uint32_t>(all.points.size());
         for (const tf::point3& p : one.points)  // none of the faces has one that is not finite
-            all.points.push_back(tf::detail::is_finite(p) ? p : tf::point3{});
+            all.points.push_back(tf::detail::base::is_finite(p) ? p : tf::point3{});
         for (const auto& [a, b, c] : one.faces) {
             all.faces.push_back({a + offset, b + offset, c + offset});
             mesh_of_face.push_back(i);

@@ -2,6 +2,7 @@
 
 #include "tools/common/curve_file.hpp"
 #include "tools/common/exit_status.hpp"
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <array>

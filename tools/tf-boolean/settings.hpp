@@ -4,7 +4,8 @@
 
 #include "tools/common/common_options.hpp"
 #include "tools/common/parse_value.hpp"
-#include <libmesh/boolean/boolean.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/tf.hpp>
 
 #include <filesystem>
 #include <optional>

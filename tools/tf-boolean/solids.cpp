@@ -5,9 +5,10 @@
 #include "tools/common/matrix_file.hpp"
 #include "tools/common/texture_files.hpp"
 #include "tools/common/turned_normals.hpp"
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/validate.hpp>
-#include <libmesh/volume.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <iterator>

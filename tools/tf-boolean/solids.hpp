@@ -5,8 +5,9 @@
 #include "tools/common/carried_properties.hpp"
 #include "tools/common/run.hpp"
 #include "tools/tf-boolean/settings.hpp"
-#include <libmesh/boolean/boolean.hpp>
-#include <libmesh/io/mesh_file.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 #include <string>

@@ -2,6 +2,7 @@
 
 #include "tools/common/carried_properties.hpp"
 #include "tools/common/console.hpp"
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <cmath>

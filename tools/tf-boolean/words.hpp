@@ -4,6 +4,7 @@
 
 #include "tools/tf-boolean/settings.hpp"
 #include "tools/tf-boolean/solids.hpp"
+#include <treeform/tf.hpp>
 
 #include <string>
 

@@ -1,14 +1,15 @@
 #include "tools/tf-place/body.hpp"
 
 #include "tools/common/console.hpp"
-#include <libmesh/detail/finite.hpp>
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/place/point_faces.hpp>
-#include <libmesh/place/scene_parts.hpp>
-#include <libmesh/select_faces.hpp>
-#include <libmesh/validate.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/point_faces.hpp>
+#include <treeform/mesh/scene_parts.hpp>
+#include <treeform/mesh/select_faces.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ namespace tools {
 namespace {
 
 tf::point3 rounded(const tf::point3& p) {
-    using tf::detail::nearest_float;
+    using tf::detail::base::nearest_float;
     return {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
 }
 
@@ -42,7 +43,7 @@ std::vector<std::uint32_t> usable_faces(const tf::mesh& mesh) {
 std::vector<std::uint32_t> finite_points(const tf::mesh& mesh) {
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t i = 0; i < mesh.points.size(); ++i)
-        if (tf::detail::is_finite(mesh.points[i])) numbers.push_back(i);
+        if (tf::detail::base::is_finite(mesh.points[i])) numbers.push_back(i);
     return numbers;
 }
 
@@ -146,7 +147,7 @@ double round_to_single(tf::mesh_file& file) {
     double largest = 0.0;
     for (tf::point3& p : file.mesh.points) {
         const tf::point3 before = std::exchange(p, rounded(p));
-        for (std::size_t k = 0; k < 3 && tf::detail::is_finite(before); ++k)
+        for (std::size_t k = 0; k < 3 && tf::detail::base::is_finite(before); ++k)
             largest = std::max(largest, std::abs(p[k] - before[k]));
     }
     return largest;

@@ -3,12 +3,13 @@
 /// A file's mesh made ready to be placed.
 
 #include "tools/common/run.hpp"
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/io/mesh_file.hpp>
-#include <libmesh/mesh.hpp>
-#include <libmesh/place/still_part.hpp>
-#include <libtree/transform.hpp>
-#include <libtree/tree.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/still_part.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <cstddef>
 #include <cstdint>

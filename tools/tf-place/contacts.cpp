@@ -1,7 +1,8 @@
 #include "tools/tf-place/contacts.hpp"
 
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/tf.hpp>
 
 #include <cmath>
 

@@ -3,7 +3,8 @@
 /// Where meshes meet, for reports and pictures.
 
 #include "tools/tf-place/surroundings.hpp"
-#include <libmesh/place/slide.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -10,6 +10,7 @@
 #include "tools/tf-place/plate.hpp"
 #include "tools/tf-place/settings.hpp"
 #include "tools/tf-place/words.hpp"
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <string>

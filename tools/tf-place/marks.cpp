@@ -1,12 +1,13 @@
 #include "tools/tf-place/marks.hpp"
 
 #include "tools/common/class_colors.hpp"
-#include <libmesh/attributes.hpp>
-#include <libmesh/face_tree.hpp>
+#include <libmesh/base/face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/intersect/mesh_intersections.hpp>
-#include <libtree/build.hpp>
-#include <libtree/search_pair.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/search_pair.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 /// Which faces penetrate, touch or are nearer than the clearance, and the colours that show it.
 
 #include "tools/tf-place/move.hpp"
+#include <treeform/tf.hpp>
 
 #include <array>
 #include <cstdint>

@@ -1,14 +1,15 @@
 #include "tools/tf-place/move.hpp"
 
 #include "tools/common/console.hpp"
-#include <libmesh/detail/finite.hpp>
-#include <libmesh/detail/nearest_float.hpp>
-#include <libmesh/face_tree.hpp>
-#include <libmesh/place/clear.hpp>
-#include <libmesh/place/lay.hpp>
-#include <libmesh/place/mate.hpp>
-#include <libmesh/place/settle_among.hpp>
-#include <libmesh/place/slide.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <treeform/mesh/clear.hpp>
+#include <treeform/mesh/lay.hpp>
+#include <treeform/mesh/mate.hpp>
+#include <treeform/mesh/settle_among.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ constexpr std::size_t contact_limit = 1000;
 
 /// The least float32 value that is not below `x`.
 double float_not_below(double x) {
-    const double nearest = tf::detail::nearest_float(x);
+    const double nearest = tf::detail::base::nearest_float(x);
     if (nearest >= x) return nearest;
     return static_cast<double>(
         std::nextafterf(static_cast<float>(nearest), std::numeric_limits<float>::infinity()));
@@ -49,7 +50,7 @@ class placing {
         } catch (const std::overflow_error&) {
             in_range = false;
         }
-        if (!in_range || (result_.placed && !tf::detail::all_finite(result_.points))) {
+        if (!in_range || (result_.placed && !tf::detail::base::all_finite(result_.points))) {
             forget_place();
             fail(std::string("is beyond the range of ") + (to_single_ ? "float32" : "doubles") +
                  " at its place");
@@ -288,7 +289,7 @@ class placing {
         for (tf::point3& p : result_.points) {
             p = result_.matrix(p);
             for (std::size_t k = 0; k < 3 && to_single_; ++k)
-                p[k] = tf::detail::nearest_float(p[k]);
+                p[k] = tf::detail::base::nearest_float(p[k]);
         }
     }
 

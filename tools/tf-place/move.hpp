@@ -5,9 +5,10 @@
 #include "tools/tf-place/contacts.hpp"
 #include "tools/tf-place/settings.hpp"
 #include "tools/tf-place/surroundings.hpp"
-#include <libmesh/place/convex_hull.hpp>
-#include <libmesh/place/fit.hpp>
-#include <libtree/transform.hpp>
+#include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/fit.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <cstdint>
 #include <optional>

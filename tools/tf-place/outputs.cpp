@@ -9,8 +9,9 @@
 #include "tools/tf-place/marks.hpp"
 #include "tools/tf-place/rounding.hpp"
 #include "tools/tf-place/words.hpp"
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <array>

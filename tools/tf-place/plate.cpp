@@ -6,7 +6,8 @@
 #include "tools/tf-place/move.hpp"
 #include "tools/tf-place/outputs.hpp"
 #include "tools/tf-place/rounding.hpp"
-#include <libmesh/place/arrange.hpp>
+#include <treeform/mesh/arrange.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <cstdint>

@@ -3,6 +3,7 @@
 #include "tools/common/console.hpp"
 #include "tools/common/folds.hpp"
 #include "tools/common/written_form.hpp"
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 

@@ -4,6 +4,7 @@
 
 #include "tools/tf-place/body.hpp"
 #include <libmesh/round/rounding_harm.hpp>
+#include <treeform/tf.hpp>
 
 #include <optional>
 #include <vector>

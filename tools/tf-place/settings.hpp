@@ -4,11 +4,12 @@
 
 #include "tools/common/matrix_file.hpp"
 #include "tools/common/parse_value.hpp"
-#include <libmesh/exact/point.hpp>
-#include <libmesh/place/arrange.hpp>
-#include <libmesh/place/fit.hpp>
-#include <libmesh/place/lay.hpp>
-#include <libtree/transform.hpp>
+#include <treeform/mesh/arrange.hpp>
+#include <treeform/mesh/fit.hpp>
+#include <treeform/mesh/lay.hpp>
+#include <treeform/mesh/point.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <filesystem>
 #include <optional>

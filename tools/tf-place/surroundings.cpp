@@ -1,9 +1,10 @@
 #include "tools/tf-place/surroundings.hpp"
 
-#include <libmesh/detail/work_progress.hpp>
-#include <libtree/build.hpp>
-#include <libtree/nearness.hpp>
-#include <libtree/search.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/nearness.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -107,7 +108,7 @@ std::optional<nearest_part> surroundings::nearest(tf::mesh_view mesh, const tf::
                                                   const tf::box3& box, double radius,
                                                   const tf::progress_callback& progress) const {
     std::optional<nearest_part> best;
-    tf::detail::work_progress work(progress);
+    tf::detail::base::work_progress work(progress);
     std::size_t looked_at = 0;
     // The nearest come first: of many parts few are looked at.
     const tf::progress_callback go_on = [&](double) {

@@ -4,11 +4,12 @@
 
 #include "tools/tf-place/body.hpp"
 #include "tools/tf-place/settings.hpp"
-#include <libmesh/exact/counters.hpp>
-#include <libmesh/place/measure.hpp>
-#include <libmesh/place/still_part.hpp>
-#include <libtree/progress.hpp>
-#include <libtree/tree.hpp>
+#include <treeform/mesh/counters.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/still_part.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/progress.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "tools/tf-place/words.hpp"
 
 #include "tools/common/console.hpp"
+#include <treeform/tf.hpp>
 
 namespace tools {
 namespace {

@@ -3,6 +3,7 @@
 /// The outcome in words.
 
 #include "tools/tf-place/move.hpp"
+#include <treeform/tf.hpp>
 
 #include <string>
 

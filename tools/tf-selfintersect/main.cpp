@@ -11,6 +11,7 @@
 #include "tools/tf-selfintersect/repairing.hpp"
 #include "tools/tf-selfintersect/search.hpp"
 #include "tools/tf-selfintersect/words.hpp"
+#include <treeform/tf.hpp>
 
 namespace {
 

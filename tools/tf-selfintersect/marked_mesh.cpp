@@ -2,10 +2,11 @@
 #include "tools/common/console.hpp"
 #include "tools/tf-selfintersect/marks.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
-#include <libmesh/attributes.hpp>
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/write.hpp>
-#include <libmesh/weld/equal_points.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,5 +1,7 @@
 #include "tools/tf-selfintersect/marks.hpp"
 
+#include <treeform/tf.hpp>
+
 namespace tools {
 namespace {
 

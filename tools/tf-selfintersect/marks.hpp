@@ -3,6 +3,7 @@
 /// The kind and the region of each face, and the colours that show them.
 
 #include "tools/tf-selfintersect/search.hpp"
+#include <treeform/tf.hpp>
 
 #include <array>
 #include <cstdint>

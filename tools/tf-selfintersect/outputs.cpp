@@ -2,6 +2,7 @@
 
 #include "tools/common/curve_file.hpp"
 #include "tools/tf-selfintersect/words.hpp"
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <set>

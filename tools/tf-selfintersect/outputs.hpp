@@ -4,6 +4,7 @@
 
 #include "tools/common/output_file.hpp"
 #include "tools/tf-selfintersect/search.hpp"
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 

@@ -5,7 +5,8 @@
 #include "tools/tf-selfintersect/marks.hpp"
 #include "tools/tf-selfintersect/words.hpp"
 #include <libmesh/intersect/curves.hpp>
-#include <libtree/version.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/version.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -5,11 +5,12 @@
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
 #include "tools/tf-selfintersect/words.hpp"
-#include <libmesh/attributes.hpp>
 #include <libmesh/boolean/separate_fans.hpp>
 #include <libmesh/round/rounding_harm.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/volume.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tf.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -4,7 +4,8 @@
 
 #include "tools/common/parse_value.hpp"
 #include "tools/tf-selfintersect/search.hpp"
-#include <libmesh/repair/repair.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/tf.hpp>
 
 #include <filesystem>
 #include <optional>

@@ -1,11 +1,12 @@
 #include "tools/tf-selfintersect/search.hpp"
 
-#include <libmesh/intersect/faces_in_box.hpp>
-#include <libmesh/select_faces.hpp>
-#include <libmesh/topology.hpp>
-#include <libmesh/validate.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libmesh/weld/weld_points.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/faces_in_box.hpp>
+#include <treeform/mesh/select_faces.hpp>
+#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/validate.hpp>
+#include <treeform/mesh/weld_points.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <numeric>

@@ -4,10 +4,11 @@
 
 #include "tools/common/parse_value.hpp"
 #include "tools/common/run.hpp"
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/intersect/regions.hpp>
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/io/mesh_file.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/regions.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,7 @@
 #include "tools/tf-selfintersect/words.hpp"
 
 #include "tools/common/console.hpp"
+#include <treeform/tf.hpp>
 
 namespace tools {
 

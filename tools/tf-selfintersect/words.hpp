@@ -3,7 +3,8 @@
 /// The findings in words, for the terminal and for pages.
 
 #include "tools/tf-selfintersect/search.hpp"
-#include <libmesh/intersect/self_intersections.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tf.hpp>
 
 #include <string>
 

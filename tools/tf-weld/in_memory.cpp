@@ -6,6 +6,7 @@
 #include "tools/tf-weld/polygons.hpp"
 #include "tools/tf-weld/welding.hpp"
 #include "tools/tf-weld/words.hpp"
+#include <treeform/tf.hpp>
 
 #include <utility>
 

@@ -2,6 +2,7 @@
 
 #include "tools/common/exit_status.hpp"
 #include "tools/common/texture_files.hpp"
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,8 @@
 /// \file
 /// Several files as one set.
 
-#include <libmesh/io/mesh_file.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tf.hpp>
 
 #include <string>
 #include <vector>

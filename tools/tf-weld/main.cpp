@@ -8,6 +8,7 @@
 #include "tools/tf-weld/out_of_core.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/settings.hpp"
+#include <treeform/tf.hpp>
 
 namespace {
 

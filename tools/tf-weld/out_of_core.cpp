@@ -9,9 +9,10 @@
 #include "tools/tf-weld/tile_outputs.hpp"
 #include "tools/tf-weld/tile_steps.hpp"
 #include "tools/tf-weld/words.hpp"
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/point_stream.hpp>
-#include <libtree/version.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/point_stream.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/version.hpp>
 
 #include <unistd.h>
 

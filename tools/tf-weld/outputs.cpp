@@ -2,8 +2,9 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/folds.hpp"
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <array>
 #include <charconv>

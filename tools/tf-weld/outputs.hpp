@@ -5,8 +5,9 @@
 #include "tools/common/output_file.hpp"
 #include "tools/common/written_form.hpp"
 #include "tools/tf-weld/welding.hpp"
-#include <libmesh/io/mesh_file.hpp>
-#include <libmesh/io/write.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
 
 #include <filesystem>
 #include <memory>

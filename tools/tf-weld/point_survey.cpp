@@ -1,5 +1,7 @@
 #include "tools/tf-weld/point_survey.hpp"
 
+#include <treeform/tf.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>

@@ -3,8 +3,9 @@
 /// What is to be known of a cloud before it is cut into tiles.
 
 #include "tools/common/run.hpp"
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/io/point_stream.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/point_stream.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,7 @@
 #include "tools/tf-weld/polygons.hpp"
 
+#include <treeform/tf.hpp>
+
 #include <algorithm>
 #include <limits>
 #include <vector>

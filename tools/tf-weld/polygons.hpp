@@ -2,7 +2,8 @@
 /// \file
 /// Polygons that were cut into triangles become polygons again.
 
-#include <libmesh/io/mesh_file.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 #include <span>

@@ -3,7 +3,8 @@
 /// Names of properties, as users say them, and the columns of a file.
 
 #include "tools/tf-weld/settings.hpp"
-#include <libmesh/io/mesh_file.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tf.hpp>
 
 #include <vector>
 

@@ -1,6 +1,7 @@
 #include "tools/tf-weld/settings.hpp"
 
 #include "tools/common/exit_status.hpp"
+#include <treeform/tf.hpp>
 
 namespace tools {
 namespace {

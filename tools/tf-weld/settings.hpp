@@ -3,7 +3,8 @@
 /// What a user of tf-weld asks for.
 
 #include "tools/common/parse_value.hpp"
-#include <libmesh/weld/weld_mesh.hpp>
+#include <treeform/mesh/weld_mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <filesystem>
 #include <string>

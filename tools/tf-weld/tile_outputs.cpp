@@ -1,8 +1,9 @@
 #include "tools/tf-weld/tile_outputs.hpp"
 
 #include "tools/common/console.hpp"
-#include <libmesh/io/io_error.hpp>
-#include <libmesh/io/point_stream.hpp>
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/point_stream.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstddef>
 #include <optional>

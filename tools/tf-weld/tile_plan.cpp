@@ -2,6 +2,7 @@
 /// How a cloud is cut into tiles, judged by a sample of its points.
 
 #include "tools/tf-weld/tile_steps.hpp"
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <array>

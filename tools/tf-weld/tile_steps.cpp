@@ -1,9 +1,10 @@
 #include "tools/tf-weld/tile_steps.hpp"
 
 #include "tools/common/console.hpp"
-#include <libmesh/detail/finite.hpp>
-#include <libmesh/weld/crowded_chain.hpp>
-#include <libtree/parallel.hpp>
+#include <libmesh/base/finite.hpp>
+#include <treeform/mesh/crowded_chain.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -194,7 +195,7 @@ void tile_steps::scatter(double tolerance) {
     while (reader.read(block, points_a_block)) {
         for (const tf::point3& p : block.points) {
             const std::uint64_t mine = id++;
-            if (!tf::detail::is_finite(p)) continue;
+            if (!tf::detail::base::is_finite(p)) continue;
             const auto place = slabs.find(p);
             ++tiles_[place.own].own;
             for (std::uint32_t t = place.first; t <= place.last; ++t) {

@@ -6,7 +6,8 @@
 #include "tools/tf-weld/point_survey.hpp"
 #include "tools/tf-weld/record_file.hpp"
 #include "tools/tf-weld/work_folder.hpp"
-#include <libmesh/weld/tile_weld.hpp>
+#include <treeform/mesh/tile_weld.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstddef>
 #include <cstdint>

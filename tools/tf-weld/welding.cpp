@@ -1,8 +1,9 @@
 #include "tools/tf-weld/welding.hpp"
 
 #include "tools/tf-weld/properties.hpp"
-#include <libmesh/detail/finite.hpp>
-#include <libmesh/weld/weld_points.hpp>
+#include <libmesh/base/finite.hpp>
+#include <treeform/mesh/weld_points.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <array>
@@ -108,7 +109,7 @@ welding weld(job& work, tf::mesh_file& file, const weld_settings& settings) {
     w.tolerance = settings.tolerance.used(w.box ? tf::diagonal(*w.box) : 0.0);
     w.non_finite = static_cast<std::uint64_t>(
         std::count_if(file.mesh.points.begin(), file.mesh.points.end(),
-                      [](const tf::point3& p) { return !tf::detail::is_finite(p); }));
+                      [](const tf::point3& p) { return !tf::detail::base::is_finite(p); }));
     w.polygon_of_triangle = file.stored_face;
     tf::split_polygons(file);
 

@@ -4,8 +4,9 @@
 
 #include "tools/common/run.hpp"
 #include "tools/tf-weld/settings.hpp"
-#include <libmesh/bounding_box.hpp>
-#include <libmesh/io/mesh_file.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,7 @@
 #include "tools/tf-weld/words.hpp"
 
 #include "tools/common/console.hpp"
+#include <treeform/tf.hpp>
 
 namespace tools {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <stdexcept>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 void append(const aiMesh& part, mesh& mesh) {
@@ -83,4 +83,4 @@ std::string assimp_name() {
            std::to_string(aiGetVersionMinor()) + "." + std::to_string(aiGetVersionPatch());
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

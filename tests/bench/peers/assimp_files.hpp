@@ -3,7 +3,8 @@
 /// Files through assimp.
 
 #include "bench/peers/file_kind.hpp"
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <functional>
 #include <memory>
@@ -13,7 +14,7 @@ namespace Assimp {
 class Importer;
 }
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// A file as assimp reads it, with no step of post-processing: corners are not joined.
 using assimp_scene = std::shared_ptr<const Assimp::Importer>;
@@ -24,4 +25,4 @@ using assimp_scene = std::shared_ptr<const Assimp::Importer>;
 [[nodiscard]] std::function<void()> assimp_writer(const tf::mesh& mesh, const std::string& path,
                                                   const file_kind& kind);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 using kernel = CGAL::Simple_cartesian<double>;
@@ -38,4 +38,4 @@ job cgal_aabb_tree(const mesh& mesh) {
 
 std::string cgal_name() { return "CGAL " CGAL_VERSION_STR; }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

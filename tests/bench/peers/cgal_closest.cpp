@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 using kernel = CGAL::Simple_cartesian<double>;
@@ -44,4 +44,4 @@ std::vector<double> cgal_closest::distances(const std::vector<point3>& queries) 
     return result;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -2,12 +2,12 @@
 /// \file
 /// The nearest point of a mesh by CGAL.
 
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <memory>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// AABB_tree (simple Cartesian doubles, triangle primitives) with its own tree for first guesses,
 /// `accelerate_distance_queries`.
@@ -24,4 +24,4 @@ class cgal_closest {
     std::unique_ptr<state> state_;
 };
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

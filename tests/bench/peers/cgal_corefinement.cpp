@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
@@ -59,4 +59,4 @@ job cgal_corefinement(const mesh& a, const mesh& b, corefinement operation) {
         });
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -3,9 +3,9 @@
 /// Set operations by CGAL.
 
 #include "bench/workload.hpp"
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 enum class corefinement { set_union, set_difference, set_intersection };
 
@@ -14,4 +14,4 @@ enum class corefinement { set_union, set_difference, set_intersection };
 /// time. The error is 1 where it reports failure.
 [[nodiscard]] job cgal_corefinement(const mesh& a, const mesh& b, corefinement operation);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

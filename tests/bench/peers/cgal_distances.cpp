@@ -11,7 +11,7 @@
 #include <memory>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 using filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -83,4 +83,4 @@ std::vector<true_distance> cgal_true_distances(distance_question question,
     return result;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

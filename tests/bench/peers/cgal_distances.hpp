@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// Of pairs of triangles a, b.
 enum class distance_question {
@@ -34,4 +34,4 @@ struct true_distance {
 [[nodiscard]] std::vector<true_distance> cgal_true_distances(
     distance_question question, std::span<const test::triangle_pair> pairs);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
@@ -132,4 +132,4 @@ std::optional<mesh> cgal_repaired(const mesh& given, cgal_repair how) {
     return done ? std::optional(rounded(surface)) : std::nullopt;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

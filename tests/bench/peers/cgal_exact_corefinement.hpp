@@ -3,14 +3,14 @@
 /// Set operations by CGAL, answers as meshes of doubles.
 
 #include "bench/peers/cgal_corefinement.hpp"
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <gmpxx.h>
 
 #include <memory>
 #include <optional>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// Two solids as surface meshes of a kernel, converted before.
 class cgal_solids {
@@ -32,4 +32,4 @@ class cgal_solids {
 enum class cgal_repair { autorefine, local };
 [[nodiscard]] std::optional<mesh> cgal_repaired(const mesh& given, cgal_repair how);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 struct cgal_soup {
     std::vector<CGAL::Simple_cartesian<double>::Point_3> points;
@@ -44,4 +44,4 @@ std::function<void()> cgal_writer(const mesh& mesh, const std::string& path,
     };
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -3,13 +3,14 @@
 /// Files through CGAL.
 
 #include "bench/peers/file_kind.hpp"
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <functional>
 #include <memory>
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// A file as `CGAL::IO::read_polygon_soup` reads it.
 struct cgal_soup;
@@ -21,4 +22,4 @@ struct cgal_soup;
 [[nodiscard]] std::function<void()> cgal_writer(const tf::mesh& mesh, const std::string& path,
                                                 const file_kind& kind);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

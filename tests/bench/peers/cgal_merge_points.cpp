@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 struct soup {
@@ -34,4 +34,4 @@ job cgal_merge_points(const mesh& mesh, std::size_t distinct) {
             }};
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

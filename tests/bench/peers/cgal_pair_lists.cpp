@@ -10,7 +10,7 @@
 #include <iterator>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
@@ -66,4 +66,4 @@ std::shared_ptr<const cgal_surface> cgal_surface_of(const mesh& given, bool exac
         given, polygons, std::move(numbers));
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

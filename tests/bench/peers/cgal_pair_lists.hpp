@@ -2,7 +2,7 @@
 /// \file
 /// The pairs of faces that meet by CGAL, as lists.
 
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// Numbers of faces, the lower one first, ascending.
 using pair_list = std::vector<std::array<std::uint32_t, 2>>;
@@ -26,4 +26,4 @@ class cgal_surface {
 /// None where half-edges cannot hold the mesh as it is.
 [[nodiscard]] std::shared_ptr<const cgal_surface> cgal_surface_of(const mesh& mesh, bool exact);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

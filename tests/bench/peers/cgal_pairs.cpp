@@ -7,7 +7,7 @@
 
 #include <iterator>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 using kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -62,4 +62,4 @@ std::size_t cgal_pair::intersect(const transform<3>& pose) const {
     return met.size();
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

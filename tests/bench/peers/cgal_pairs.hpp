@@ -2,14 +2,14 @@
 /// \file
 /// Two meshes by the AABB tree of CGAL, triangle by triangle.
 
-#include <libmesh/mesh.hpp>
-#include <libtree/transform.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <cstddef>
 #include <memory>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// The tree of one mesh (EPICK, triangle primitives), which is asked about each triangle of the
 /// other at its place.
@@ -28,4 +28,4 @@ class cgal_pair {
     std::unique_ptr<state> state_;
 };
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

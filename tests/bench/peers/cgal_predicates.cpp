@@ -8,7 +8,7 @@
 #include <array>
 #include <memory>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 template <class Kernel>
@@ -78,4 +78,4 @@ asker cgal_exact(question question, std::span<const test::triangle_pair> pairs) 
     return asker_of<CGAL::Exact_predicates_exact_constructions_kernel>(question, pairs);
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// What is asked of a pair of triangles a, b.
 enum class question {
@@ -29,4 +29,4 @@ using asker = std::function<void(verdicts&)>;
 [[nodiscard]] asker cgal_filtered(question question, std::span<const test::triangle_pair> pairs);
 [[nodiscard]] asker cgal_exact(question question, std::span<const test::triangle_pair> pairs);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

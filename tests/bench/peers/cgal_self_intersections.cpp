@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
@@ -77,4 +77,4 @@ std::optional<double> cgal_pair_count(const mesh& mesh) {
     return count_of(find<CGAL::Sequential_tag>(given->mesh));
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -3,12 +3,13 @@
 /// Self-intersections by CGAL.
 
 #include "bench/workload.hpp"
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <functional>
 #include <optional>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// `PMP::self_intersections` with the kernel EPICK on a Surface_mesh that is given, sequential or,
 /// for more than one thread, with its Parallel_tag. Meshes that half-edges cannot hold are
@@ -23,4 +24,4 @@ namespace tf::bench {
 /// The number of pairs the above finds; none where the mesh has to be cut for it.
 [[nodiscard]] std::optional<double> cgal_pair_count(const tf::mesh& mesh);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

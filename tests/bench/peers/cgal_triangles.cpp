@@ -1,6 +1,6 @@
 #include "bench/peers/cgal_triangles.hpp"
 
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -9,7 +9,7 @@
 
 #include <exception>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 template <class Kernel>
@@ -45,4 +45,4 @@ verdicts cgal_kinds(std::span<const test::triangle_pair> pairs, bool exact) {
                  : kinds_of<CGAL::Exact_predicates_inexact_constructions_kernel>(pairs);
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// What the intersection of two triangles may be said to be, beside the values of `overlap`.
 inline constexpr signed char kind_failed = -1;  ///< an exception
@@ -17,4 +17,4 @@ inline constexpr signed char kind_failed = -1;  ///< an exception
 /// exact, with EPICK in double.
 [[nodiscard]] verdicts cgal_kinds(std::span<const test::triangle_pair> pairs, bool exact);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -5,7 +5,7 @@
 
 #include <gmp.h>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// The rational inside of an exact number of the kernel EPECK, for as long as that lives.
 template <class Number>
@@ -18,4 +18,4 @@ template <class Number>
         return number.backend().data();  // boost's
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

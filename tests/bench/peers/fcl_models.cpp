@@ -9,7 +9,7 @@
 
 #include <limits>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 struct arrays {
@@ -106,4 +106,4 @@ std::shared_ptr<const fcl_pair> fcl_pair_of(const mesh& a, const mesh& b, fcl_vo
 
 std::string fcl_name() { return "FCL " FCL_VERSION; }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

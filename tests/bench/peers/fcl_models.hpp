@@ -3,15 +3,15 @@
 /// The bounding volume hierarchies of FCL, in double.
 
 #include "bench/workload.hpp"
-#include <libmesh/mesh.hpp>
-#include <libtree/transform.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 enum class fcl_volume { aabb, obbrss, rss };
 
@@ -32,4 +32,4 @@ class fcl_pair {
 [[nodiscard]] std::shared_ptr<const fcl_pair> fcl_pair_of(const mesh& a, const mesh& b,
                                                           fcl_volume volume);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

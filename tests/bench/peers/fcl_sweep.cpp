@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 std::optional<double> fcl_first_contact(const triangle3& a, const triangle3& b, const point3& d) {
     using vector = fcl::Vector3d;
@@ -40,4 +40,4 @@ std::optional<double> fcl_first_contact(const triangle3& a, const triangle3& b, 
     return first;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

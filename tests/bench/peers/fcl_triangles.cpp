@@ -6,7 +6,7 @@
 #include <array>
 #include <memory>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 template <class Real>
@@ -63,4 +63,4 @@ std::function<void(std::vector<double>&)> fcl_triangle_distances(
     return in_float ? distances<float>(pairs) : distances<double>(pairs);
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// `Intersect::intersect_Triangle` in float or in double, corners converted before.
 [[nodiscard]] asker fcl_triangles_meet(std::span<const test::triangle_pair> pairs, bool in_float);
@@ -18,4 +18,4 @@ namespace tf::bench {
 [[nodiscard]] std::function<void(std::vector<double>&)> fcl_triangle_distances(
     std::span<const test::triangle_pair> pairs, bool in_float);
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

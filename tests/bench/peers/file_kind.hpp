@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 struct file_kind {
     std::string name;
@@ -13,4 +13,4 @@ struct file_kind {
     bool ascii = false;
 };
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -3,7 +3,7 @@
 /// nanoflann's tree over our points. For the sources of its peers alone: it includes all of
 /// nanoflann.
 
-#include <libmesh/exact/point.hpp>
+#include <treeform/mesh/point.hpp>
 
 #include <nanoflann.hpp>
 
@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// Points as nanoflann asks for them. They outlive it.
 struct nanoflann_cloud {
@@ -29,4 +29,4 @@ using nanoflann_index =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, nanoflann_cloud>,
                                         nanoflann_cloud, 3, std::uint32_t>;
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

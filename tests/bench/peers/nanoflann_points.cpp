@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 namespace {
 
 std::array<double, 3> flat(const point3& p) { return {p.x, p.y, p.z}; }
@@ -105,4 +105,4 @@ std::string nanoflann_name() {
            std::to_string(NANOFLANN_VERSION & 15);
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

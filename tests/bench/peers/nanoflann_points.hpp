@@ -2,7 +2,7 @@
 /// \file
 /// The kd-tree of nanoflann, over points in double.
 
-#include <libmesh/points.hpp>
+#include <treeform/mesh/points.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// A tree over points that outlive it, with the leaf size its manual recommends.
 class nanoflann_tree {
@@ -44,4 +44,4 @@ class nanoflann_float_tree {
     std::unique_ptr<state> state_;
 };
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

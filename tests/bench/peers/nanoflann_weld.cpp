@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 std::vector<std::uint32_t> nanoflann_weld(const std::vector<point3>& points, double tolerance) {
     const nanoflann_cloud given{points};
     nanoflann_index tree(3, given, nanoflann::KDTreeSingleIndexAdaptorParams(10));
@@ -33,4 +33,4 @@ std::vector<std::uint32_t> nanoflann_weld(const std::vector<point3>& points, dou
     return leader_of;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -5,14 +5,14 @@
 
 #include "bench/peers/plain_vectors.hpp"
 #include "bench/peers/sign_triangles.hpp"
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 template <class Real>
 class plain_distance : plain_vectors<Real> {
@@ -80,4 +80,4 @@ class plain_distance : plain_vectors<Real> {
     }
 };
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

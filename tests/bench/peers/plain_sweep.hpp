@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// The least t in [0, 1] at which a corner meets a face or two edges meet, each by one quotient of
 /// determinants in `Real`; what is parallel to the motion is passed over.
@@ -86,4 +86,4 @@ class plain_sweep : plain_vectors<Real> {
     return time;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -2,11 +2,11 @@
 /// \file
 /// Vectors of any floating-point type, with nothing done about rounding.
 
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <array>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 template <class Real>
 struct plain_vectors {
@@ -29,4 +29,4 @@ struct plain_vectors {
     }
 };
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

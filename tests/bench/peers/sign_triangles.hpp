@@ -3,8 +3,8 @@
 /// One triangle-triangle test with the arithmetic left open: what decides is where the signs of
 /// determinants come from, and nothing else differs.
 
-#include <libmesh/exact/detail/stages.hpp>
-#include <libmesh/geometry/triangle_triangle.hpp>
+#include <libmesh/exact/stages.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 /// Signs as computed in `Real`, from corners rounded to it. A determinant that is not beyond eps
 /// times the extent of the pair to the power of its degree counts as zero; so eps is free of units,
@@ -65,11 +65,11 @@ struct integer_signs {
     integer_signs(const triangle3&, const triangle3&, double) {}
     [[nodiscard]] static int volume(const point3& a, const point3& b, const point3& c,
                                     const point3& d) {
-        return detail::orient3d_exact(a, b, c, d, nullptr);
+        return detail::exact::orient3d_exact(a, b, c, d, nullptr);
     }
     [[nodiscard]] static int area(std::size_t axis, const point3& a, const point3& b,
                                   const point3& c) {
-        return detail::orient2d_exact(static_cast<int>(axis), a, b, c, nullptr);
+        return detail::exact::orient2d_exact(static_cast<int>(axis), a, b, c, nullptr);
     }
 };
 
@@ -136,4 +136,4 @@ template <class Signs>
     return signs.volume(a[0], a[1], b[0], b[1]) <= 0 && signs.volume(a[0], a[2], b[2], b[0]) <= 0;
 }
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

@@ -4,11 +4,11 @@
 
 #include <string>
 
-namespace tf::bench {
+namespace treeform::bench {
 
 [[nodiscard]] std::string cgal_name();       ///< "CGAL 5.5.1"
 [[nodiscard]] std::string assimp_name();     ///< "assimp 5.2.5"
 [[nodiscard]] std::string fcl_name();        ///< "FCL 0.7.0"
 [[nodiscard]] std::string nanoflann_name();  ///< "nanoflann 1.4.2"
 
-}  // namespace tf::bench
+}  // namespace treeform::bench

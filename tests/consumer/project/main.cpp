@@ -1,8 +1,9 @@
 /// \file
 /// Uses both libraries from two sources; exits 0 when they answer as they should.
 
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libtree/version.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/version.hpp>
 
 #include <cstdio>
 

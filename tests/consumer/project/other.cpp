@@ -1,8 +1,9 @@
-#include <libmesh/intersect/self_intersections.hpp>
-#include <libmesh/weld/equal_points.hpp>
-#include <libtree/build.hpp>
-#include <libtree/tree.hpp>
-#include <libtree/version.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/tree.hpp>
+#include <treeform/tree/version.hpp>
 
 std::size_t crossings_of_other_source() {
     const tf::mesh soup{

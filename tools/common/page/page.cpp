@@ -2,6 +2,7 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/page/assets.hpp"
+#include <treeform/tf.hpp>
 
 #include <nlohmann/json.hpp>
 

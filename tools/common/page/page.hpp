@@ -3,7 +3,8 @@
 /// A report as one HTML file that needs nothing else: words, tables, a 3D view.
 
 #include "tools/common/page/scene.hpp"
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 #include <string>

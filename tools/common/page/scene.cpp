@@ -1,6 +1,7 @@
 #include "tools/common/page/scene.hpp"
 
-#include <libmesh/bounding_box.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,8 @@
 /// and where there are too many faces the plain ones are thinned out.
 
 #include <libmesh/intersect/curves.hpp>
-#include <libmesh/mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 
 #include <array>
 #include <cstddef>

@@ -1,0 +1,57 @@
+#pragma once
+/// \file
+/// The box of points of a plane as seen along an axis, and a triangle around it.
+
+#include <treeform/mesh/point.hpp>
+#include <treeform/tree/aabb.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace treeform::detail::arrange {
+
+class planar_box {
+  public:
+    explicit planar_box(int axis)
+        : x_(static_cast<std::size_t>((axis + 1) % 3)),
+          y_(static_cast<std::size_t>((axis + 2) % 3)) {}
+
+    /// Grows to hold `p` and what is within `reach` of it.
+    void include(const point3& p, double reach = 0.0) {
+        box_.include(std::array{p[x_] - reach, p[y_] - reach});
+        box_.include(std::array{p[x_] + reach, p[y_] + reach});
+    }
+
+    /// A triangle that strictly holds the box in projection, and turns left as seen along the axis
+    /// times `orientation` (+1 or -1).
+    ///
+    /// With extents w and h of the box and d = w + h, its legs are 6 d, it begins d before the box,
+    /// and the box needs 3 d of the legs; rounding moves a corner by no more than an ulp of a
+    /// coordinate, and d is at least one, as w and h are differences of doubles.
+    ///
+    /// \pre something is included
+    [[nodiscard]] std::array<point3, 3> triangle_around(int orientation) const {
+        const double d = (box_.max[0] - box_.min[0]) + (box_.max[1] - box_.min[1]);
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const double left = std::nextafter(box_.min[0] - d, -infinity);
+        const double bottom = std::nextafter(box_.min[1] - d, -infinity);
+        std::array<point3, 3> result{};
+        for (point3& p : result) {
+            p[x_] = left;
+            p[y_] = bottom;
+        }
+        result[1][x_] = left + 6.0 * d;
+        result[2][y_] = bottom + 6.0 * d;
+        if (orientation < 0) std::swap(result[1], result[2]);
+        return result;
+    }
+
+  private:
+    std::size_t x_, y_;  ///< axes of the projection
+    aabb<double, 2> box_{};
+};
+
+}  // namespace treeform::detail::arrange

@@ -1,0 +1,128 @@
+#pragma once
+/// \file
+/// A constrained triangulation of points of one plane, some of them constructed.
+
+#include <libmesh/exact/constructed_point.hpp>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory_resource>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace treeform::detail::arrange {
+
+/// A triangulation that points are put into one by one and segments are forced into.
+///
+/// What it is made of is decided exactly. Where a point lies on a line by its definition, that is
+/// looked up and never computed: collinear points are what filters cannot decide. Near-Delaunay by
+/// approximate in-circle tests, which choose between triangulations that are both valid.
+///
+/// \source Sloan, A fast algorithm for generating constrained Delaunay triangulations, Computers
+///         and Structures 47 (1993); crossing segments are split where they cross
+class planar_triangulation {
+  public:
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    /// The point where two segments of these lines cross.
+    using crossing = std::function<constructed_point(std::uint32_t line, std::uint32_t other)>;
+
+    /// The triangle of the first three of `points`, which turns left as seen along `axis` times
+    /// `orientation` (+1 or -1), and in which or on whose sides all others lie.
+    ///
+    /// \param lines_of  which lines each point is known to lie on, ascending
+    ///
+    /// All memory is that of `points`.
+    planar_triangulation(std::pmr::vector<constructed_point> points,
+                         std::pmr::vector<std::pmr::vector<std::uint32_t>> lines_of, int axis,
+                         int orientation, crossing cross);
+
+    /// Puts a point in; the vertex that is there now: the point itself, or an equal one.
+    std::uint32_t insert(std::uint32_t point);
+
+    /// Forces the segment between two vertices in, and the vertices along it, from the first to the
+    /// last. Where it crosses a segment of before, a new point is made.
+    std::pmr::vector<std::uint32_t> constrain(std::uint32_t from, std::uint32_t to,
+                                              std::uint32_t line);
+
+    [[nodiscard]] std::size_t triangle_count() const { return origin_.size() / 3; }
+    [[nodiscard]] std::array<std::uint32_t, 3> corners(std::size_t t) const {
+        return {origin_[3 * t], origin_[3 * t + 1], origin_[3 * t + 2]};
+    }
+    /// The triangle beyond the side from corner i to the next, or none.
+    [[nodiscard]] std::uint32_t across(std::size_t t, std::size_t i) const {
+        const std::uint32_t twin = twin_[3 * t + i];
+        return twin == none ? none : twin / 3;
+    }
+    /// The triangle to the left of the side from one vertex to another. \pre there is such a side
+    [[nodiscard]] std::uint32_t left_of(std::uint32_t from, std::uint32_t to) const;
+
+    /// All points: those given, then those made.
+    [[nodiscard]] std::span<const constructed_point> points() const { return points_; }
+    /// The two lines whose crossing a made point is. \pre point is not a given one
+    [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> made_by(std::uint32_t point) const {
+        return made_by_[point - given_];
+    }
+
+  private:
+    using half_edge = std::uint32_t;  ///< 3 t + i: from corner i of triangle t to the next
+
+    struct place {
+        half_edge at;  ///< a side of the triangle; the side, or one that begins at the vertex
+        int on_sides;  ///< 0: inside, 1: on the side, 2: on the vertex
+    };
+
+    static half_edge next(half_edge h) { return h % 3 == 2 ? h - 2 : h + 1; }
+    static half_edge previous(half_edge h) { return h % 3 == 0 ? h + 2 : h - 1; }
+    [[nodiscard]] std::uint32_t target(half_edge h) const { return origin_[next(h)]; }
+    [[nodiscard]] std::uint32_t apex(half_edge h) const { return origin_[previous(h)]; }
+
+    void note_line(std::uint32_t p, std::uint32_t line);
+    [[nodiscard]] int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+    [[nodiscard]] bool known_collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+    /// Whether c lies on the side of a to which b lies. \pre collinear, different from a
+    [[nodiscard]] bool is_ahead(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+
+    [[nodiscard]] place locate(std::uint32_t p);
+    [[nodiscard]] half_edge side_towards(std::uint32_t t, std::uint32_t p, std::uint32_t first,
+                                         half_edge from, place& found) const;
+    [[nodiscard]] half_edge find(std::uint32_t from, std::uint32_t to) const;
+    [[nodiscard]] half_edge side_between(std::uint32_t u, std::uint32_t v) const;
+    template <class Visit>
+    bool around(std::uint32_t vertex, const Visit& visit) const;
+
+    void set(half_edge h, std::uint32_t origin, half_edge twin, std::uint32_t line);
+    std::uint32_t add_triangle();
+    void split_triangle(std::uint32_t t, std::uint32_t p);
+    void split_side(half_edge h, std::uint32_t p);
+    void flip(half_edge h);
+    [[nodiscard]] bool can_flip(half_edge h) const;
+    [[nodiscard]] bool wants_flip(half_edge h) const;
+    void improve_around(std::uint32_t p);
+    void improve(std::pmr::vector<std::array<std::uint32_t, 2>>& sides);
+
+    void mark(half_edge h, std::uint32_t line);
+    /// One step of `constrain`: the next vertex on the way, to which there is a marked side now.
+    std::uint32_t advance(std::uint32_t from, std::uint32_t to, std::uint32_t line);
+    std::uint32_t make_crossing(half_edge side, std::uint32_t line);
+
+    std::pmr::vector<constructed_point> points_;
+    std::pmr::vector<std::array<double, 2>> plan_;  ///< where points are, for choices that are free
+    std::pmr::vector<std::pmr::vector<std::uint32_t>> lines_of_;
+    std::pmr::vector<std::pair<std::uint32_t, std::uint32_t>> made_by_;
+    std::pmr::vector<std::uint32_t> origin_;  ///< of each half-edge
+    std::pmr::vector<half_edge> twin_;
+    std::pmr::vector<std::uint32_t> line_;  ///< that the side is forced to be on, or none
+    std::pmr::vector<half_edge> leaving_;   ///< of each vertex, a half-edge that begins there
+    std::pmr::vector<half_edge> opposite_;  ///< of `improve_around`
+    std::size_t given_;
+    int axis_;
+    int orientation_;
+    crossing cross_;
+    std::uint32_t last_ = 0;  ///< triangle where the next search begins
+};
+
+}  // namespace treeform::detail::arrange

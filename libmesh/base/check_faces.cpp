@@ -1,0 +1,32 @@
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/first_bad.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace treeform::detail::base {
+namespace {
+
+[[noreturn]] void refuse(const char* function, const std::string& why) {
+    throw std::invalid_argument("treeform::" + std::string(function) + ": " + why);
+}
+
+}  // namespace
+
+void check_faces(const char* function, std::size_t point_count, std::span<const face> faces) {
+    if (faces.size() > std::numeric_limits<std::uint32_t>::max())
+        refuse(function, "more than 2^32 - 1 faces");
+    if (point_count > std::numeric_limits<std::uint32_t>::max()) return;  // all corners are points
+    const auto points = static_cast<std::uint32_t>(point_count);
+    const std::size_t bad = first_bad(faces.size(), [&](std::size_t i) {
+        const auto& [a, b, c] = faces[i];
+        return std::max(std::max(a, b), c) >= points;
+    });
+    if (bad != faces.size())
+        refuse(function, "face " + std::to_string(bad) + " has a corner that is no point");
+}
+
+}  // namespace treeform::detail::base

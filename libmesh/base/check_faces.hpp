@@ -1,0 +1,17 @@
+#pragma once
+/// \file
+/// The check at the door of what takes faces.
+
+#include <treeform/mesh/mesh.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace treeform::detail::base {
+
+/// \throws std::invalid_argument naming `function` and the lowest face with a corner that is not
+///         less than `point_count`, or when there are more faces than 32 bits can number
+/// \cost   O(F), in parallel
+void check_faces(const char* function, std::size_t point_count, std::span<const face> faces);
+
+}  // namespace treeform::detail::base

@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// The first of many elements that something is wrong with.
+
+#include <treeform/tree/parallel.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace treeform::detail::base {
+
+/// Lowest i in [0, count) that `bad` holds for, or `count`.
+///
+/// \cost O(count) calls, in parallel, of all in a chunk: as a rule none is bad
+/// \same on any number of threads
+template <class Bad>
+[[nodiscard]] std::size_t first_bad(std::size_t count, const Bad& bad) {
+    constexpr std::size_t grain = std::size_t{1} << 14;
+    std::vector<std::size_t> first(chunk_count(count, grain), count);
+    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        bool any = false;  // without a branch in the loop
+        for (std::size_t i = begin; i < end; ++i) any |= bad(i);
+        if (!any) return;
+        first[chunk] = begin;
+        while (!bad(first[chunk])) ++first[chunk];
+    });
+    return first.empty() ? count : *std::min_element(first.begin(), first.end());
+}
+
+}  // namespace treeform::detail::base

@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// Progress of an operation made of others, and whether its caller has asked it to stop.
+
+#include <treeform/tree/progress.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <mutex>
+
+namespace treeform::detail::base {
+
+/// What the caller hears never goes back; once it has said stop it is not called again. May be
+/// used from several threads.
+class work_progress {
+  public:
+    explicit work_progress(const progress_callback& callback) : callback_(callback) {}
+
+    [[nodiscard]] bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+
+    /// Says that `done` of the work, in [0, 1], is done. False when it is to stop.
+    bool reach(double done) {
+        if (!callback_) return true;
+        const std::lock_guard lock(mutex_);
+        furthest_ = std::max(furthest_, done);
+        if (!cancelled() && !callback_(furthest_)) cancelled_ = true;
+        return !cancelled();
+    }
+
+    /// The same, of the stretch from `begin` to `end`, after `steps` of steps whose number is not
+    /// known, but of which some `expected` are half.
+    bool step(double begin, double end, std::size_t steps, double expected) {
+        const auto n = static_cast<double>(steps);
+        return reach(begin + (end - begin) * n / (n + expected));
+    }
+
+    /// For an operation that is the stretch from `begin` to `end` of this work; this outlives it.
+    [[nodiscard]] progress_callback part(double begin, double end) {
+        if (!callback_) return {};
+        return [this, begin, end](double done) { return reach(begin + (end - begin) * done); };
+    }
+
+  private:
+    const progress_callback& callback_;
+    std::mutex mutex_;
+    double furthest_ = 0.0;
+    std::atomic<bool> cancelled_{false};
+};
+
+}  // namespace treeform::detail::base

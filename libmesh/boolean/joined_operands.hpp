@@ -1,0 +1,34 @@
+#pragma once
+/// \file
+/// Several meshes as one, and the way back.
+
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/mesh.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::boolean {
+
+struct joined_operands {
+    mesh all;                                ///< no two points are equal, all are corners
+    std::vector<std::uint32_t> first_face;   ///< [k + 1] of each operand
+    std::vector<std::uint32_t> first_point;  ///< [k + 1] of each, before equal ones were one
+    /// [V] of `all`, before: the lowest; or empty, where nothing was left out.
+    std::vector<std::uint32_t> number_of_point;
+
+    /// [F] of `all`
+    [[nodiscard]] std::vector<std::uint32_t> operand_of_face() const;
+    [[nodiscard]] operand_element face_source(std::uint32_t face) const;
+    [[nodiscard]] operand_element point_source(std::uint32_t point) const;
+};
+
+/// \throws std::invalid_argument naming `function` and a face with a corner that is no point, or
+///         for more than 2^32 - 1 points or faces
+void check_operands(const char* function, std::span<const mesh_view> operands);
+
+/// \pre the operands have been checked
+[[nodiscard]] joined_operands join_operands(std::span<const mesh_view> operands);
+
+}  // namespace treeform::detail::boolean

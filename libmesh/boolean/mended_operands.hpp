@@ -1,0 +1,26 @@
+#pragma once
+/// \file
+/// Operands that are moved a little where the result could not be rounded.
+
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
+
+#include <span>
+
+namespace treeform::detail::boolean {
+
+/// What `ask` says of the operands; where that cannot be certified, of operands whose faces next to
+/// what is broken are joined, further and further, as long as there are steps left. All but the
+/// surface, its sources, its moves and what is certain about it is said of the operands as given.
+///
+/// Sheets that all but lie on each other meet, as they are, in a great many places that no rounded
+/// coordinates can hold apart; joined, they are one sheet where they lie on each other.
+///
+/// \throws what `ask` throws
+/// \same   on any number of threads, if `ask` is
+[[nodiscard]] solid_result with_mended_operands(
+    std::span<const mesh_view> operands, const boolean_options& options,
+    function_ref<solid_result(std::span<const mesh_view>, const boolean_options&)> ask);
+
+}  // namespace treeform::detail::boolean

@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// Triangles for a part of a plane that is given by its rim.
+
+#include <libmesh/round/round_surface.hpp>
+#include <treeform/mesh/mesh.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace treeform::detail::boolean {
+
+/// A connected part of a plane, perhaps with holes and slits.
+struct flat_region {
+    static constexpr std::uint32_t no_line = std::numeric_limits<std::uint32_t>::max();
+
+    /// A straight piece of the rim: the region is on its left as seen from where faces turn left.
+    struct side {
+        std::uint32_t from;
+        std::uint32_t to;
+        std::uint32_t line;  ///< equal for sides that are known to lie on one line, or `no_line`
+    };
+
+    std::uint32_t first_face = 0;         ///< the number of a face of it
+    face plane{};                         ///< the corners of that face
+    std::vector<std::uint32_t> points{};  ///< that the triangles are to have, in any order, some
+                                          ///< of them several times
+    std::vector<side> rim{};
+};
+
+/// The region as triangles between its points, near-Delaunay, oriented as `plane`.
+///
+/// \pre    no side has a point of the region but its ends, and all ends are among the points
+/// \throws std::logic_error when the rim bounds nothing
+/// \cost   about O(n^1.5) for n points
+[[nodiscard]] std::vector<face> triangles_of(const exact_surface& surface,
+                                             const flat_region& region);
+
+}  // namespace treeform::detail::boolean

@@ -1,0 +1,62 @@
+#pragma once
+/// \file
+/// A triangle put on its longest edge: what the distance from many points to it is computed from.
+
+#include <treeform/mesh/triangle_triangle.hpp>
+
+#include <cstddef>
+
+namespace treeform::detail::geometry {
+
+/// The points of the triangle are corner + s base + t height with 0 <= t <= 1 and
+/// t apex <= s <= 1 - t (1 - apex): `height` is at a right angle to `base`, and meets it below the
+/// third corner at `apex`, which lies in [0, 1] because the base is the longest edge.
+///
+/// Why this and not barycentric coordinates, which divide by the normal: the distance along the
+/// base is right to a rounding of the lengths whatever the aspect of the triangle. And a wrong
+/// direction of `height`, which is short where rounding turns it far, moves no point of the
+/// triangle by more than a few roundings of the base.
+struct based_triangle {
+    point3 corner;
+    point3 base;
+    point3 height;
+    double apex = 0.0;
+    double per_base = 0.0;    ///< 1 / base^2, 0 for a base of no length
+    double per_height = 0.0;  ///< 1 / height^2, 0 for a height of none
+
+    based_triangle() = default;
+    explicit based_triangle(const triangle3& t) {
+        std::size_t longest = 0;
+        double square = -1.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const point3 edge = minus(t[(i + 1) % 3], t[i]);
+            if (!(dot(edge, edge) > square)) continue;
+            square = dot(edge, edge);
+            longest = i;
+            base = edge;
+        }
+        corner = t[longest];
+        per_base = square > 0.0 ? 1.0 / square : 0.0;
+        const point3 side = minus(t[(longest + 2) % 3], corner);
+        apex = dot(side, base) * per_base;
+        apex = apex < 0.0 ? 0.0 : apex > 1.0 ? 1.0 : apex;
+        for (std::size_t k = 0; k < 3; ++k) height[k] = side[k] - apex * base[k];
+        const double height_square = dot(height, height);
+        per_height = height_square > 0.0 ? 1.0 / height_square : 0.0;
+    }
+
+    [[nodiscard]] static point3 minus(const point3& p, const point3& q) {
+        return {p.x - q.x, p.y - q.y, p.z - q.z};
+    }
+    [[nodiscard]] static double dot(const point3& p, const point3& q) {
+        return p.x * q.x + p.y * q.y + p.z * q.z;
+    }
+
+    [[nodiscard]] point3 at(double s, double t) const {
+        point3 p;
+        for (std::size_t k = 0; k < 3; ++k) p[k] = corner[k] + (s * base[k] + t * height[k]);
+        return p;
+    }
+};
+
+}  // namespace treeform::detail::geometry

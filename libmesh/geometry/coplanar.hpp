@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// Two triangles in one plane: the corners of what they share, in order.
+
+#include <libmesh/geometry/view_axis.hpp>
+#include <treeform/mesh/counters.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+
+namespace treeform::detail::geometry {
+
+/// `intersect` for coplanar triangles, neither degenerate; `of_a` is a view axis of `a`, hence
+/// of `b` too.
+[[nodiscard]] triangle_contact intersect_coplanar(const triangle3& a, view_axis of_a,
+                                                  const triangle3& b, predicate_counters* counters);
+
+}  // namespace treeform::detail::geometry

@@ -1,0 +1,66 @@
+#pragma once
+/// \file
+/// Arithmetic on the names of a triangle's parts, and the list contacts are gathered in.
+
+#include <treeform/mesh/triangle_triangle.hpp>
+
+#include <array>
+#include <cassert>
+#include <cstdint>
+
+namespace treeform::detail::geometry {
+
+constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
+constexpr int previous(int i) { return i == 0 ? 2 : i - 1; }
+
+constexpr feature corner(int i) { return static_cast<feature>(i); }
+constexpr feature edge(int i) { return static_cast<feature>(3 + i); }
+constexpr bool is_corner(feature f) { return f <= feature::v2; }
+constexpr bool is_edge(feature f) { return f >= feature::e0 && f <= feature::e2; }
+constexpr int index_of(feature f) { return static_cast<int>(f) % 3; }
+
+/// Whether the closed edge `i` holds the points named `f`.
+constexpr bool holds(int i, feature f) {
+    return f == edge(i) || f == corner(i) || f == corner(next(i));
+}
+
+/// The ends found so far, each name once. In one pair of triangles equal names are equal points.
+class contact_list {
+  public:
+    void add(feature on_a, feature on_b) {
+        const contact found{on_a, on_b};
+        for (int i = 0; i < size_; ++i)
+            if (items_[static_cast<std::size_t>(i)] == found) return;
+        assert(size_ < capacity);
+        items_[static_cast<std::size_t>(size_++)] = found;
+    }
+    template <class Predicate>
+    void drop_if(Predicate drop) {
+        int kept = 0;
+        for (int i = 0; i < size_; ++i) {
+            const contact c = items_[static_cast<std::size_t>(i)];
+            if (!drop(c)) items_[static_cast<std::size_t>(kept++)] = c;
+        }
+        size_ = kept;
+    }
+    [[nodiscard]] int size() const { return size_; }
+    [[nodiscard]] contact operator[](int i) const { return items_[static_cast<std::size_t>(i)]; }
+
+  private:
+    static constexpr int capacity = 8;
+    std::array<contact, capacity> items_;
+    int size_ = 0;
+};
+
+/// The answer whose ends are `ends`: a point, a segment or an area by their number.
+inline triangle_contact contact_of(const contact_list& ends, bool coplanar) {
+    assert(ends.size() <= 6);
+    triangle_contact result;
+    result.kind = static_cast<overlap>(ends.size() < 3 ? ends.size() : 3);
+    result.coplanar = coplanar;
+    result.count = static_cast<std::uint8_t>(ends.size());
+    for (int i = 0; i < ends.size(); ++i) result.ends[static_cast<std::size_t>(i)] = ends[i];
+    return result;
+}
+
+}  // namespace treeform::detail::geometry

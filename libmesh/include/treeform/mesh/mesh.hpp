@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// Triangle meshes: points and triples of their numbers.
+
+#include <treeform/mesh/points.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace treeform {
+
+/// The corners of a triangle as numbers of points; counter-clockwise seen from outside.
+using face = std::array<std::uint32_t, 3>;
+
+/// What algorithms take: somebody else's arrays. Every corner is less than `points.size()`.
+struct mesh_view {
+    std::span<const point3> points;  ///< [V]
+    std::span<const face> faces;     ///< [F]
+};
+
+struct mesh {
+    std::vector<point3> points;  ///< [V]
+    std::vector<face> faces;     ///< [F]
+
+    operator mesh_view() const { return {points, faces}; }  // NOLINT: meant to be implicit
+    friend bool operator==(const mesh&, const mesh&) = default;
+};
+
+}  // namespace treeform

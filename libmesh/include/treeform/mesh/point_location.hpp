@@ -1,0 +1,107 @@
+#pragma once
+/// \file
+/// Inside, outside or on: points against a closed mesh, and against closed curves of the plane.
+
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace treeform {
+
+enum class location : std::uint8_t { outside, inside, boundary };
+
+struct point_location {
+    location where = location::outside;
+    /// How often the surface or curve winds around the point, counter-clockwise and outward faces
+    /// counting +1: 0 is outside, anything else inside. 0 on the boundary, where there is none.
+    std::int32_t winding = 0;
+    /// On the boundary, the lowest face or edge that holds the point; else 0.
+    std::uint32_t on = 0;
+    friend bool operator==(const point_location&, const point_location&) = default;
+};
+
+/// An edge, from its lower to its higher point, that faces do not run along as often one way as
+/// the other; the lowest such, or none: then the mesh is closed as far as winding numbers go. It
+/// may consist of parts, be non-manifold, fold, and pass through itself. Faces that repeat a
+/// corner have no say. Corners count by number: join equal ones first (`join_equal_points`).
+///
+/// \throws std::invalid_argument naming the lowest face with a corner that is no point
+/// \cost   O(V + F log d) time for at most d faces at a point
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API std::optional<std::array<std::uint32_t, 2>> find_open_edge(
+    mesh_view mesh);
+
+/// Points against one closed mesh, as many as wanted; for several threads at once.
+///
+/// Exact on the coordinates as given, for every point: a ray along x is counted through, with each
+/// edge that it grazes taken as lying to one side of it by a rule that all faces share. No other
+/// ray is ever tried.
+///
+/// \source the half-open rule is the simulation of a ray moved by (0, eps, eps^2): Edelsbrunner and
+///         Muecke, Simulation of Simplicity, ACM TOG 9 (1990)
+class TREEFORM_API point_locator {
+  public:
+    /// `tree` is `face_tree(mesh)`; it and the arrays of `mesh` outlive the locator.
+    ///
+    /// \throws std::invalid_argument when the mesh is not closed, naming `find_open_edge`, when a
+    ///         face has a corner that is no point, or the tree is not of as many faces
+    point_locator(mesh_view mesh, const tree<3>& tree);
+
+    /// \throws std::invalid_argument when a coordinate is not finite; likewise below
+    /// \cost   O(log F + B) for the B faces whose boxes meet the ray from the point along +x
+    [[nodiscard]] point_location locate(const point3& point) const;
+
+    /// [P] the same for many points, in their order.
+    /// \same on any number of threads
+    [[nodiscard]] std::vector<point_location> locate(std::span<const point3> points) const;
+
+  private:
+    mesh_view mesh_;
+    const tree<3>* tree_;
+};
+
+/// An edge of a curve, from one point to another; the inside of a simple curve is on its left.
+using curve_edge = std::array<std::uint32_t, 2>;
+
+/// What algorithms take: somebody else's arrays.
+struct curve_view {
+    std::span<const point2> points;     ///< [V]
+    std::span<const curve_edge> edges;  ///< [E]
+};
+
+/// The edges of the closed polygon through points 0, 1, ... count - 1.
+[[nodiscard]] TREEFORM_API std::vector<curve_edge> polygon_edges(std::uint32_t count);
+
+/// The tree over the boxes of the edges. \throws std::invalid_argument as `face_tree`
+[[nodiscard]] TREEFORM_API tree<2> edge_tree(curve_view curves);
+
+/// Points of the plane against closed curves: any number of them, also crossing or repeated. Exact
+/// in the same sense.
+class TREEFORM_API curve_locator {
+  public:
+    /// `tree` is `edge_tree(curves)`; it and the arrays of `curves` outlive the locator.
+    ///
+    /// \throws std::invalid_argument naming the lowest point that not as many edges lead to as
+    ///         from, an edge with an end that is no point, or a tree of another number of edges
+    curve_locator(curve_view curves, const tree<2>& tree);
+
+    /// \throws std::invalid_argument when a coordinate is not finite; likewise below
+    /// \cost   O(log E + B) for the B edges whose boxes meet the ray from the point along +x
+    [[nodiscard]] point_location locate(const point2& point) const;
+
+    /// [P] the same for many points, in their order.
+    /// \same on any number of threads
+    [[nodiscard]] std::vector<point_location> locate(std::span<const point2> points) const;
+
+  private:
+    curve_view curves_;
+    const tree<2>* tree_;
+};
+
+}  // namespace treeform

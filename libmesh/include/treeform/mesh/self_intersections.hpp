@@ -1,0 +1,77 @@
+#pragma once
+/// \file
+/// Self-intersections of a triangle mesh: every pair of faces that meet where they should not.
+
+#include <treeform/mesh/counters.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/progress.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace treeform {
+
+/// How two faces meet beyond the corners they share by number. Each pair has exactly one kind.
+enum class pair_kind : std::uint8_t {
+    crossing,   ///< no shared corner; the interiors pass through each other
+    overlap,    ///< at most one shared corner; coplanar, with a common area
+    fold,       ///< a shared edge; coplanar, on the same side of it
+    duplicate,  ///< the same three corners, in either orientation
+    pierce,     ///< one shared corner; the interiors pass through each other
+    touching,   ///< contact without crossing: a point or a segment on the rim of one of them
+    degenerate  ///< any of these, but a face of the pair is a segment or a point
+};
+inline constexpr std::size_t pair_kind_count = 7;
+
+struct face_pair {
+    std::uint32_t a = 0;  ///< the lower face number
+    std::uint32_t b = 0;
+    pair_kind kind = pair_kind::crossing;
+    friend auto operator<=>(const face_pair&, const face_pair&) = default;
+};
+
+struct self_intersection_options {
+    /// Stop at the first pair found. Which one that is does not depend on the thread count.
+    bool first_only = false;
+    /// Kinds to look for; the others are neither counted nor listed.
+    std::array<bool, pair_kind_count> kinds{true, true, true, true, true, true, true};
+    /// Where not empty, [F]: component of each face; see `between` and `within`.
+    std::span<const std::uint32_t> component_of_face{};
+    bool between = false;  ///< only pairs of faces of different components
+    bool within = false;   ///< only pairs of faces of one component
+    /// At most this many pairs are listed, those of the lowest face numbers; all are counted.
+    std::size_t limit = static_cast<std::size_t>(-1);
+    progress_callback progress{};
+};
+
+struct self_intersection_result {
+    std::vector<face_pair> pairs;                         ///< ascending by (a, b)
+    std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
+    std::uint64_t box_pairs = 0;                          ///< pairs of faces whose boxes overlap
+    std::uint64_t exact_pairs = 0;                        ///< of these, left open by the filter
+    predicate_counters predicates{};                      ///< what the undecided pairs cost
+    double tree_seconds = 0.0;                            ///< time to build the tree
+    double pair_seconds = 0.0;                            ///< time to find and decide pairs
+    bool cancelled = false;                               ///< `progress` said stop
+};
+
+/// All pairs of faces that have a common point on none of their shared corners and not on their
+/// shared edge. Corners are shared when they have the same number; to treat equal coordinates as
+/// one corner, join them first (`join_equal_points`).
+///
+/// Exact on the coordinates as given. Degenerate faces (collinear corners) take part as the
+/// segment or point they are and are told apart by their kind.
+///
+/// \pre    every corner is less than `mesh.points.size()`, every coordinate is finite
+/// \throws std::invalid_argument naming the face or point that breaks this, or when
+///         `component_of_face` has not one entry a face
+/// \cost   O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face
+/// \same   on any number of threads
+/// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
+[[nodiscard]] TREEFORM_API self_intersection_result
+self_intersections(mesh_view mesh, const self_intersection_options& options = {});
+
+}  // namespace treeform

@@ -1,0 +1,79 @@
+#pragma once
+/// \file
+/// From candidate pairs of two meshes to classified pairs, for the candidates of one chunk.
+
+#include <libmesh/intersect/pair_decider.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/tree/candidates.hpp>
+#include <treeform/tree/transform.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace treeform::detail::intersect {
+
+/// One of two meshes: its faces by their place in the tree, moved.
+class mesh_side {
+  public:
+    mesh_side(mesh_view mesh, const tree<3>& tree, const transform<3>& move)
+        : mesh_(mesh), ids_(tree.ids()), move_(move), moves_(move != transform<3>{}) {}
+
+    [[nodiscard]] std::uint32_t face_at(std::uint32_t place) const { return ids_[place]; }
+
+    /// The corners of a face; false when one is no point.
+    [[nodiscard]] bool corners(std::uint32_t id, triangle3& triangle) const {
+        const face& f = mesh_.faces[id];
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (f[k] >= mesh_.points.size()) return false;
+            triangle[k] = mesh_.points[f[k]];
+            if (moves_) triangle[k] = move_(triangle[k]);
+        }
+        return true;
+    }
+
+    /// Ask memory for what `corners` reads, the face first and its points some time later.
+    void prefetch_face(std::uint32_t place) const { __builtin_prefetch(&mesh_.faces[ids_[place]]); }
+    void prefetch_points(std::uint32_t place) const {
+        const face& f = mesh_.faces[ids_[place]];
+        for (const std::uint32_t corner : f) __builtin_prefetch(mesh_.points.data() + corner);
+    }
+
+  private:
+    mesh_view mesh_;
+    std::span<const std::uint32_t> ids_;
+    transform<3> move_;
+    bool moves_;
+};
+
+struct mesh_pair_input {
+    mesh_side a;
+    mesh_side b;
+    wanted_kinds kinds;
+};
+
+/// Gathers the corners of candidates from the meshes and has them decided. 10 kB.
+class mesh_pair_sieve {
+  public:
+    mesh_pair_sieve(const mesh_pair_input& input, sieve_output& output, bad_faces& bad)
+        : input_(input), output_(output), bad_(bad), decider_(input.kinds, output, bad) {}
+
+    void add(const candidate_block& block);
+
+  private:
+    void prefetch(const candidate_block& block, std::size_t i) const;
+    void add_pair(const face_numbers& pair);
+
+    const mesh_pair_input& input_;
+    sieve_output& output_;
+    bad_faces& bad_;
+    /// The face of `a` last looked at: candidates of one face follow each other.
+    std::uint32_t last_a_ = bad_faces::none;
+    bool has_a_ = false;
+    triangle3 corners_of_a_;
+    pair_decider decider_;
+};
+
+}  // namespace treeform::detail::intersect

@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// Self-intersections of a mesh whose tree is there.
+
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tree/tree.hpp>
+
+namespace treeform::detail::intersect {
+
+/// As `self_intersections`; `tree` is that of the faces, and is gone when all has been found.
+/// \pre all that `self_intersections` checks
+[[nodiscard]] self_intersection_result pairs_by_tree(mesh_view mesh, tree<3> tree,
+                                                     const self_intersection_options& options);
+
+}  // namespace treeform::detail::intersect

@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// Which format an input has: by its content, then by its name.
+
+#include <libmesh/io/source.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace treeform::detail::io {
+
+enum class file_kind : std::uint8_t { stl_binary, stl_text, obj, ply, off, pcd, xyz, csv, scene };
+
+struct detected {
+    file_kind kind = file_kind::scene;
+    std::string extension{};  ///< in lower case, without its dot; what `read_scene` goes by
+};
+
+/// `format` is what the caller asks for and `extension` that of the name; both in lower case
+/// without a dot, both may be empty.
+///
+/// \throws io_error when the content cannot be of any format that is read
+[[nodiscard]] detected detect(const source& in, std::string_view format,
+                              std::string_view extension);
+
+}  // namespace treeform::detail::io

@@ -1,0 +1,20 @@
+#pragma once
+/// \file
+/// What an integer type can hold.
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace treeform::detail::io {
+
+/// True when x is a value of the integer type T. The limits are powers of two, which doubles hold.
+template <class T>
+requires std::is_integral_v<T>
+[[nodiscard]] bool is_value_of(double x) {
+    constexpr double beyond = 2.0 * static_cast<double>(std::numeric_limits<T>::max() / 2 + 1);
+    constexpr auto least = static_cast<double>(std::numeric_limits<T>::min());
+    return x >= least && x < beyond && x == std::floor(x);
+}
+
+}  // namespace treeform::detail::io

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// The points of a file from the front to the back, a run at a time; what the readers of whole
+/// point files and of streams have in common.
+
+#include <libmesh/io/source.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace treeform::detail::io {
+
+struct point_rows {
+    /// Everything but the points; the element "vertex", if any, has columns without values.
+    mesh_file head{};
+    std::optional<std::uint64_t> count{};
+    /// Appends the next points, at most `most` of them, and their rows to the columns of
+    /// `vertices`, which are those of the head; returns how many. Zero at the end, where `warnings`
+    /// gets what was to be said.
+    std::function<std::size_t(std::vector<point3>& points, element& vertices, std::size_t most,
+                              std::vector<io_warning>& warnings)>
+        append{};
+};
+
+/// What there is to read by runs. `in` must outlive what comes back.
+///
+/// \throws io_error, also for a file with faces or other elements that have rows
+[[nodiscard]] point_rows open_ply_points(const source& in);
+[[nodiscard]] point_rows open_pcd_points(const source& in);
+[[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format);
+
+}  // namespace treeform::detail::io

@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// The reader of each format. All of them throw io_error.
+
+#include <libmesh/io/source.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+
+#include <filesystem>
+#include <string_view>
+
+namespace treeform::detail::io {
+
+[[nodiscard]] mesh_file read_stl_binary(const source& in);
+[[nodiscard]] mesh_file read_stl_text(const source& in);
+[[nodiscard]] mesh_file read_obj(const source& in);
+[[nodiscard]] mesh_file read_ply(const source& in);
+[[nodiscard]] mesh_file read_off(const source& in);
+[[nodiscard]] mesh_file read_pcd(const source& in);
+/// `format` is "xyz" or "csv", which are read alike.
+[[nodiscard]] mesh_file read_xyz(const source& in, std::string_view format);
+
+/// True when the library behind `read_scene` knows files of this extension (no dot).
+[[nodiscard]] bool scene_format(std::string_view extension);
+/// A scene through assimp. `path` is empty for bytes that have none; then files that a scene refers
+/// to cannot be found.
+[[nodiscard]] mesh_file read_scene(const source& in, const std::filesystem::path& path,
+                                   std::string_view extension);
+
+}  // namespace treeform::detail::io

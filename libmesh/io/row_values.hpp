@@ -1,0 +1,174 @@
+#pragma once
+/// \file
+/// Values of rows, one at a time, from text and from bytes. Both readers have the same calls:
+/// begin_row, length, scalar, end_row.
+
+#include <libmesh/io/byte_order.hpp>
+#include <libmesh/io/is_value_of.hpp>
+#include <libmesh/io/text.hpp>
+#include <treeform/mesh/attributes.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace treeform::detail::io {
+
+template <class T>
+void append(std::vector<std::byte>& values, T value) {
+    const std::size_t size = values.size();
+    values.resize(size + sizeof value);
+    std::memcpy(values.data() + size, &value, sizeof value);
+}
+
+/// A row a line, as the format says.
+class text_values {
+  public:
+    text_values(const source& in, const char* body) : text_(in) { text_.at = body; }
+
+    [[nodiscard]] std::size_t bytes_left() const {
+        return static_cast<std::size_t>(text_.end - text_.at);
+    }
+    /// The least that a row of this many values can take: a digit and a separator each; the last
+    /// one of the file needs no separator.
+    [[nodiscard]] static bool can_hold(std::size_t bytes, std::size_t rows, const element& e) {
+        return e.columns.empty() || rows <= (bytes + 1) / (2 * e.columns.size());
+    }
+
+    void begin_row() { text_.skip_spaces(); }
+
+    /// Length of a list; never more than the file can hold.
+    [[nodiscard]] std::size_t length(const column&) {
+        text_.skip_blanks();
+        const char* const start = text_.at;
+        const std::int64_t count = text_.integer("the length of a list");
+        if (count >= 0 && static_cast<std::size_t>(count) <= bytes_left())
+            return static_cast<std::size_t>(count);
+        text_.at = start;
+        text_.fail("a list of " + quoted(start, text_.end) + " values");
+    }
+
+    [[nodiscard]] double coordinate(const column&) {
+        text_.skip_blanks();
+        return text_.number("a coordinate");
+    }
+
+    [[nodiscard]] std::int64_t index(const column&) {
+        text_.skip_blanks();
+        return text_.integer("a vertex index");
+    }
+
+    void scalar(column& c) {
+        text_.skip_blanks();
+        with_type(c.type, [&]<class T>(T) {
+            const parsed<T> n = parse<T>();
+            if (n.end == nullptr || (n.end != text_.end && !is_space(*n.end))) {
+                if (text_.done() || is_newline(*text_.at)) text_.fail("the row ends too early");
+                text_.fail(quoted(text_.at, text_.end) + " is no value for " + c.name);
+            }
+            text_.at = n.end;
+            append(c.values, n.value);
+        });
+    }
+
+    void end_row() {
+        text_.skip_blanks();
+        if (!text_.done() && !is_newline(*text_.at))
+            text_.fail("more values than the header promises");
+        text_.file.release_before(text_.at);
+    }
+
+    [[nodiscard]] bool only_blanks_left() {
+        text_.skip_spaces();
+        return text_.done();
+    }
+    [[noreturn]] void fail(const std::string& reason) const { text_.fail(reason); }
+
+  private:
+    template <class T>
+    [[nodiscard]] parsed<T> parse() const {
+        if constexpr (std::is_floating_point_v<T>) {
+            return parse_number<T>(text_.at, text_.end);
+        } else {
+            if constexpr (sizeof(T) == 8) {
+                T value{};  // a double would round it
+                const auto [stop, error] = std::from_chars(text_.at, text_.end, value);
+                if (error == std::errc{} && (stop == text_.end || is_space(*stop)))
+                    return {value, stop};
+            }
+            // Some files write whole numbers with a point: 255.0.
+            const parsed<double> n = parse_number(text_.at, text_.end);
+            if (n.end == nullptr || !is_value_of<T>(n.value)) return {};
+            return {static_cast<T>(n.value), n.end};
+        }
+    }
+
+    text text_;
+};
+
+/// Values in the byte order `order`.
+template <std::endian order>
+class byte_values {
+  public:
+    byte_values(const source& in, const char* body) : file_(in), at_(body) {}
+
+    [[nodiscard]] std::size_t bytes_left() const {
+        return static_cast<std::size_t>(file_.end() - at_);
+    }
+    [[nodiscard]] static bool can_hold(std::size_t bytes, std::size_t rows, const element& e) {
+        std::size_t row = 0;
+        for (const column& c : e.columns) row += size_of(c.list_length.value_or(c.type));
+        return row == 0 || rows <= bytes / row;
+    }
+
+    void begin_row() {}
+
+    [[nodiscard]] std::size_t length(const column& c) {
+        const char* const start = at_;
+        const auto count = with_type(
+            *c.list_length, [&]<class T>(T) { return static_cast<std::int64_t>(take<T>()); });
+        if (count >= 0 && static_cast<std::size_t>(count) <= bytes_left() / size_of(c.type))
+            return static_cast<std::size_t>(count);
+        file_.fail_byte(start,
+                        "a list of " + std::to_string(count) + " values, more than the file holds");
+    }
+
+    [[nodiscard]] double coordinate(const column& c) {
+        return with_type(c.type, [&]<class T>(T) { return static_cast<double>(take<T>()); });
+    }
+
+    [[nodiscard]] std::int64_t index(const column& c) {
+        if (c.type == scalar_type::int32) return take<std::int32_t>();
+        return with_type(c.type, [&]<class T>(T) { return static_cast<std::int64_t>(take<T>()); });
+    }
+
+    void scalar(column& c) {
+        with_type(c.type, [&]<class T>(T) { append(c.values, take<T>()); });
+    }
+
+    void end_row() { file_.release_before(at_); }
+
+    /// The next `bytes` bytes, which must be there, to be read by the caller.
+    [[nodiscard]] const char* take_bytes(std::size_t bytes) {
+        const char* const first = at_;
+        at_ += bytes;
+        return first;
+    }
+
+    [[nodiscard]] bool only_blanks_left() const { return at_ == file_.end(); }
+    [[noreturn]] void fail(const std::string& reason) const { file_.fail_byte(at_, reason); }
+
+  private:
+    template <class T>
+    [[nodiscard]] T take() {
+        if (bytes_left() < sizeof(T)) file_.fail_byte(at_, "the file ends within a row");
+        const T value = load<T, order>(at_);
+        at_ += sizeof(T);
+        return value;
+    }
+
+    const source& file_;
+    const char* at_;
+};
+
+}  // namespace treeform::detail::io

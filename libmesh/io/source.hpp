@@ -1,0 +1,72 @@
+#pragma once
+/// \file
+/// The bytes of an input: a mapped file, what came through a pipe, or the caller's memory.
+
+#include <libmesh/io/scratch.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace treeform::detail::io {
+
+class source {
+  public:
+    /// The file at `path`, mapped when it is a regular file, else read to its end, into memory or
+    /// into a file without a name that is mapped; "-" is standard input.
+    ///
+    /// \throws io_error
+    [[nodiscard]] static source open(const std::filesystem::path& path,
+                                     scratch_place unmapped = scratch_place::memory);
+    /// The caller's bytes, which must outlive the source.
+    source(std::span<const std::byte> bytes, std::string_view name);
+    source(source&& other) noexcept;
+    source(const source&) = delete;
+    source& operator=(const source&) = delete;
+    source& operator=(source&&) = delete;
+    ~source();
+
+    [[nodiscard]] const char* begin() const { return begin_; }
+    [[nodiscard]] const char* end() const { return begin_ + size_; }
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] std::string_view name() const { return name_; }
+
+    /// Says that the bytes before `at` are not needed for now: a mapped file gives their memory
+    /// back. They can still be read.
+    void release_before(const char* at) const {
+        if (at > release_at_) release(at);
+    }
+
+    /// Starts `release_before` anew, for another pass.
+    void rewind() const;
+
+    /// How many line feeds there are; a pass of its own, several times as fast as parsing.
+    [[nodiscard]] std::size_t count_newlines() const;
+
+    /// Throws io_error "name:line: reason" for the line that holds `at`, which is counted only now.
+    [[noreturn]] void fail_line(const char* at, std::string_view reason) const;
+    /// Throws io_error "name: byte N: reason".
+    [[noreturn]] void fail_byte(const char* at, std::string_view reason) const;
+    /// Throws io_error "name: reason".
+    [[noreturn]] void fail(std::string_view reason) const;
+
+  private:
+    enum class owner : std::uint8_t { caller, map, heap };
+
+    source() = default;
+    [[nodiscard]] bool map(int fd, std::size_t size);
+    void release(const char* at) const;
+    void plan_release() const;
+
+    const char* begin_ = nullptr;
+    std::size_t size_ = 0;
+    std::string name_{};
+    owner owner_ = owner::caller;
+    mutable const char* released_ = nullptr;    ///< up to here; a multiple of the page size
+    mutable const char* release_at_ = nullptr;  ///< next place worth a system call
+};
+
+}  // namespace treeform::detail::io

@@ -1,0 +1,107 @@
+#pragma once
+/// \file
+/// A place in the text of an input, and the steps that all text formats share.
+
+#include <libmesh/io/number.hpp>
+#include <libmesh/io/source.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace treeform::detail::io {
+
+/// The start of what stands at `at`, fit for an error message: one word, printable, short.
+[[nodiscard]] inline std::string quoted(const char* at, const char* end) {
+    constexpr std::size_t longest = 24;
+    std::string word = "'";
+    for (; at < end && !is_space(*at) && word.size() <= longest; ++at)
+        word += *at >= ' ' && *at <= '~' ? *at : '?';
+    return word + (at < end && !is_space(*at) ? "...'" : "'");
+}
+
+struct text {
+    const source& file;
+    const char* at;
+    const char* end;
+
+    explicit text(const source& s) : file(s), at(s.begin()), end(s.end()) {
+        if (starts_with("\xef\xbb\xbf")) at += 3;  // byte order mark of UTF-8
+    }
+
+    [[nodiscard]] bool done() const { return at == end; }
+    [[nodiscard]] bool starts_with(std::string_view word) const {
+        return std::string_view(at, static_cast<std::size_t>(end - at)).starts_with(word);
+    }
+
+    void skip_blanks() {
+        while (at < end && is_blank(*at)) ++at;
+    }
+    void skip_spaces() {
+        while (at < end && is_space(*at)) ++at;
+    }
+    void skip_line() {
+        while (at < end && !is_newline(*at)) ++at;
+    }
+    /// Skips blanks; true at a newline, at a comment, at the end of the text.
+    [[nodiscard]] bool line_done() {
+        skip_blanks();
+        return at == end || is_newline(*at) || *at == '#';
+    }
+    /// Skips blanks, newlines and comments; true at the end of the text.
+    [[nodiscard]] bool text_done() {
+        for (;;) {
+            skip_spaces();
+            if (at == end) return true;
+            if (*at != '#') return false;
+            skip_line();
+        }
+    }
+
+    /// The bytes up to the next blank or newline; moves behind them.
+    [[nodiscard]] std::string_view word() {
+        const char* const first = at;
+        while (at < end && !is_space(*at)) ++at;
+        return {first, static_cast<std::size_t>(at - first)};
+    }
+    /// The rest of the line without blanks around it; moves to its end.
+    [[nodiscard]] std::string_view rest_of_line() {
+        skip_blanks();
+        const char* const first = at;
+        skip_line();
+        const char* last = at;
+        while (last > first && is_blank(last[-1])) --last;
+        return {first, static_cast<std::size_t>(last - first)};
+    }
+
+    /// The number at this place, which must end where a blank or newline begins: "1.#IND" is
+    /// no number.
+    [[nodiscard]] double number(std::string_view what) {
+        const parsed<double> n = parse_number(at, end);
+        if (n.end == nullptr || !delimited(n.end)) fail_number(what, n.end);
+        at = n.end;
+        return n.value;
+    }
+    [[nodiscard]] std::int64_t integer(std::string_view what) {
+        const parsed<std::int64_t> n = parse_integer(at, end);
+        if (n.end == nullptr || !delimited(n.end)) fail_number(what, n.end);
+        at = n.end;
+        return n.value;
+    }
+
+    [[noreturn]] void fail(std::string_view reason) const { file.fail_line(at, reason); }
+
+  private:
+    [[nodiscard]] bool delimited(const char* p) const { return p == end || is_space(*p); }
+    [[noreturn]] void fail_number(std::string_view what, const char* stop) const {
+        const std::string subject(what);
+        if (at == end) fail("the file ends where " + subject + " should stand");
+        if (is_newline(*at)) fail("the line ends where " + subject + " should stand");
+        if (stop != nullptr && *stop == ',')
+            fail(quoted(at, end) + " for " + subject + ": the decimal mark is the point");
+        fail(quoted(at, end) + " where " + subject + " should stand");
+    }
+};
+
+}  // namespace treeform::detail::io

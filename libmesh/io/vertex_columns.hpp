@@ -1,0 +1,71 @@
+#pragma once
+/// \file
+/// The columns of the element "vertex": which of them are coordinates, how they start out empty.
+
+#include <treeform/mesh/attributes.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace treeform::detail::io {
+
+/// 0, 1, 2 for the roles x, y, z.
+[[nodiscard]] constexpr std::size_t axis_number(column_role role) {
+    return static_cast<std::size_t>(role) - static_cast<std::size_t>(column_role::x);
+}
+
+[[nodiscard]] constexpr column_role role_of_axis(std::size_t axis) {
+    return static_cast<column_role>(static_cast<std::size_t>(column_role::x) + axis);
+}
+
+[[nodiscard]] inline const column* with_role(const element& e, column_role role) {
+    const auto at = std::find_if(e.columns.begin(), e.columns.end(),
+                                 [&](const column& c) { return c.role == role; });
+    return at == e.columns.end() ? nullptr : &*at;
+}
+
+/// True when float32 holds every value of the types of the coordinates.
+[[nodiscard]] inline bool has_single_axes(const element& vertices) {
+    return std::all_of(vertices.columns.begin(), vertices.columns.end(), [](const column& c) {
+        return c.role == column_role::data || c.type == scalar_type::float32 || size_of(c.type) < 4;
+    });
+}
+
+/// A column without its values.
+[[nodiscard]] inline column declaration(const column& c) {
+    return {.name = c.name, .type = c.type, .list_length = c.list_length, .role = c.role};
+}
+
+/// Makes of `e` an element without rows that has the columns of `declared`; their memory stays.
+inline void restart(element& e, const element& declared) {
+    e.name = declared.name;
+    e.rows = 0;
+    e.columns.resize(declared.columns.size());
+    for (std::size_t i = 0; i < e.columns.size(); ++i) {
+        column& c = e.columns[i];
+        std::vector<std::byte> values = std::move(c.values);
+        std::vector<std::uint64_t> list_begin = std::move(c.list_begin);
+        values.clear();
+        list_begin.clear();
+        c = declaration(declared.columns[i]);
+        if (c.list_length) list_begin.push_back(0);
+        c.values = std::move(values);
+        c.list_begin = std::move(list_begin);
+    }
+}
+
+/// Room for the values of `rows` rows; lists start at their first value.
+inline void start_columns(element& e, std::size_t rows) {
+    for (column& c : e.columns) {
+        if (c.role != column_role::data) continue;
+        if (c.list_length)
+            c.list_begin.assign(1, 0);
+        else
+            c.values.reserve(rows * size_of(c.type));
+    }
+}
+
+}  // namespace treeform::detail::io

@@ -1,0 +1,89 @@
+#pragma once
+/// \file
+/// A plate with parts on it, each checked against those that were there before.
+
+#include <libmesh/place/plate_raster.hpp>
+#include <treeform/mesh/arrange.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::place {
+
+/// A part turned about the vertical and moved to the origin: the least coordinates are exactly 0.
+class turned_part {
+  public:
+    /// By `turn` times 15 degrees. \pre it has faces
+    turned_part(mesh_view part, unsigned turn);
+
+    [[nodiscard]] unsigned turn() const { return turn_; }
+    [[nodiscard]] mesh_view mesh() const { return {points_, faces_}; }
+    [[nodiscard]] const point3& size() const { return size_; }  ///< rounded; NaN if too large
+    /// The map that the points of the part have gone through, then moved by `by`.
+    [[nodiscard]] transform<3> matrix(const point3& by) const;
+
+  private:
+    unsigned turn_;
+    std::span<const face> faces_;
+    std::vector<point3> points_;
+    std::array<double, 2> axis_{};  ///< cosine and sine
+    point3 centre_;                 ///< of the turn
+    point3 lowest_;                 ///< after it, taken off
+    point3 size_;
+};
+
+class plate {
+  public:
+    plate(const arrange_options& options, double cell, bool square);
+
+    [[nodiscard]] const plate_raster& raster() const { return raster_; }
+    [[nodiscard]] std::uint64_t pairs_measured() const { return measured_; }
+
+    /// Puts the part at a place of the raster, or near it towards the corner of the plate. False,
+    /// and nothing is changed, when it would stick out or come too near to another part.
+    bool put(std::uint32_t number, mesh_view part, unsigned turn, cell_place at);
+
+    /// What has become of all parts; the plate is no more.
+    [[nodiscard]] std::vector<arranged_part> take_parts(std::span<const mesh_view> parts);
+
+  private:
+    struct resident {
+        std::uint32_t number;
+        arranged_part part;
+        std::span<const face> faces;
+        tree<3> faces_tree;
+        box3 box;
+
+        [[nodiscard]] mesh_view mesh() const { return {part.points, faces}; }
+    };
+
+    [[nodiscard]] resident at(std::uint32_t number, const turned_part& part,
+                              const point3& by) const;
+    [[nodiscard]] bool fits(const resident& one);
+    [[nodiscard]] bool inside(const box3& box) const;
+    [[nodiscard]] bool apart(const resident& a, const resident& b);
+    [[nodiscard]] double next_above(double below) const;
+    [[nodiscard]] double snapped(double at, std::size_t axis) const;
+    void slide(const turned_part& part, const tree<3>& faces_tree, point3& by);
+    [[nodiscard]] double distance_to(const std::vector<const resident*>& others,
+                                     const turned_part& part, const tree<3>& faces_tree,
+                                     const point3& by, double most) const;
+    [[nodiscard]] double free_travel(const turned_part& part, const tree<3>& faces_tree,
+                                     const point3& by, std::size_t axis) const;
+
+    const arrange_options& options_;
+    double cell_;
+    double unit_;  ///< of the last place of coordinates on the plate
+    plate_raster raster_;
+    std::vector<resident> residents_;
+    std::uint64_t measured_ = 0;
+};
+
+}  // namespace treeform::detail::place

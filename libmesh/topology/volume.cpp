@@ -1,0 +1,25 @@
+#include <libmesh/base/twofold.hpp>
+#include <treeform/mesh/volume.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace treeform {
+
+double signed_volume(mesh_view mesh) {
+    constexpr std::size_t grain = std::size_t{1} << 14;
+    std::vector<detail::base::twofold> parts(chunk_count(mesh.faces.size(), grain));
+    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const auto [p, q, r] = mesh.faces[f];
+            parts[c] = parts[c] +
+                       detail::base::determinant(mesh.points[p], mesh.points[q], mesh.points[r]);
+        }
+    });
+    detail::base::twofold all;
+    for (const detail::base::twofold& part : parts) all = all + part;
+    return all.high / 6.0;
+}
+
+}  // namespace treeform

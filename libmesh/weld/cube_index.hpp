@@ -1,0 +1,76 @@
+#pragma once
+/// \file
+/// Cubes without limits: from denormals to the largest double, no box and no range of indices.
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace treeform::detail::weld {
+
+/// Where a coordinate lies among intervals of one width; those of points within the tolerance
+/// differ by little.
+///
+/// In units of the width a coordinate x is x / width below 2^46, and from there on grows 4096 times
+/// slower, so that its double is off by less than 2^-6 everywhere below 2^56; two such positions
+/// are at most as far apart as the coordinates are in widths, and 2^-5. Further off, doubles lie
+/// more than a width apart: unequal ones are beyond any tolerance up to the width, and 64 bits of
+/// the coordinate itself are its index.
+class cube_axis {
+  public:
+    struct range {
+        std::int64_t first;
+        std::int64_t last;
+    };
+
+    /// \pre width > 0
+    explicit cube_axis(double width) : width_(width) {}
+
+    /// The indices of intervals that hold whatever is within `reach` widths of x, reach <= 2.
+    [[nodiscard]] range around(double x, double reach) const {
+        const double at = position(x);
+        if (!(std::abs(at) < far)) return {bits_of(x), bits_of(x)};
+        return {whole(at - reach - slack), whole(at + reach + slack)};
+    }
+    /// The intervals up to `count` beyond that of x.
+    [[nodiscard]] range neighbors(double x, std::int64_t count) const {
+        const double at = position(x);
+        if (!(std::abs(at) < far)) return {bits_of(x), bits_of(x)};
+        return {whole(at) - count, whole(at) + count};
+    }
+    [[nodiscard]] std::int64_t index(double x) const {
+        const double at = position(x);
+        return std::abs(at) < far ? whole(at) : bits_of(x);
+    }
+
+  private:
+    static constexpr double slack = 0x1p-5;
+    static constexpr double straight = 0x1p46;
+    static constexpr double far = straight + 0x1p44;  // x / width = 2^56
+
+    [[nodiscard]] double position(double x) const {
+        const double at = x / width_;  // infinite where that is beyond all doubles
+        if (std::abs(at) < straight) return at;
+        return std::copysign(straight + (std::abs(at) - straight) * 0x1p-12, at);
+    }
+    [[nodiscard]] static std::int64_t whole(double at) {
+        return static_cast<std::int64_t>(std::floor(at));
+    }
+    [[nodiscard]] static std::int64_t bits_of(double x) { return std::bit_cast<std::int64_t>(x); }
+
+    double width_;
+};
+
+[[nodiscard]] inline std::uint64_t cube_hash(std::int64_t x, std::int64_t y, std::int64_t z,
+                                             std::uint32_t kind) {
+    std::uint64_t h = kind;
+    for (const std::int64_t i : {x, y, z}) {
+        h = (h + static_cast<std::uint64_t>(i)) * 0x9e3779b97f4a7c15;
+        h ^= h >> 32;
+    }
+    return h * 0xd1342543de82ef95;
+}
+
+}  // namespace treeform::detail::weld

@@ -1,0 +1,78 @@
+#pragma once
+/// \file
+/// The edges of faces, each with the faces that use it.
+
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace treeform::detail::weld {
+
+/// An edge and what uses it, by ascending number of the face.
+struct used_edge {
+    std::uint32_t low;
+    std::uint32_t high;
+    std::span<const std::uint64_t> uses;
+
+    [[nodiscard]] std::uint32_t face(std::size_t use) const {
+        return static_cast<std::uint32_t>(uses[use]);
+    }
+};
+
+/// What becomes of faces that repeat a corner.
+enum class repeated_corners : std::uint8_t {
+    left_out,  ///< they have no edges
+    counted    ///< with two different corners they use the edge between these twice
+};
+
+/// \pre  every corner is less than `point_count`
+/// \cost O(V + F log d) time for at most d edges at a point, 24 bytes a face and 8 a point
+/// \same on any number of threads
+class edge_uses {
+  public:
+    edge_uses(std::size_t point_count, std::span<const face> faces, repeated_corners repeated);
+
+    /// Calls `body(edge, chunk)` for every edge, in parallel over `chunks()` chunks of points.
+    template <class Body>
+    void for_each(const Body& body) const {
+        for_chunks(size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+            for (std::size_t v = begin; v < end; ++v)
+                for_each_at(static_cast<std::uint32_t>(v), chunk, body);
+        });
+    }
+    [[nodiscard]] std::size_t chunks() const { return chunk_count(size(), grain); }
+
+  private:
+    static constexpr std::size_t grain = std::size_t{1} << 13;
+
+    [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+
+    template <class Body>
+    void for_each_at(std::uint32_t low, std::size_t chunk, const Body& body) const {
+        const std::size_t last = begin_[low + std::size_t{1}];
+        for (std::size_t begin = begin_[low], end = begin; begin < last; begin = end) {
+            const std::uint64_t high = uses_[begin] >> 32;
+            while (end < last && uses_[end] >> 32 == high) ++end;
+            body(used_edge{low, static_cast<std::uint32_t>(high),
+                           uses_.span().subspan(begin, end - begin)},
+                 chunk);
+        }
+    }
+
+    buffer<std::size_t> begin_;   ///< [V + 1] where the uses at each point as lower end begin
+    buffer<std::uint64_t> uses_;  ///< higher end, then face; ascending at each point
+};
+
+/// Edges of more than two faces, among the faces with three different corners.
+[[nodiscard]] std::uint64_t count_nonmanifold_edges(std::size_t point_count,
+                                                    std::span<const face> faces);
+
+/// [V] 1 for the ends of edges of exactly one face, among the faces with three different corners.
+[[nodiscard]] buffer<std::uint8_t> border_points(std::size_t point_count,
+                                                 std::span<const face> faces);
+
+}  // namespace treeform::detail::weld

@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// Whether two sets of points come within the tolerance of each other.
+
+#include <libmesh/weld/reach.hpp>
+#include <treeform/mesh/weld_points.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace treeform::detail::weld {
+
+/// Whether two points of one kind may be put together.
+class matcher {
+  public:
+    /// \pre both outlive it
+    matcher(points_view points, const weld_options& options)
+        : points_(points), options_(&options), within_(options.tolerance) {}
+
+    /// \pre both points are finite
+    [[nodiscard]] bool operator()(std::uint32_t i, std::uint32_t j) const {
+        return (options_->kind.empty() || options_->kind[i] == options_->kind[j]) &&
+               within_.holds(points_[i], points_[j]) && (!options_->agree || options_->agree(i, j));
+    }
+    [[nodiscard]] bool near(const point3& a, const point3& b) const { return within_.holds(a, b); }
+    [[nodiscard]] const point3& point(std::uint32_t i) const { return points_[i]; }
+    /// Whether all points of one kind within the tolerance match.
+    [[nodiscard]] bool by_distance() const { return !options_->agree; }
+
+  private:
+    points_view points_;
+    const weld_options* options_;
+    reach within_;
+};
+
+/// Whether some point of `a` matches one of `b`, which is of the same kind. Both are reordered.
+///
+/// \cost O(|a| + |b|) where the answer is plain from their boxes or from a few near points;
+///       halves of halves where two surfaces run along each other at the tolerance
+[[nodiscard]] bool any_match(const matcher& match, std::span<std::uint32_t> a,
+                             std::span<std::uint32_t> b);
+
+}  // namespace treeform::detail::weld

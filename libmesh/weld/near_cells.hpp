@@ -1,0 +1,187 @@
+#pragma once
+/// \file
+/// Points that come one by one, and those among them near a place.
+
+#include <treeform/mesh/points.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace treeform::detail::weld {
+
+/// Cubes whose edge is a power of two, and at least four times the tolerance. Coordinates are
+/// divided by the edge without error. Beyond 2^47 edges a cube is 64 neighboring doubles a side:
+/// at least two edges, and more than an interval of 1.26 tolerances to both sides, rounded
+/// outward, is wide. So such an interval meets at most two cubes a side, those of its ends.
+class cube_map {
+  public:
+    static constexpr double reach = 1.26;  ///< of the interval, in tolerances
+
+    explicit cube_map(double tolerance)
+        : half_(std::min(reach * tolerance, greatest)),
+          exact_(tolerance == 0.0),
+          least_exponent_(std::ilogb(std::max(tolerance, 0x1p-900)) + 3) {
+        set_edge(least_exponent_ + 2);
+    }
+
+    [[nodiscard]] bool can_shrink() const { return !exact_ && exponent_ > least_exponent_; }
+    void shrink() { set_edge(exponent_ - 1); }
+
+    using cube = std::array<std::int64_t, 3>;
+    /// With tolerance 0 a cube is a point.
+    [[nodiscard]] cube of(const point3& p) const { return {index(p.x), index(p.y), index(p.z)}; }
+    /// The lowest and the highest cube of those near `p`.
+    [[nodiscard]] std::array<cube, 2> around(const point3& p) const {
+        std::array<cube, 2> ends;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double x = p[axis];
+            const double slack = exact_ ? 0.0 : (std::abs(x) + half_) * 0x1p-51;
+            ends[0][axis] = index(std::max(x - half_ - slack, -greatest));
+            ends[1][axis] = index(std::min(x + half_ + slack, greatest));
+        }
+        return ends;
+    }
+
+    [[nodiscard]] static std::uint64_t hash(std::int64_t x, std::int64_t y, std::int64_t z) {
+        std::uint64_t h = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15;
+        h = (h ^ h >> 32 ^ static_cast<std::uint64_t>(y)) * 0xd1342543de82ef95;
+        h = (h ^ h >> 32 ^ static_cast<std::uint64_t>(z)) * 0xaf251af3b0f025b5;
+        return h ^ h >> 32;
+    }
+
+  private:
+    static constexpr double greatest = std::numeric_limits<double>::max();
+
+    /// Where edges are hardly to be had, all is one cube.
+    void set_edge(int exponent) {
+        exponent_ = exponent;
+        per_edge_ = exponent > 1000 ? 0.0 : std::ldexp(1.0, -exponent);
+        limit_ = std::ldexp(1.0, exponent + 47);
+    }
+
+    [[nodiscard]] std::int64_t index(double x) const {
+        if (!exact_ && std::abs(x) < limit_) {
+            const double steps = x * per_edge_;
+            const auto cut = static_cast<std::int64_t>(steps);
+            return static_cast<double>(cut) > steps ? cut - 1 : cut;
+        }
+        const auto bits = std::bit_cast<std::int64_t>(x + 0.0);  // -0 becomes +0
+        return exact_ ? bits : bits >> 6;
+    }
+
+    double half_;
+    bool exact_;
+    int least_exponent_;
+    int exponent_ = 0;
+    double per_edge_ = 1.0;
+    double limit_ = 0.0;
+};
+
+/// Points by cube. Cubes start wide, so that a look mostly meets one of them, and shrink when they
+/// are crowded.
+template <class Entry>  // has a point3 `at`
+class near_cells {
+  public:
+    explicit near_cells(double tolerance) : cubes_(tolerance), heads_(least_heads, nobody) {}
+
+    void reserve(std::size_t count) {
+        entries_.reserve(count);
+        next_.reserve(count);
+        if (2 * count <= heads_.size()) return;
+        heads_.assign(std::bit_ceil(2 * count), nobody);
+        hang_all();
+    }
+    [[nodiscard]] std::size_t size() const { return entries_.size(); }
+
+    void add(const Entry& entry) {
+        entries_.push_back(entry);
+        next_.push_back(nobody);
+        if (2 * entries_.size() > heads_.size()) {
+            heads_.assign(2 * heads_.size(), nobody);
+            hang_all();
+        } else {
+            hang(static_cast<std::uint32_t>(entries_.size() - 1));
+        }
+    }
+
+    /// Calls `meet(entry)` for those within reach of `p` and others; for some more than once.
+    template <class Meet>
+    void visit(const point3& p, const Meet& meet) {
+        const auto [low, high] = cubes_.around(p);
+        std::size_t met = 0;
+        for (std::int64_t x : {low[0], high[0]}) {
+            for (std::int64_t y : {low[1], high[1]}) {
+                for (std::int64_t z : {low[2], high[2]}) {
+                    for (std::uint32_t i = head(x, y, z); i != nobody; i = next_[i], ++met)
+                        meet(entries_[i]);
+                    if (low[2] == high[2]) break;
+                }
+                if (low[1] == high[1]) break;
+            }
+            if (low[0] == high[0]) break;
+        }
+        count(met);
+    }
+
+    /// Asks memory for what `visit` reads first.
+    void prefetch(const point3& p) const {
+        const auto cube = cubes_.of(p);
+        __builtin_prefetch(&heads_[slot(cube[0], cube[1], cube[2])]);
+    }
+    /// Later: for what it reads then.
+    void prefetch_entry(const point3& p) const {
+        const auto cube = cubes_.of(p);
+        const std::uint32_t i = head(cube[0], cube[1], cube[2]);
+        if (i == nobody) return;
+        __builtin_prefetch(&entries_[i]);
+        __builtin_prefetch(&next_[i]);
+    }
+
+  private:
+    static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+    static constexpr std::size_t least_heads = 1024;
+
+    [[nodiscard]] std::size_t slot(std::int64_t x, std::int64_t y, std::int64_t z) const {
+        return cube_map::hash(x, y, z) & (heads_.size() - 1);
+    }
+    [[nodiscard]] std::uint32_t head(std::int64_t x, std::int64_t y, std::int64_t z) const {
+        return heads_[slot(x, y, z)];
+    }
+    void hang(std::uint32_t i) {
+        const auto cube = cubes_.of(entries_[i].at);
+        std::uint32_t& first = heads_[slot(cube[0], cube[1], cube[2])];
+        next_[i] = first;
+        first = i;
+    }
+    void hang_all() {
+        for (std::uint32_t i = 0; i < entries_.size(); ++i) hang(i);
+    }
+
+    void count(std::size_t met) {
+        constexpr std::size_t looks_a_turn = 4096;
+        constexpr std::size_t crowd = 16;
+        met_ += met;
+        if (++looks_ < looks_a_turn) return;
+        if (met_ > crowd * looks_ && cubes_.can_shrink()) {
+            cubes_.shrink();
+            std::fill(heads_.begin(), heads_.end(), nobody);
+            hang_all();
+        }
+        met_ = looks_ = 0;
+    }
+
+    cube_map cubes_;
+    std::vector<Entry> entries_{};
+    std::vector<std::uint32_t> next_{};
+    std::vector<std::uint32_t> heads_;
+    std::size_t looks_ = 0;
+    std::size_t met_ = 0;
+};
+
+}  // namespace treeform::detail::weld

@@ -1,0 +1,104 @@
+#pragma once
+/// \file
+/// Three ways to find all pairs of points within a tolerance, where these are few.
+
+#include <libmesh/weld/lattice.hpp>
+#include <libmesh/weld/reach.hpp>
+#include <treeform/mesh/points.hpp>
+#include <treeform/tree/candidates.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace treeform::detail::weld {
+
+/// What is looked for, and who is told; both are called from several threads at once. Points that
+/// are not finite are in no pair.
+struct near_pairs_task {
+    points_view points;
+    double tolerance;
+    std::span<const std::uint32_t> kind;  ///< [V] or empty: only pairs of a kind
+    /// Equal points of a kind may be named once and be in no pair from then on.
+    bool collapse;
+    function_ref<void(std::uint32_t first, std::uint32_t copy)> copies;  ///< first < copy
+    /// Pairs within the tolerance, exactly, in any order; some of them twice. False stops it all.
+    function_ref<bool(std::span<const id_pair>)> pairs;
+};
+
+/// Each returns whether it came to its end: not when `pairs` stopped it, or when it saw that it
+/// would take long. What was named by then is right.
+[[nodiscard]] bool pairs_by_window(const near_pairs_task& task, const lattice& steps);
+[[nodiscard]] bool pairs_by_cells(const near_pairs_task& task, const lattice& steps);
+[[nodiscard]] bool pairs_by_tree(const near_pairs_task& task);
+
+/// Points, of all, that a window meets on average, judged from a few thousand of them.
+[[nodiscard]] double estimated_window(points_view points, const lattice& steps);
+
+/// Candidates of one thread on their way to the task.
+class pair_collector {
+  public:
+    explicit pair_collector(const near_pairs_task& task) : task_(task), within_(task.tolerance) {}
+
+    /// Returns false when there is no more to do, here and in all other threads that ask.
+    bool add(std::uint32_t a, std::uint32_t b, lattice::verdict known) {
+        if (known == lattice::verdict::beyond) return true;
+        if (!task_.kind.empty() && task_.kind[a] != task_.kind[b]) return true;
+        if (known == lattice::verdict::unsure && !within_.holds(task_.points[a], task_.points[b]))
+            return true;
+        block_[size_++] = {a, b};
+        return size_ < block_.size() || flush();
+    }
+
+    bool flush() {
+        const bool more = size_ == 0 || task_.pairs({block_.data(), size_});
+        size_ = 0;
+        return more;
+    }
+
+  private:
+    const near_pairs_task& task_;
+    reach within_;
+    std::array<id_pair, 1024> block_;
+    std::size_t size_ = 0;
+};
+
+[[nodiscard]] inline bool equal(const point3& a, const point3& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/// Takes out of `bucket` the points that equal an earlier one beside them, and returns how many are
+/// left. `together(a, b)` says whether two records are the same but for their point, and such stand
+/// in ascending order of their points.
+template <class Record, class Together>
+std::size_t collapse_equal(const near_pairs_task& task, std::span<Record> bucket,
+                           const Together& together) {
+    if (!task.collapse) return bucket.size();
+    std::size_t i = 0;
+    for (i = 1; i < bucket.size(); ++i)
+        if (together(bucket[i - 1], bucket[i])) {
+            __builtin_prefetch(&task.points[bucket[i - 1].id]);
+            __builtin_prefetch(&task.points[bucket[i].id]);
+        }
+    std::size_t kept = 0;
+    std::size_t first = 0;
+    for (i = 0; i < bucket.size(); ++i) {
+        const Record record = bucket[i];
+        if (kept == 0 || !together(bucket[first], record)) {
+            first = kept;
+        } else if (const std::uint32_t a = bucket[first].id, b = record.id;
+                   equal(task.points[a], task.points[b]) &&
+                   (task.kind.empty() || task.kind[a] == task.kind[b])) {
+            task.copies(a, b);
+            continue;
+        }
+        bucket[kept++] = record;
+    }
+    return kept;
+}
+
+}  // namespace treeform::detail::weld

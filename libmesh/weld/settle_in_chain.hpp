@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// What a tile says of a point with the rule chain.
+
+#include <treeform/mesh/tile_weld.hpp>
+
+#include <cstdint>
+
+namespace treeform::detail::weld {
+
+/// The component of a point inside a tile.
+struct chain_component {
+    std::uint64_t lowest;  ///< its lowest number
+    point3 at;             ///< and where that point is
+    bool elsewhere;        ///< some of its points are in other tiles, too
+};
+
+inline void settle_in_chain(const tile_point& p, const chain_component& c, tile_result& out) {
+    const bool first = p.id() == c.lowest;
+    if (p.role() != tile_role::halo) {
+        if (!first) out.dropped.push_back({p.id(), c.lowest});
+        if (c.elsewhere)
+            out.members.push_back(tile_member::make(c.lowest, first, p.at));
+        else
+            out.move.consider(p.at, c.at);
+    }
+    if (p.role() == tile_role::own) return;
+    border_point link = border_point::make(p.id(), border_kind::link);
+    link.leader = c.lowest;
+    out.border.push_back(link);
+}
+
+}  // namespace treeform::detail::weld

@@ -1,0 +1,168 @@
+#pragma once
+/// \file
+/// Building a tree over any range of anything that has a box.
+
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/detail/build_records.hpp>
+#include <treeform/tree/detail/frame.hpp>
+#include <treeform/tree/detail/round_boxes.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/strategy/bracketed_select.hpp>
+#include <treeform/tree/strategy/nth_element.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <concepts>
+#include <cstddef>
+#include <ranges>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace treeform {
+
+/// A selection algorithm that `build` can use: `partition(first, nth, last, less)` reorders
+/// [first, last) so that nothing before `nth` is greater than anything behind it.
+template <class S>
+concept partition_strategy = requires(int* first, int* nth, int* last,
+                                      bool (*less)(const int&, const int&)) {
+    S::partition(first, nth, last, less);
+};
+static_assert(partition_strategy<strategy::nth_element>);
+
+/// Makes the box of an element: returns a `treeform::aabb<T, D>` of float or double, D = 2 or 3.
+template <class F, class Element>
+concept box_maker = requires(const F& make_aabb, Element element) {
+    { make_aabb(element).min.size() } -> std::convertible_to<std::size_t>;
+};
+
+/// Builds trees and keeps the memory between builds, 24 bytes an element of the largest. Not for
+/// two threads at once. A build that throws leaves `tree` to be rebuilt, not to be searched.
+template <std::size_t D>
+class builder {
+  public:
+    /// Makes `tree` the tree over `range`; what it held is gone. See `build`.
+    template <class Strategy = strategy::bracketed_select, std::ranges::input_range Range,
+              class MakeBox>
+    void rebuild(tree<D>& tree, Range&& range, const MakeBox& make_aabb);
+
+  private:
+    template <class Range, class MakeBox>
+    void run(tree<D>& tree, Range& range, const MakeBox& make_aabb,
+             const detail::select_records* select);
+    template <class Range, class MakeBox>
+    void fill(tree<D>& tree, const Range& range, const MakeBox& make_aabb,
+              const detail::select_records* select);
+
+    detail::build_memory memory_;
+};
+
+/// The tree over the boxes that `make_aabb` gives for the elements of `range`.
+///
+/// The boxes are rounded outward to float in a frame chosen from the data (`tree_frame`): a box of
+/// the tree decides nothing but what may be skipped. Elements are halved along the axis on which
+/// their centres spread most, at any number of equal ones.
+///
+/// `Strategy` is the selection algorithm: the default, or any `partition_strategy`.
+///
+/// \throws std::invalid_argument naming the element whose box is not finite or is empty, or when
+///         the range holds more than `tree<D>::max_size` elements
+/// \cost   O(N log N) expected time; in space about 56 bytes an element at the peak, of which the
+///         tree keeps 32, and the boxes of a range without random access
+/// \same   on any number of threads; a random-access range of known size is read in parallel,
+///         `make_aabb` being called up to twice an element and by several threads at once; any
+///         other is read once, in order
+/// \source Sajovic, Knez and Korez, tf::tree, Algorithm 1; the selection after Floyd and Rivest
+template <class Strategy = strategy::bracketed_select, std::ranges::input_range Range,
+          class MakeBox>
+requires box_maker<MakeBox, std::ranges::range_reference_t<Range>>
+[[nodiscard]] auto build(Range&& range, const MakeBox& make_aabb) {
+    using box = std::remove_cvref_t<decltype(make_aabb(*std::ranges::begin(range)))>;
+    tree<box::dimensions> result;
+    builder<box::dimensions>{}.template rebuild<Strategy>(result, std::forward<Range>(range),
+                                                          make_aabb);
+    return result;
+}
+
+/// The same with the strategy as a value: `build(treeform::strategy::nth_element{}, ...)`.
+template <class Strategy, std::ranges::input_range Range, class MakeBox>
+requires box_maker<MakeBox, std::ranges::range_reference_t<Range>>
+[[nodiscard]] auto build(Strategy, Range&& range, const MakeBox& make_aabb) {
+    return build<Strategy>(std::forward<Range>(range), make_aabb);
+}
+
+template <std::size_t D>
+template <class Strategy, std::ranges::input_range Range, class MakeBox>
+void builder<D>::rebuild(tree<D>& tree, Range&& range, const MakeBox& make_aabb) {
+    if constexpr (std::is_same_v<Strategy, strategy::bracketed_select>) {
+        run(tree, range, make_aabb, nullptr);
+    } else {
+        static_assert(partition_strategy<Strategy>);
+        using record = detail::split_record;
+        const auto select = [](record* first, record* nth, record* last, int axis) {
+            Strategy::partition(first, nth, last, [axis](const record& a, const record& b) {
+                return a.center[axis] < b.center[axis];
+            });
+        };
+        const detail::select_records by_reference = select;
+        run(tree, range, make_aabb, &by_reference);
+    }
+}
+
+template <std::size_t D>
+template <class Range, class MakeBox>
+void builder<D>::run(tree<D>& tree, Range& range, const MakeBox& make_aabb,
+                     const detail::select_records* select) {
+    if constexpr (std::ranges::random_access_range<Range> && std::ranges::sized_range<Range>) {
+        fill(tree, range, make_aabb, select);
+    } else {  // read once, in order
+        using box = std::remove_cvref_t<decltype(make_aabb(*std::ranges::begin(range)))>;
+        std::vector<box> boxes;
+        for (auto&& element : range) boxes.push_back(make_aabb(element));
+        fill(
+            tree, boxes, [](const box& b) -> const box& { return b; }, select);
+    }
+    detail::build_from_records(tree, memory_, select);
+}
+
+template <std::size_t D>
+template <class Range, class MakeBox>
+void builder<D>::fill(tree<D>& tree, const Range& range, const MakeBox& make_aabb,
+                      const detail::select_records* select) {
+    const auto first = std::ranges::begin(range);
+    const auto size = static_cast<std::size_t>(std::ranges::size(range));
+    if (size > treeform::tree<D>::max_size)
+        throw std::invalid_argument("treeform::build: " + std::to_string(size) +
+                                    " elements are too many");
+    const auto box_of = [&](std::size_t i) {
+        return make_aabb(first[static_cast<std::ranges::range_difference_t<Range>>(i)]);
+    };
+    tree.reset(size);
+    tree.set_frame(detail::frame_of<D>(size, box_of));
+    detail::split_record* const records = detail::records_of(tree, memory_, select);
+    memory_.extents.resize(size);
+    std::atomic<std::size_t> bad{size};  // the first element whose box cannot be used
+    using block = detail::box_block<D>;
+    for_chunks(size, std::size_t{1} << 13, [&](std::size_t begin, std::size_t end, std::size_t) {
+        block boxes;
+        for (std::size_t i = begin; i < end; i += block::size) {
+            const std::size_t count = std::min(block::size, end - i);
+            for (std::size_t j = 0; j < count; ++j) boxes.set(j, box_of(i + j));
+            const std::size_t sound =
+                detail::round_boxes(tree.frame(), boxes, count, static_cast<std::uint32_t>(i),
+                                    records + i, memory_.extents.data() + i);
+            if (sound == count) continue;
+            std::size_t seen = bad.load();
+            while (i + sound < seen && !bad.compare_exchange_weak(seen, i + sound)) {
+            }
+            return;
+        }
+    });
+    if (bad.load() != size)
+        throw std::invalid_argument("treeform::build: the box of element " +
+                                    std::to_string(bad.load()) + " is empty or not finite");
+}
+
+}  // namespace treeform

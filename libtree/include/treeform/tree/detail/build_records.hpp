@@ -1,0 +1,67 @@
+#pragma once
+/// \file
+/// The compiled half of the build: from records to ids and nodes.
+
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
+#include <treeform/tree/detail/split.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace treeform::detail {
+
+/// How far a primitive's box reaches from the centre in its record, in eight bytes, since gathering
+/// them by primitive is a random access: D floats of 21 bits each, without a sign and rounded up,
+/// the last axis in the lowest bits.
+class half_extents {
+  public:
+    static constexpr unsigned kept = 21;  ///< 8 of exponent, 13 of mantissa
+    static constexpr unsigned dropped = 10;
+
+    /// At least the extent on axis `k` of D, and at most 2^-13 of it more.
+    template <std::size_t D>
+    [[nodiscard]] float on_axis(std::size_t k) const {
+        const std::uint64_t bits = bits_ >> (kept * (D - 1 - k)) & ((1U << kept) - 1);
+        return std::bit_cast<float>(static_cast<std::uint32_t>(bits) << dropped);
+    }
+
+  private:
+    std::uint64_t bits_;
+};
+
+/// What a build needs beside the tree itself; kept by `builder`, a rebuild allocates nothing.
+struct build_memory {
+    buffer<split_record> records;
+    buffer<half_extents> extents;
+};
+
+/// Selection in place: no record of [first, nth) behind one of [nth, last) along `axis`.
+using select_records =
+    function_ref<void(split_record* first, split_record* nth, split_record* last, int axis)>;
+
+/// Where the records [N] belong before `build_from_records`; the shape of `tree` is set.
+template <std::size_t D>
+[[nodiscard]] TREEFORM_API split_record* records_of(tree<D>& tree, build_memory& memory,
+                                                    const select_records* select);
+
+/// Fills `tree`, whose shape and frame are set, from the records at `records_of` and
+/// `memory.extents` [N]. `select` replaces the default selection where it is not null.
+/// \same on any number of threads
+template <std::size_t D>
+TREEFORM_API void build_from_records(tree<D>& tree, build_memory& memory,
+                                     const select_records* select);
+
+extern template TREEFORM_API split_record* records_of(tree<2>&, build_memory&,
+                                                      const select_records*);
+extern template TREEFORM_API split_record* records_of(tree<3>&, build_memory&,
+                                                      const select_records*);
+extern template TREEFORM_API void build_from_records(tree<2>&, build_memory&,
+                                                     const select_records*);
+extern template TREEFORM_API void build_from_records(tree<3>&, build_memory&,
+                                                     const select_records*);
+
+}  // namespace treeform::detail

@@ -1,0 +1,69 @@
+#pragma once
+/// \file
+/// The k nearest of those offered.
+
+#include <treeform/tree/neighbor.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace treeform::detail {
+
+/// Few are kept sorted: a new one is moved in place. Many are kept as a heap, the furthest on top.
+template <class Neighbor>
+class nearest_k {
+  public:
+    nearest_k(std::size_t k, double squared_radius) : k_(k) {
+        kept_.reserve(std::min<std::size_t>(k, 4096));  // a caller may ask for all there are
+        reset(squared_radius);
+    }
+
+    void offer(Neighbor one) {
+        if (!(one.squared_distance() <= bound_)) return;  // NaN is not
+        if (kept_.size() == k_) {
+            if (!nearer(one, furthest())) return;
+            if (!few()) std::pop_heap(kept_.begin(), kept_.end(), order);
+            kept_.pop_back();
+        }
+        kept_.push_back(std::move(one));
+        if (few())
+            for (auto at = kept_.end() - 1; at != kept_.begin() && nearer(*at, *(at - 1)); --at)
+                std::swap(*at, *(at - 1));
+        else
+            std::push_heap(kept_.begin(), kept_.end(), order);
+        if (kept_.size() == k_) bound_ = furthest().squared_distance();
+    }
+
+    /// The largest squared distance at which one more would be kept.
+    [[nodiscard]] double bound() const { return bound_; }
+
+    /// Whether no other offer can be nearer: all that are wanted are at distance zero.
+    [[nodiscard]] bool done() const { return kept_.size() == k_ && bound_ <= 0.0; }
+
+    /// Those kept, nearest first; nothing can be offered until the next `reset`.
+    [[nodiscard]] std::vector<Neighbor>& sorted() {
+        if (!few()) std::sort_heap(kept_.begin(), kept_.end(), order);
+        return kept_;
+    }
+
+    /// Forgets all and starts again, keeping the memory.
+    void reset(double squared_radius) {
+        kept_.clear();
+        bound_ = k_ == 0 ? -1.0 : squared_radius;
+    }
+
+  private:
+    /// By what `nearer` says of the type.
+    static constexpr auto order = [](const Neighbor& a, const Neighbor& b) { return nearer(a, b); };
+
+    [[nodiscard]] bool few() const { return k_ <= 32; }
+    [[nodiscard]] const Neighbor& furthest() const { return few() ? kept_.back() : kept_.front(); }
+
+    std::size_t k_;
+    double bound_;
+    std::vector<Neighbor> kept_;
+};
+
+}  // namespace treeform::detail

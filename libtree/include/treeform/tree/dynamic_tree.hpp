@@ -1,0 +1,166 @@
+#pragma once
+/// \file
+/// Boxes that come, go and move, searched as if a tree had just been built over them. The searches
+/// are in dynamic_search.hpp, dynamic_nearness.hpp and dynamic_ray.hpp.
+
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/detail/node_bounds.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <ranges>
+#include <span>
+#include <vector>
+
+namespace treeform {
+
+/// What the updates of a `dynamic_tree` have cost since it was made.
+struct update_statistics {
+    std::uint64_t built = 0;     ///< primitives that went through the build of a tree, each time
+    std::uint64_t refitted = 0;  ///< boxes written where the primitive was
+    std::uint64_t vacated = 0;   ///< primitives taken out of a tree: removed, or moved elsewhere
+    friend bool operator==(const update_statistics&, const update_statistics&) = default;
+};
+
+/// A tree over a set of primitives that changes: batches of them are inserted, removed and moved.
+/// Every search answers as on a tree built over what there is.
+///
+/// A primitive is known by its id, which it keeps as long as it is there; ids of removed ones are
+/// given out again, the last removed first. The tree keeps a copy of the boxes.
+///
+/// How it works: it is a few packed trees, each at least four times as large as the next.
+/// - A primitive that moves a little is written into its slot. "A little" means within the box that
+///   the (up to 64) primitives of its neighbourhood had when their tree was built, widened by a
+///   quarter: so no box above the leaf blocks ever grows by more.
+/// - Any other, like one that is removed, leaves an empty slot, which costs a search nothing that
+///   its neighbours do not; a tree with more empty slots than others is dissolved.
+/// - What is new, and what was dissolved, makes a tree of its own, together with the trees that are
+///   less than four times as large as that.
+///
+/// So after any updates there are at most 2 + log4(N / 32) trees, none less than half full, and
+/// searches open, as a rule, up to 3 times the nodes of a fresh tree.
+///
+/// \cost   About 90 bytes a primitive in space. An update of K primitives costs O(K log N), and a
+///         sweep over N / 8 bytes where K is above N / 128; amortised over all updates, the builds
+///         take at most 64 + 3.2 log2 N primitives for each that is inserted or moved beyond its
+///         neighbourhood, one at a time, far fewer in batches, and 5 for each that is removed.
+///         A batch of N / 10 such moves costs a build of N / 10, and each third a build of all
+/// \same   on any number of threads
+/// \source the logarithmic method of Bentley and Saxe, Decomposable Searching Problems I, J.
+///         Algorithms 1 (1980); refits after van den Bergen, JGT 2 (1997)
+template <std::size_t D>
+class TREEFORM_API dynamic_tree {
+  public:
+    static constexpr std::size_t dimensions = D;
+    using box_type = aabb<double, D>;
+
+    dynamic_tree() = default;
+    /// Over the elements of `range`, with the ids 0 ... N-1. See `insert`.
+    template <std::ranges::random_access_range Range, class MakeBox>
+    dynamic_tree(const Range& range, const MakeBox& make_aabb) {
+        (void)insert(range, make_aabb);
+    }
+
+    /// Adds the elements of `range`, and returns their ids [K]. `make_aabb` as for `build`.
+    ///
+    /// \throws std::invalid_argument naming the element whose box is not finite or is empty, or
+    ///         when there would be too many; nothing has changed then
+    std::vector<std::uint32_t> insert(std::span<const box_type> boxes);
+    template <std::ranges::random_access_range Range, class MakeBox>
+    std::vector<std::uint32_t> insert(const Range& range, const MakeBox& make_aabb) {
+        return insert(boxes_of(range, make_aabb));
+    }
+
+    /// Takes the primitives `ids` away.
+    ///
+    /// \throws std::invalid_argument naming an id that is not there, or is named twice; nothing
+    ///         has changed then
+    void remove(std::span<const std::uint32_t> ids);
+
+    /// Gives primitive `ids[i]` the box of element i of `range`, or `boxes[i]`.
+    ///
+    /// \throws std::invalid_argument as `remove`, naming the id whose new box is not finite or is
+    ///         empty, or when there are not as many boxes as ids; nothing has changed then
+    void move(std::span<const std::uint32_t> ids, std::span<const box_type> boxes);
+    template <std::ranges::random_access_range Range, class MakeBox>
+    void move(std::span<const std::uint32_t> ids, const Range& range, const MakeBox& make_aabb) {
+        move(ids, boxes_of(range, make_aabb));
+    }
+
+    /// Primitives that are there.
+    [[nodiscard]] std::size_t size() const { return id_end_ - free_.size(); }
+    [[nodiscard]] bool empty() const { return size() == 0; }
+    /// Ids are below this: the length of an array that has an element for each.
+    [[nodiscard]] std::size_t id_end() const { return id_end_; }
+    [[nodiscard]] bool contains(std::uint32_t id) const {
+        return id < id_end_ && where_[id].place != detail::no_primitive;
+    }
+    /// \pre contains(id)
+    [[nodiscard]] const box_type& box(std::uint32_t id) const { return boxes_[id]; }
+
+    /// The trees it is made of, for searches that are not offered here: `tree.ids()` are ids, or
+    /// 0xFFFFFFFF for a slot that is empty. An update invalidates what refers to them.
+    [[nodiscard]] std::vector<const tree<D>*> trees() const;
+    [[nodiscard]] const update_statistics& statistics() const { return statistics_; }
+
+  private:
+    struct location {
+        std::uint32_t part;
+        std::uint32_t place;
+    };
+    struct part {
+        tree<D> boxes;
+        std::size_t live = 0;          ///< slots that are not empty
+        std::vector<box_type> limits;  ///< of the neighbourhoods, as far as their primitives may go
+
+        [[nodiscard]] unsigned neighbourhood_level() const;
+        void set_limits();
+        [[nodiscard]] bool may_hold(std::uint32_t place, const box_type& box) const;
+    };
+
+    template <class Range, class MakeBox>
+    static std::vector<box_type> boxes_of(const Range& range, const MakeBox& make_aabb);
+
+    void make_room(std::size_t ids);
+    void check_ids(const char* function, std::span<const std::uint32_t> ids) const;
+    void vacate(std::uint32_t id);
+    void settle(std::vector<std::uint32_t> pending,
+                const std::vector<std::vector<std::uint32_t>>& touched);
+    void dissolve(part& from, std::vector<std::uint32_t>& to);
+    void build_part(const std::vector<std::uint32_t>& ids);
+
+    std::size_t id_end_ = 0;
+    detail::buffer<box_type> boxes_;   ///< by id, with room for more
+    detail::buffer<location> where_;   ///< by id, with room for more
+    std::vector<std::uint32_t> free_;  ///< ids that are not in use
+    std::vector<part> parts_;          ///< those not in use have no slots
+    update_statistics statistics_;
+};
+
+template <std::size_t D>
+template <class Range, class MakeBox>
+auto dynamic_tree<D>::boxes_of(const Range& range, const MakeBox& make_aabb)
+    -> std::vector<box_type> {
+    std::vector<box_type> boxes(static_cast<std::size_t>(std::ranges::size(range)));
+    for_chunks(boxes.size(), std::size_t{1} << 13,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i) {
+                       const auto box = make_aabb(std::ranges::begin(
+                           range)[static_cast<std::ranges::range_difference_t<const Range>>(i)]);
+                       for (std::size_t k = 0; k < D; ++k) {
+                           boxes[i].min[k] = static_cast<double>(box.min[k]);
+                           boxes[i].max[k] = static_cast<double>(box.max[k]);
+                       }
+                   }
+               });
+    return boxes;
+}
+
+extern template class TREEFORM_API dynamic_tree<2>;
+extern template class TREEFORM_API dynamic_tree<3>;
+
+}  // namespace treeform

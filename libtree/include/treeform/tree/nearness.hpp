@@ -1,0 +1,186 @@
+#pragma once
+/// \file
+/// What of a tree is near a point, a box, or anything that has a box: the nearest primitive, the k
+/// nearest, all within a radius.
+
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
+#include <treeform/tree/detail/nearest_k.hpp>
+#include <treeform/tree/detail/squared_radius.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/neighbor.hpp>
+#include <treeform/tree/strategy/nearness_order.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace treeform {
+
+/// The order in which nodes are opened. Answers are the same for each, times are not.
+using nearness_strategy =
+    std::variant<strategy::depth_first, strategy::top_k_sorted, strategy::priority_queue>;
+
+struct nearness_options {
+    /// Largest distance of an answer, not squared: the root of its squared distance is at most
+    /// this.
+    double radius = std::numeric_limits<double>::infinity();
+    nearness_strategy strategy{};
+};
+
+/// What a search measures from: a box `treeform::aabb<T, D>`, or a point, which is anything else
+/// with [].
+template <class Q, std::size_t D>
+concept nearness_query = requires(const Q& q) {
+    { q.min[D - 1] } -> std::convertible_to<double>;
+    { q.max[D - 1] } -> std::convertible_to<double>;
+}
+|| requires(const Q& q) {
+    { q[D - 1] } -> std::convertible_to<double>;
+};
+
+namespace detail {
+
+/// Calls `visit` as `visit_near` does, from the bound `squared` on.
+template <std::size_t D>
+TREEFORM_API void approach(const tree<D>& tree, const aabb<double, D>& query, double squared,
+                           const nearness_strategy& strategy,
+                           function_ref<double(std::uint32_t)> visit);
+
+template <std::size_t D, nearness_query<D> Query>
+[[nodiscard]] aabb<double, D> box_of_query(const Query& query) {
+    aabb<double, D> box;
+    for (std::size_t k = 0; k < D; ++k) {
+        if constexpr (requires { query.min[k]; }) {
+            box.min[k] = static_cast<double>(query.min[k]);
+            box.max[k] = static_cast<double>(query.max[k]);
+        } else {
+            box.min[k] = box.max[k] = static_cast<double>(query[k]);
+        }
+    }
+    return box;
+}
+
+/// The answer for a primitive that is asked about often: nearer, or as near with a lower number.
+template <class Answer>
+class nearest_one {
+  public:
+    explicit nearest_one(double squared_radius) : bound_(squared_radius) {}
+
+    template <class DistanceOf>
+    void offer(std::uint32_t id, const DistanceOf& distance_of) {
+        auto answer = distance_of(id);
+        const double squared = squared_distance_of(answer);
+        if (!(squared < bound_ || (squared == bound_ && (!best || id < best->id)))) return;
+        bound_ = squared;
+        best = {id, std::move(answer)};
+    }
+    [[nodiscard]] double bound() const { return bound_; }
+
+    std::optional<neighbor<Answer>> best;
+
+  private:
+    double bound_;
+};
+
+}  // namespace detail
+
+/// Calls `visit(id)` for every primitive near `query`, the nearest boxes first, as a rule. What
+/// `visit` returns is the bound from there on: a squared distance. Primitives that are further than
+/// the bound are skipped where their boxes prove it, others may be visited as well; those at the
+/// bound are not skipped. The first bound is that of `options.radius`.
+///
+/// \throws std::invalid_argument for a query that is not finite or an empty box, or a radius that
+///         is negative or NaN
+/// \cost   O(log N + nodes within the final bound) for most queries; serial; no allocation with the
+///         default strategy. Boxes are compared as floats: a query further off than some 1e5
+///         times the extent of the tree cannot tell them apart, and visits many
+/// \same   the primitives visited depend on the strategy and the processor, those within the bound
+///         are always among them
+/// \source Sajovic, Knez and Korez, tf::tree, section III-D; eight boxes at a time
+template <std::size_t D, nearness_query<D> Query, class Visit>
+requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
+void visit_near(const tree<D>& tree, const Query& query, const Visit& visit,
+                const nearness_options& options = {}) {
+    detail::approach<D>(tree, detail::box_of_query<D>(query),
+                        detail::squared_radius("treeform::visit_near", options.radius),
+                        options.strategy, visit);
+}
+
+/// The nearest primitive, of equally near ones that of the lowest number; none when the tree is
+/// empty or all are beyond the radius.
+///
+/// `distance_of(id)` is the squared distance from the query to a primitive: a number, or a struct
+/// with a member `squared_distance`, which comes back in the answer with whatever else it holds.
+/// It may be wrong by 2^-22 of itself; the answer is the least of what it returns. NaN is beyond
+/// any radius. It is asked for primitives in no particular order, and at most once for each.
+///
+/// \throws std::invalid_argument as `visit_near`
+/// \cost   as `visit_near`
+/// \same   as a loop over all primitives, whatever the strategy
+template <std::size_t D, nearness_query<D> Query, class DistanceOf>
+[[nodiscard]] auto nearest(const tree<D>& tree, const Query& query, const DistanceOf& distance_of,
+                           const nearness_options& options = {}) {
+    using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
+    detail::nearest_one<answer> one(detail::squared_radius("treeform::nearest", options.radius));
+    detail::approach<D>(tree, detail::box_of_query<D>(query), one.bound(), options.strategy,
+                        [&](std::uint32_t id) {
+                            one.offer(id, distance_of);
+                            return one.bound();
+                        });
+    return one.best;
+}
+
+/// The k nearest primitives, ascending by distance, then by number; fewer when the tree holds
+/// fewer or they are beyond the radius. See `nearest` for `distance_of`.
+///
+/// \throws std::invalid_argument as `visit_near`
+/// \cost   as `visit_near`, O(log k) more for each primitive that is among the k nearest so far
+/// \same   as sorting all primitives, whatever the strategy
+template <std::size_t D, nearness_query<D> Query, class DistanceOf>
+[[nodiscard]] auto k_nearest(const tree<D>& tree, const Query& query, std::size_t k,
+                             const DistanceOf& distance_of, const nearness_options& options = {}) {
+    using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
+    detail::nearest_k<neighbor<answer>> found(
+        std::min(k, tree.size()), detail::squared_radius("treeform::k_nearest", options.radius));
+    detail::approach<D>(tree, detail::box_of_query<D>(query), found.bound(), options.strategy,
+                        [&](std::uint32_t id) {
+                            found.offer({id, distance_of(id)});
+                            return found.bound();
+                        });
+    return std::move(found.sorted());
+}
+
+/// All primitives within `radius` (inclusive), ascending by distance, then by number. See `nearest`
+/// for `distance_of`.
+///
+/// \throws std::invalid_argument as `visit_near`
+/// \cost   as `visit_near`, and O(A log A) for A answers
+/// \same   as a loop over all primitives, whatever the strategy
+template <std::size_t D, nearness_query<D> Query, class DistanceOf>
+[[nodiscard]] auto all_within(const tree<D>& tree, const Query& query, double radius,
+                              const DistanceOf& distance_of,
+                              const nearness_strategy& strategy = {}) {
+    using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
+    const double bound = detail::squared_radius("treeform::all_within", radius);
+    std::vector<neighbor<answer>> found;
+    detail::approach<D>(tree, detail::box_of_query<D>(query), bound, strategy,
+                        [&](std::uint32_t id) {
+                            neighbor<answer> one{id, distance_of(id)};
+                            if (one.squared_distance() <= bound) found.push_back(std::move(one));
+                            return bound;
+                        });
+    std::sort(found.begin(), found.end(),
+              [](const auto& a, const auto& b) { return nearer(a, b); });
+    return found;
+}
+
+}  // namespace treeform

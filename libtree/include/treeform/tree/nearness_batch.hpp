@@ -1,0 +1,136 @@
+#pragma once
+/// \file
+/// Nearness searches for many queries at once, in parallel.
+
+#include <treeform/tree/detail/frame.hpp>
+#include <treeform/tree/detail/morton_order.hpp>
+#include <treeform/tree/nearness.hpp>
+#include <treeform/tree/neighbor.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <ranges>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace treeform {
+
+namespace detail {
+
+/// Queries that one thread answers in a row, each helped by the answer to the one before.
+inline constexpr std::size_t queries_per_chunk = 256;
+
+template <std::ranges::random_access_range Range>
+[[nodiscard]] decltype(auto) element(const Range& range, std::size_t i) {
+    return std::ranges::begin(range)[static_cast<std::ranges::range_difference_t<Range>>(i)];
+}
+
+/// The order in which queries are answered: neighbours in space one after the other.
+/// \throws std::invalid_argument naming the first query that is not finite or an empty box
+template <std::size_t D, std::ranges::random_access_range Queries>
+[[nodiscard]] std::vector<std::uint32_t> order_of_queries(const Queries& queries) {
+    const auto count = static_cast<std::size_t>(std::ranges::size(queries));
+    for (std::size_t i = 0; i < count; ++i)
+        if (!is_finite(box_of_query<D>(element(queries, i))))
+            throw std::invalid_argument("treeform::nearness: query " + std::to_string(i) +
+                                        " is not finite, or an empty box");
+    return morton_order<D>(count,
+                           [&](std::size_t i) { return box_of_query<D>(element(queries, i)).min; });
+}
+
+/// The lists that `search(query)` returns, run in parallel and joined in the order of the queries.
+template <std::size_t D, class Queries, class Search>
+[[nodiscard]] auto lists_of(const Queries& queries, const Search& search) {
+    using list = std::invoke_result_t<const Search&, std::size_t>;
+    const std::vector<std::uint32_t> order = order_of_queries<D>(queries);
+    std::vector<list> found(order.size());
+    for_chunks(order.size(), queries_per_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i) found[order[i]] = search(order[i]);
+               });
+    neighbor_lists<typename list::value_type> lists;
+    lists.begin.resize(found.size() + 1);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        lists.begin[i + 1] = lists.begin[i] + found[i].size();
+    lists.neighbors.reserve(lists.begin.back());
+    for (list& one : found)
+        lists.neighbors.insert(lists.neighbors.end(), std::move_iterator(one.begin()),
+                               std::move_iterator(one.end()));
+    return lists;
+}
+
+}  // namespace detail
+
+/// [Q] `nearest` for each of `queries`, in their order; `distance_of(query, id)` gets the number of
+/// the query as well, and is called by several threads at once.
+///
+/// \throws std::invalid_argument as `nearest`, naming the query
+/// \cost   O(Q) beyond the searches, which run in parallel and in the order of space, so that each
+///         finds in the cache what the one before has read, and is bounded by its answer
+/// \same   on any number of threads: as calling `nearest` for each
+template <std::size_t D, std::ranges::random_access_range Queries, class DistanceOf>
+[[nodiscard]] auto nearest_batch(const tree<D>& tree, const Queries& queries,
+                                 const DistanceOf& distance_of,
+                                 const nearness_options& options = {}) {
+    using answer =
+        std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::size_t, std::uint32_t>>;
+    const double squared = detail::squared_radius("treeform::nearest_batch", options.radius);
+    const std::vector<std::uint32_t> order = detail::order_of_queries<D>(queries);
+    std::vector<std::optional<neighbor<answer>>> found(order.size());
+    const auto search = [&](std::size_t begin, std::size_t end, std::size_t) {
+        std::optional<std::uint32_t> before;
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t query = order[i];
+            const auto from_query = [&](std::uint32_t id) { return distance_of(query, id); };
+            detail::nearest_one<answer> one(squared);
+            if (before) one.offer(*before, from_query);
+            detail::approach<D>(tree, detail::box_of_query<D>(detail::element(queries, query)),
+                                one.bound(), options.strategy, [&](std::uint32_t id) {
+                                    if (id != before) one.offer(id, from_query);
+                                    return one.bound();
+                                });
+            if (one.best) before = one.best->id;
+            found[query] = std::move(one.best);
+        }
+    };
+    for_chunks(order.size(), detail::queries_per_chunk, search);
+    return found;
+}
+
+/// `k_nearest` for each of `queries`, in their order. See `nearest_batch`.
+///
+/// \throws std::invalid_argument as `nearest`
+/// \cost   as `nearest_batch`
+/// \same   on any number of threads: as calling `k_nearest` for each
+template <std::size_t D, std::ranges::random_access_range Queries, class DistanceOf>
+[[nodiscard]] auto k_nearest_batch(const tree<D>& tree, const Queries& queries, std::size_t k,
+                                   const DistanceOf& distance_of,
+                                   const nearness_options& options = {}) {
+    return detail::lists_of<D>(queries, [&](std::size_t query) {
+        return k_nearest(
+            tree, detail::element(queries, query), k,
+            [&](std::uint32_t id) { return distance_of(query, id); }, options);
+    });
+}
+
+/// `all_within` for each of `queries`, in their order. See `nearest_batch`.
+///
+/// \throws std::invalid_argument as `all_within`
+/// \cost   as `nearest_batch`
+/// \same   on any number of threads: as calling `all_within` for each
+template <std::size_t D, std::ranges::random_access_range Queries, class DistanceOf>
+[[nodiscard]] auto all_within_batch(const tree<D>& tree, const Queries& queries, double radius,
+                                    const DistanceOf& distance_of) {
+    return detail::lists_of<D>(queries, [&](std::size_t query) {
+        return all_within(tree, detail::element(queries, query), radius,
+                          [&](std::uint32_t id) { return distance_of(query, id); });
+    });
+}
+
+}  // namespace treeform

@@ -1,0 +1,103 @@
+#pragma once
+/// \file
+/// Two trees: the nearest pair of primitives, one of each, and the k nearest.
+
+#include <treeform/tree/detail/near_pair_walk.hpp>
+#include <treeform/tree/detail/nearest_k.hpp>
+#include <treeform/tree/detail/squared_radius.hpp>
+#include <treeform/tree/neighbor.hpp>
+#include <treeform/tree/transformed.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace treeform {
+
+/// Two primitives, one of each tree, and what the caller's function said about them.
+template <class Answer = double>
+struct near_pair {
+    std::uint32_t a;
+    std::uint32_t b;
+    Answer answer;
+
+    [[nodiscard]] constexpr double squared_distance() const { return squared_distance_of(answer); }
+    friend bool operator==(const near_pair&, const near_pair&) = default;
+};
+
+/// The order of pairs: by distance, then by the numbers of a, then of b.
+template <class Answer>
+[[nodiscard]] constexpr bool nearer(const near_pair<Answer>& x, const near_pair<Answer>& y) {
+    const double of_x = x.squared_distance();
+    const double of_y = y.squared_distance();
+    if (of_x != of_y) return of_x < of_y;
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+}
+
+/// The k nearest pairs of a primitive of `a` and one of `b`, ascending by distance, then by their
+/// numbers; fewer when there are fewer within `radius` (not squared, inclusive).
+///
+/// `distance_of(a, b)` is the squared distance of two primitives, as in `nearest`; it is called by
+/// several threads at once, and for no pair twice. Either tree may count as moved
+/// (`treeform::transformed`): then `distance_of` is about the moved primitives.
+///
+/// Nothing is passed over but pairs whose boxes prove them further than k found ones. Only a
+/// distance of exactly zero ends the search early: when more than k pairs touch, k of them are
+/// returned, the same in every run.
+///
+/// \throws std::invalid_argument when the radius is negative or NaN
+/// \cost   O(log N) nodes where the nearest pair is clear, more where much of both is about as near
+/// \same   on any number of threads
+/// \source Sajovic, Knez and Korez, tf::tree, section III-D, less its bound from above by the
+///         boxes, which their contents need not keep; the larger box is opened, eight at a time
+template <placed_tree A, placed_tree B, class DistanceOf>
+[[nodiscard]] auto k_nearest_pairs(const A& first, const B& second, std::size_t k,
+                                   const DistanceOf& distance_of,
+                                   double radius = std::numeric_limits<double>::infinity()) {
+    constexpr std::size_t D = A::dimensions;
+    const transformed<D> a(first), b(second);
+    const double squared = detail::squared_radius("treeform::k_nearest_pairs", radius);
+    using answer =
+        std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t, std::uint32_t>>;
+    const std::uint32_t* const ids_a = a.original().ids().data();
+    const std::uint32_t* const ids_b = b.original().ids().data();
+    using kept = detail::nearest_k<near_pair<answer>>;
+    const auto visit = [&](const detail::block_pair& blocks, kept& mine, double limit) {
+        float bound = blocks.bound_of(std::min(limit, mine.bound()));
+        for (std::uint32_t i = 0; i < 8; ++i)
+            for (std::uint32_t j = 0; j < 8; ++j) {
+                if (!blocks.within(i, j, bound)) continue;
+                const std::uint32_t of_a = ids_a[blocks.a * 8 + i];
+                const std::uint32_t of_b = ids_b[blocks.b * 8 + j];
+                mine.offer({of_a, of_b, distance_of(of_a, of_b)});
+                if (mine.done()) return;
+                bound = blocks.bound_of(std::min(limit, mine.bound()));
+            }
+    };
+    if (k == 0 || a.original().empty() || b.original().empty()) return kept(0, 0.0).sorted();
+    detail::pair_walk<D> walk(a, b, 1.0);
+    return detail::walk_pairs(
+               walk, kept(k, squared), visit, [&](const kept& all) { return kept(k, all.bound()); },
+               [](kept& all, kept& part) {
+                   for (auto& one : part.sorted()) all.offer(std::move(one));
+               })
+        .sorted();
+}
+
+/// The nearest pair, of equally near ones that of the lowest numbers, but of those at distance zero
+/// any, the same in every run; none when a tree is empty or all are beyond the radius. See
+/// `k_nearest_pairs`.
+template <placed_tree A, placed_tree B, class DistanceOf>
+[[nodiscard]] auto nearest_pair(const A& a, const B& b, const DistanceOf& distance_of,
+                                double radius = std::numeric_limits<double>::infinity()) {
+    auto pairs = k_nearest_pairs(a, b, 1, distance_of, radius);
+    return pairs.empty() ? std::nullopt : std::optional(std::move(pairs[0]));
+}
+
+}  // namespace treeform

@@ -1,0 +1,172 @@
+#pragma once
+/// \file
+/// Rays against a tree: what a ray meets first, everything it meets, and whether it meets anything.
+
+#include <treeform/tree/detail/function_ref.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace treeform {
+
+/// The points origin + t direction for t_min <= t <= t_max: a ray as it stands, a segment with a
+/// finite t_max, a line with t_min = -inf. The direction need not be of unit length; t counts its
+/// lengths. A zero direction makes it a point, t_min > t_max makes it empty.
+template <std::floating_point T, std::size_t D>
+struct ray {
+    std::array<T, D> origin{};
+    std::array<T, D> direction{};
+    T t_min = 0;
+    T t_max = std::numeric_limits<T>::infinity();
+};
+
+/// A primitive that a ray meets, and what the caller's `hit_of` said about it.
+template <class Hit>
+struct ray_hit {
+    std::uint32_t id;
+    Hit hit;
+};
+
+namespace detail {
+
+/// Calls `visit` as `visit_along` does.
+template <std::size_t D>
+TREEFORM_API void trace(const tree<D>& tree, const ray<double, D>& ray,
+                        function_ref<double(std::uint32_t)> visit);
+
+/// The parameter of a hit: the hit itself when it is a number, else its member t.
+template <class Hit>
+[[nodiscard]] constexpr double parameter_of(const Hit& hit) {
+    if constexpr (std::is_arithmetic_v<Hit>)
+        return static_cast<double>(hit);
+    else
+        return static_cast<double>(hit.t);
+}
+
+template <class HitOf>
+using hit_type =
+    typename std::remove_cvref_t<std::invoke_result_t<const HitOf&, std::uint32_t>>::value_type;
+
+template <std::floating_point T, std::size_t D>
+[[nodiscard]] constexpr ray<double, D> in_double(const ray<T, D>& r) {
+    ray<double, D> result;
+    for (std::size_t k = 0; k < D; ++k) {
+        result.origin[k] = static_cast<double>(r.origin[k]);
+        result.direction[k] = static_cast<double>(r.direction[k]);
+    }
+    result.t_min = static_cast<double>(r.t_min);
+    result.t_max = static_cast<double>(r.t_max);
+    return result;
+}
+
+}  // namespace detail
+
+/// Calls `visit(id)` for every primitive whose box the ray meets (touching counts), and for some
+/// whose boxes it misses by less than the rounding of the tree's float boxes; boxes that it enters
+/// earlier come earlier, as a rule. What `visit` returns is the t_max from there on: boxes that the
+/// ray enters beyond it are skipped, and -inf ends the search.
+///
+/// No box is missed because of rounding: not for zero, tiny or huge components, not for boxes that
+/// the ray only touches, not for an origin far away. A parameter that `visit` returns may besides
+/// be too small by 2^-40 of itself.
+///
+/// \throws std::invalid_argument for an origin or direction that is not finite, or a NaN parameter
+/// \cost   O(log N + boxes met) for most rays; serial; no allocation
+/// \same   the primitives visited while t_max stays may depend on the processor, those whose boxes
+///         the ray meets are always among them
+/// \source the slab test of Kay and Kajiya, SIGGRAPH 1986; bounds as in Ize, Robust BVH Ray
+///         Traversal, JCGT 2 (2013), derived anew for scaled frames in ray.cpp
+template <std::floating_point T, std::size_t D, class Visit>
+requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
+void visit_along(const tree<D>& tree, const ray<T, D>& ray, const Visit& visit) {
+    detail::trace<D>(tree, detail::in_double(ray), visit);
+}
+
+/// The hit of least parameter, of equal ones that of the lowest primitive; none when there is none.
+///
+/// `hit_of(id)` says whether and where the ray meets a primitive: a `std::optional` of a number t
+/// or of a struct with a member t. Parameters outside [t_min, t_max], and NaN, are no hits. A hit
+/// lies in the primitive's box, its t being wrong by at most 2^-40 of itself.
+///
+/// \throws std::invalid_argument as `visit_along`
+/// \cost   O(log N + boxes entered before the hit) for most rays
+/// \same   whatever order the tree is in: the answer is that of a loop over all primitives
+template <std::floating_point T, std::size_t D, class HitOf>
+[[nodiscard]] auto first_hit(const tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
+    const double t_min = static_cast<double>(ray.t_min);
+    double t_best = static_cast<double>(ray.t_max);
+    std::optional<ray_hit<detail::hit_type<HitOf>>> best;
+    visit_along(tree, ray, [&](std::uint32_t id) {
+        if (auto hit = hit_of(id)) {
+            const double t = detail::parameter_of(*hit);
+            if (t_min <= t && t <= t_best && (!best || t < t_best || id < best->id)) {
+                t_best = t;
+                best = {id, std::move(*hit)};
+            }
+        }
+        return t_best;
+    });
+    return best;
+}
+
+/// Every hit, ascending by parameter, then by primitive. See `first_hit` for `hit_of`.
+///
+/// \throws std::invalid_argument as `visit_along`
+/// \cost   O(log N + boxes met + H log H) for most rays, H hits
+/// \same   as `first_hit`
+template <std::floating_point T, std::size_t D, class HitOf>
+[[nodiscard]] auto all_hits(const tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
+    const double t_min = static_cast<double>(ray.t_min);
+    const double t_max = static_cast<double>(ray.t_max);
+    std::vector<ray_hit<detail::hit_type<HitOf>>> hits;
+    visit_along(tree, ray, [&](std::uint32_t id) {
+        if (auto hit = hit_of(id)) {
+            const double t = detail::parameter_of(*hit);
+            if (t_min <= t && t <= t_max) hits.push_back({id, std::move(*hit)});
+        }
+        return t_max;
+    });
+    std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) {
+        const double of_a = detail::parameter_of(a.hit);
+        const double of_b = detail::parameter_of(b.hit);
+        return of_a != of_b ? of_a < of_b : a.id < b.id;
+    });
+    return hits;
+}
+
+/// Whether there is any hit: `first_hit` that stops at whichever it finds. `hit_of` is asked for
+/// fewer primitives, and may return a bool as well: whether the ray meets it within
+/// [t_min, t_max].
+///
+/// \throws std::invalid_argument as `visit_along`
+/// \cost   at most that of `all_hits`
+/// \same   as `first_hit` in its answer; which primitives are asked may depend on the processor
+template <std::floating_point T, std::size_t D, class HitOf>
+[[nodiscard]] bool any_hit(const tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
+    const double t_min = static_cast<double>(ray.t_min);
+    const double t_max = static_cast<double>(ray.t_max);
+    bool found = false;
+    visit_along(tree, ray, [&](std::uint32_t id) {
+        const auto hit = hit_of(id);
+        if constexpr (std::is_same_v<decltype(hit), const bool>) {
+            found = hit;
+        } else if (hit) {
+            const double t = detail::parameter_of(*hit);
+            found = t_min <= t && t <= t_max;
+        }
+        return found ? -std::numeric_limits<double>::infinity() : t_max;
+    });
+    return found;
+}
+
+}  // namespace treeform

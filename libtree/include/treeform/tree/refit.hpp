@@ -1,0 +1,213 @@
+#pragma once
+/// \file
+/// New boxes for a tree whose primitives have moved: the order of its leaves stays.
+
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/detail/node_bounds.hpp>
+#include <treeform/tree/detail/refit_levels.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <ranges>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace treeform {
+
+/// [N] where each primitive is in leaf order: the inverse of `tree.ids()`.
+///
+/// \pre  the tree is as `build` made it
+/// \same on any number of threads
+template <std::size_t D>
+[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> places_of(const tree<D>& tree);
+
+/// What a tree costs to search: the sum of the extents of all node boxes over those of the whole.
+/// A random plane (in 2D: line) that meets the box of the whole tree opens so many nodes on
+/// average. 1 for a tree that is one node, or whose primitives are all one point.
+///
+/// To bound what refits lose, compare with the figure after the build: searches open more nodes
+/// in about that ratio, and from 1.3 on a rebuild pays within some searches of all primitives.
+///
+/// \cost O(N / 8)
+/// \same on any number of threads
+/// \source Crofton: the planes that meet a convex body measure as its mean width, which is
+///         proportional to the sum of the extents of a box. Goldsmith and Salmon, Automatic
+///         Creation of Object Hierarchies for Ray Tracing, IEEE CG&A 7 (1987), for lines
+template <std::size_t D>
+[[nodiscard]] TREEFORM_API double relative_extent(const tree<D>& tree);
+
+namespace detail {
+
+template <std::size_t D, class Range>
+void check_size(const tree<D>& tree, const Range& range) {
+    const auto size = static_cast<std::size_t>(std::ranges::distance(range));
+    if (size != tree.size())
+        throw std::invalid_argument("treeform::refit: " + std::to_string(size) +
+                                    " elements for a tree of " + std::to_string(tree.size()));
+}
+
+[[noreturn]] inline void refuse_refit(std::size_t element) {
+    throw std::invalid_argument("treeform::refit: the box of element " + std::to_string(element) +
+                                " is empty or not finite");
+}
+
+/// Calls `write(writer, i)` for i in [0, count), which `put`s boxes until one is not sound, and
+/// `lift_blocks(begin, end)` for each chunk, as long as its leaf blocks are in the cache. Returns
+/// the lowest primitive that a chunk had to stop at, or `no_primitive`.
+template <std::size_t D, class Write, class Lift>
+[[nodiscard]] std::uint32_t write_in_chunks(tree<D>& tree, std::size_t count, std::size_t grain,
+                                            const Write& write, const Lift& lift_blocks) {
+    std::vector<std::uint32_t> bad(chunk_count(count, grain), no_primitive);
+    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        slot_writer<D> writer(tree);
+        bool sound = true;
+        for (std::size_t i = begin; i < end && sound; ++i) sound = write(writer, i);
+        if (!sound || !writer.flush()) bad[chunk] = tree.ids()[writer.bad_place()];
+        lift_blocks(begin, end);
+    });
+    return bad.empty() ? no_primitive : *std::min_element(bad.begin(), bad.end());
+}
+
+/// The boxes of the elements of a range, which are asked for in the order of the leaves.
+template <class Range, class MakeBox>
+struct element_boxes {
+    const Range& range;
+    const MakeBox& make_aabb;
+
+    decltype(auto) element(std::size_t i) const {
+        return std::ranges::begin(
+            range)[static_cast<std::ranges::range_difference_t<const Range>>(i)];
+    }
+    auto operator()(std::uint32_t id) const { return make_aabb(element(id)); }
+
+    /// Elements come from anywhere in memory: those that are objects are asked for early.
+    void prefetch(std::uint32_t id) const {
+        if constexpr (std::is_lvalue_reference_v<decltype(element(id))>) {
+            const char* const first = reinterpret_cast<const char*>(std::addressof(element(id)));
+            __builtin_prefetch(first);
+            __builtin_prefetch(first + sizeof(element(id)) - 1);
+        }
+    }
+};
+template <class Range, class MakeBox>
+element_boxes(const Range&, const MakeBox&) -> element_boxes<Range, MakeBox>;
+
+/// Writes all boxes and corrects the levels above. Returns as `write_in_chunks`.
+template <std::size_t D, class BoxOf>
+[[nodiscard]] std::uint32_t refit_all(tree<D>& tree, const BoxOf& box_of) {
+    constexpr std::size_t ahead = 24;
+    const std::span<const std::uint32_t> ids = tree.ids();
+    const std::uint32_t bad = write_in_chunks(
+        tree, tree.size(), std::size_t{1} << 13,
+        [&](slot_writer<D>& writer, std::size_t place) {
+            if (place + ahead < ids.size()) box_of.prefetch(ids[place + ahead]);
+            return writer.put(static_cast<std::uint32_t>(place), box_of(ids[place]));
+        },
+        [&](std::size_t begin, std::size_t end) {
+            if (tree.levels() == 1) return;
+            for (std::size_t block = begin / 8; 8 * block < end; ++block)
+                lift(tree, tree.levels() - 1, block);
+        });
+    lift_inner(tree);
+    return bad;
+}
+
+/// Calls `visit(place)` for the places of `slots` until it returns false, and returns whether it
+/// never did.
+template <class Visit>
+bool for_places(const leaf_slots& slots, const Visit& visit) {
+    for (unsigned rest = slots.slots; rest != 0; rest &= rest - 1)
+        if (!visit(8 * slots.block + static_cast<std::uint32_t>(std::countr_zero(rest))))
+            return false;
+    return true;
+}
+
+/// The same for the primitives in `slots` only; slots without a primitive are emptied.
+template <std::size_t D, class BoxOf>
+[[nodiscard]] std::uint32_t refit_slots(tree<D>& tree, std::span<const leaf_slots> slots,
+                                        const BoxOf& box_of) {
+    constexpr std::size_t ahead = 12;
+    const std::span<const std::uint32_t> ids = tree.ids();
+    wide_node<D>* const leaves = tree.level_data(tree.levels() - 1);
+    const auto prefetch = [&](const leaf_slots& later) {
+        const char* const leaf = reinterpret_cast<const char*>(leaves + later.block);
+        for (std::size_t line = 0; line < sizeof(wide_node<D>); line += 64)
+            __builtin_prefetch(leaf + line, 1);
+        for_places(later, [&](std::uint32_t place) {
+            if (ids[place] != no_primitive) box_of.prefetch(ids[place]);
+            return true;
+        });
+    };
+    const std::uint32_t bad = write_in_chunks(
+        tree, slots.size(), 1024,
+        [&](slot_writer<D>& writer, std::size_t i) {
+            if (i + ahead < slots.size()) prefetch(slots[i + ahead]);
+            return for_places(slots[i], [&](std::uint32_t place) {
+                if (ids[place] != no_primitive) return writer.put(place, box_of(ids[place]));
+                clear_slot(leaves[place / 8], place % 8);
+                return true;
+            });
+        },
+        [&](std::size_t begin, std::size_t end) {
+            if (tree.levels() == 1) return;
+            for (std::size_t i = begin; i < end; ++i) lift(tree, tree.levels() - 1, slots[i].block);
+        });
+    lift_inner(tree, slots);
+    return bad;
+}
+
+}  // namespace detail
+
+/// Gives every primitive of `tree` the box that `make_aabb` now makes for its element of `range`.
+/// The order of the leaves stays, and so does the frame: the tree is right for any boxes, and as
+/// good as before where neighbours stay neighbours (`relative_extent` tells). With the boxes it
+/// was built with, it stays as it is.
+///
+/// \throws std::invalid_argument when the range is not of the size of the tree, or naming an
+/// element
+///         whose box is not finite or is empty; some of the others then have their new boxes, and a
+///         refit with sound ones mends the tree
+/// \cost   O(N), about a third of a build
+/// \same   on any number of threads; `make_aabb` is called once an element
+/// \source van den Bergen, Efficient Collision Detection of Complex Deformable Models using AABB
+///         Trees, JGT 2 (1997)
+template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
+requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
+void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb) {
+    detail::check_size(tree, range);
+    const std::uint32_t bad = detail::refit_all(tree, detail::element_boxes{range, make_aabb});
+    if (bad != detail::no_primitive) detail::refuse_refit(bad);
+}
+
+/// The same for the primitives at `places` of the leaf order (`places_of`) only: what is not named
+/// keeps its box. Any order, and a place may come more than once.
+///
+/// \throws std::invalid_argument also for a place that is not in the tree, naming it; nothing has
+///         changed then
+/// \cost   O(P log N) for P places, none but them and their ancestors being touched; O(N / 8)
+///         bytes are swept where P is above N / 128
+template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
+requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
+void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb,
+           std::span<const std::uint32_t> places) {
+    detail::check_size(tree, range);
+    for (const std::uint32_t place : places)
+        if (place >= tree.size())
+            throw std::invalid_argument("treeform::refit: place " + std::to_string(place) +
+                                        " is not in the tree");
+    const std::vector<detail::leaf_slots> slots = detail::slots_at(places, tree.size());
+    const std::uint32_t bad =
+        detail::refit_slots<D>(tree, slots, detail::element_boxes{range, make_aabb});
+    if (bad != detail::no_primitive) detail::refuse_refit(bad);
+}
+
+}  // namespace treeform

@@ -1,0 +1,178 @@
+#pragma once
+/// \file
+/// Search of two trees: every pair of a primitive of each whose boxes overlap, once.
+
+#include <treeform/tree/candidates.hpp>
+#include <treeform/tree/detail/frame_map.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
+#include <treeform/tree/detail/search_chunks.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/transformed.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace treeform {
+
+/// When a box of a tree and one of a tree that is moved count as overlapping.
+enum class turned_boxes {
+    /// Where the box around the turned one, along the axes, overlaps the other.
+    upright,
+    /// Where besides, with all turned back, the box around the other one overlaps the moved one as
+    /// it was: fewer pairs, some quarter less of rotated surfaces, but none of primitives that
+    /// meet.
+    /// The same as `upright` unless one of the trees is moved, and the other not.
+    both_ways
+};
+
+namespace detail {
+
+/// Two trees, and how boxes of each come into the frame in which they are compared.
+template <std::size_t D>
+struct two_trees {
+    const tree<D>* a;
+    const tree<D>* b;
+    frame_map<D> map_a;
+    frame_map<D> map_b;
+    /// Whether boxes are also compared in the frame of the moved tree, and how they come there.
+    bool both_frames = false;
+    frame_map<D> own_a{};
+    frame_map<D> own_b{};
+};
+
+}  // namespace detail
+
+/// The search of two trees, cut into chunks that depend on the trees and their transforms alone.
+///
+/// The caller runs the chunks, as a rule with `for_chunks(search.chunks(), 1, ...)`, and keeps a
+/// state of its own for each: chunks share nothing, and joining the states in order gives the same
+/// result on any number of threads.
+///
+/// Boxes of trees with different frames or under a transform are compared in one frame, rounded
+/// outward, each node moved when it is opened; trees of any two scales may be compared. What
+/// overlaps no box of the other tree is never looked at.
+///
+/// \source Sajovic, Knez and Korez, tf::tree, Algorithm 2; one box against eight at a time
+template <std::size_t D>
+class TREEFORM_API pair_search {
+  public:
+    /// \pre the trees outlive the search and are not rebuilt meanwhile
+    pair_search(const transformed<D>& a, const transformed<D>& b,
+                turned_boxes boxes = turned_boxes::upright);
+
+    [[nodiscard]] std::size_t chunks() const;
+
+    /// Calls `visit` for the blocks of one chunk, in order, until it returns false. All chunks
+    /// together hold every pair of primitives whose boxes overlap (touching counts) exactly once,
+    /// and some whose boxes miss by less than the rounding of the float boxes and, under a
+    /// transform, of the boxes around turned boxes. An empty tree has no pairs.
+    ///
+    /// \cost over all chunks O(pairs of overlapping nodes + P) for P candidates
+    search_statistics visit(std::size_t chunk,
+                            detail::function_ref<bool(const candidate_block&)> visit) const;
+
+    /// The candidates of all chunks on this thread, in smaller blocks and without the cost of
+    /// cutting the search first: for those who expect to hear soon that they may stop.
+    static search_statistics visit_all(const transformed<D>& a, const transformed<D>& b,
+                                       detail::function_ref<bool(const candidate_block&)> visit,
+                                       turned_boxes boxes = turned_boxes::upright);
+
+  private:
+    detail::two_trees<D> trees_;
+    unsigned height_a_ = 0;  ///< of the nodes that the items pair, above the leaf blocks
+    unsigned height_b_ = 0;
+    std::vector<detail::node_pair> items_;
+};
+
+/// Calls `apply(state, a, b)` for every pair of a primitive `a` of the first tree and `b` of the
+/// second whose boxes overlap. Returns the states, one a chunk, in an order that depends on the
+/// trees alone: no state is shared between threads, `apply` is called by several. A state is made
+/// by `State{}` and moved. Where `apply` returns true (it may return nothing), the search stops:
+/// the state it was given is the last of those returned, and they hold what one thread would have
+/// found.
+///
+/// Either side may be `transformed{tree, map}`.
+template <class State, placed_tree A, placed_tree B, class Apply>
+[[nodiscard]] std::vector<State> search(const A& a, const B& b, const Apply& apply) {
+    const transformed<A::dimensions> first(a), second(b);
+    const auto id_a = first.original().ids();
+    const auto id_b = second.original().ids();
+    return detail::search_states<State>(
+        pair_search<A::dimensions>(first, second), [&](State& state, const candidate_block& block) {
+            for (std::size_t i = 0; i < block.first.size(); ++i)
+                if (detail::asks_to_stop(apply, state, id_a[block.first[i]], id_b[block.second[i]]))
+                    return true;
+            return false;
+        });
+}
+
+/// The same by blocks of candidates, `apply(state, block)`: for those who test several at once. A
+/// block names places in leaf order, not ids.
+template <class State, placed_tree A, placed_tree B, class Apply>
+[[nodiscard]] std::vector<State> search_broad(const A& a, const B& b, const Apply& apply) {
+    return detail::search_states<State>(pair_search<A::dimensions>(a, b),
+                                        [&](State& state, const candidate_block& block) {
+                                            return detail::asks_to_stop(apply, state, block);
+                                        });
+}
+
+/// Whether `accept(block)` is true for some block of candidates; it is called from several threads,
+/// and no more once one is known.
+///
+/// A block may be handed out twice. Looks at some thousand candidates on one thread before it cuts
+/// the search for all: a collision that is easy to find costs no more than the way down to it.
+template <placed_tree A, placed_tree B, class Accept>
+[[nodiscard]] bool search_any_broad(const A& a, const B& b, const Accept& accept,
+                                    turned_boxes boxes = turned_boxes::upright) {
+    constexpr std::size_t serially = 4096;
+    bool found = false;
+    std::size_t seen = 0;
+    pair_search<A::dimensions>::visit_all(
+        a, b,
+        [&](const candidate_block& block) {
+            found = accept(block);
+            seen += block.first.size();
+            return !found && seen < serially;
+        },
+        boxes);
+    if (found || seen < serially) return found;
+    return detail::search_for_any(pair_search<A::dimensions>(a, b, boxes), accept);
+}
+
+/// The same by pairs: whether `accept(a, b)` is true for some pair of primitives whose boxes
+/// overlap. `accept` is called from several threads, and may be asked about a pair twice.
+template <placed_tree A, placed_tree B, class Accept>
+[[nodiscard]] bool search_any(const A& a, const B& b, const Accept& accept) {
+    const transformed<A::dimensions> first(a), second(b);
+    const auto id_a = first.original().ids();
+    const auto id_b = second.original().ids();
+    return search_any_broad(first, second, [&](const candidate_block& block) {
+        for (std::size_t i = 0; i < block.first.size(); ++i)
+            if (accept(id_a[block.first[i]], id_b[block.second[i]])) return true;
+        return false;
+    });
+}
+
+/// The pairs (a, b) of primitives whose boxes overlap and for which `accept(a, b)` is true,
+/// ascending. `accept` is called from several threads.
+template <placed_tree A, placed_tree B, class Accept>
+[[nodiscard]] std::vector<id_pair> search_all(const A& a, const B& b, const Accept& accept) {
+    using pairs = std::vector<id_pair>;
+    pairs all =
+        detail::joined(search<pairs>(a, b, [&](pairs& found, std::uint32_t x, std::uint32_t y) {
+            if (accept(x, y)) found.emplace_back(x, y);
+        }));
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+/// The pairs whose boxes, as the trees hold them, overlap.
+template <placed_tree A, placed_tree B>
+[[nodiscard]] std::vector<id_pair> search_all(const A& a, const B& b) {
+    return search_all(a, b, [](std::uint32_t, std::uint32_t) { return true; });
+}
+
+}  // namespace treeform

@@ -1,0 +1,73 @@
+#pragma once
+/// \file
+/// Quickselect that notices patterns, and gives up on bad luck in time.
+
+#include <treeform/tree/detail/partition_around.hpp>
+#include <treeform/tree/strategy/heap_select.hpp>
+
+#include <bit>
+#include <cstddef>
+#include <iterator>
+
+namespace treeform::strategy {
+
+struct pdq_select {
+    /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
+    ///
+    /// The pivot is the median of three, in large ranges of three medians of three. A cut that
+    /// leaves less than an eighth on one side breaks up the pattern by a few swaps, and after
+    /// log2(n) of them a heap finishes the work.
+    ///
+    /// \cost O(n) expected, O(n log n) in the worst case
+    /// \source Peters, Pattern-defeating Quicksort, arXiv 2106.05123 (2021)
+    template <class Iterator, class Less>
+    static void partition(Iterator first, Iterator nth, Iterator last, Less less) {
+        if (nth == last) return;
+        auto luck = std::bit_width(static_cast<std::size_t>(last - first));
+        while (last - first > 24) {
+            const std::ptrdiff_t size = last - first;
+            const Iterator cut =
+                detail::partition_around(first, pivot(first, last, less), last, less);
+            if (cut == nth) return;
+            if (cut - first < size / 8 || last - cut - 1 < size / 8) {
+                if (--luck == 0) return heap_select::partition(first, nth, last, less);
+                break_pattern(first, cut);
+                break_pattern(std::next(cut), last);
+            }
+            if (nth < cut)
+                last = cut;
+            else
+                first = std::next(cut);
+        }
+        detail::insertion_sort(first, last, less);
+    }
+
+  private:
+    template <class Iterator, class Less>
+    static Iterator pivot(Iterator first, Iterator last, const Less& less) {
+        const std::ptrdiff_t size = last - first;
+        const Iterator middle = first + size / 2;
+        const auto median = [&](std::ptrdiff_t i) {
+            return detail::median_of_three(first + i, middle + (i - 1), last - (i + 1), less);
+        };
+        if (size <= 128) return median(1);
+        return detail::median_of_three(median(1), median(2), median(3), less);
+    }
+
+    /// Swaps a few elements a quarter of the way apart.
+    template <class Iterator>
+    static void break_pattern(Iterator first, Iterator last) {
+        const std::ptrdiff_t size = last - first;
+        if (size < 24) return;
+        std::iter_swap(first, first + size / 4);
+        std::iter_swap(last - 1, last - size / 4);
+        if (size > 128) {
+            std::iter_swap(first + 1, first + (size / 4 + 1));
+            std::iter_swap(first + 2, first + (size / 4 + 2));
+            std::iter_swap(last - 2, last - (size / 4 + 1));
+            std::iter_swap(last - 3, last - (size / 4 + 2));
+        }
+    }
+};
+
+}  // namespace treeform::strategy

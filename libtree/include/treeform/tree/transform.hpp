@@ -1,0 +1,123 @@
+#pragma once
+/// \file
+/// Affine maps of the plane and of space.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <type_traits>
+
+namespace treeform {
+
+/// The map that takes a point x to M x + t: row k of `rows` is [M[k][0] ... M[k][D-1], t[k]]. The
+/// identity as constructed. M may be anything: a rotation, a mirror, a shear, even singular.
+template <std::size_t D>
+struct transform {
+    static constexpr std::size_t dimensions = D;
+    using row = std::array<double, D + 1>;
+
+    std::array<row, D> rows = unit();
+
+    /// The image of `point`, anything with [] for coordinates to read and to write.
+    ///
+    /// Coordinate k is ((M[k][0] x[0] + M[k][1] x[1]) + M[k][2] x[2]) + t[k], each product and each
+    /// sum rounded to double, unless the compiler is allowed to fuse them (`-ffp-contract`): within
+    /// the libraries it is not, so that every machine moves a point to the same place.
+    template <class Point>
+    [[nodiscard]] constexpr Point operator()(const Point& point) const {
+        Point moved = point;
+        for (std::size_t k = 0; k < D; ++k) {
+            double sum = rows[k][0] * static_cast<double>(point[0]);
+            for (std::size_t j = 1; j < D; ++j) sum += rows[k][j] * static_cast<double>(point[j]);
+            moved[k] = static_cast<std::remove_cvref_t<decltype(moved[k])>>(sum + rows[k][D]);
+        }
+        return moved;
+    }
+
+    /// Whether no entry is NaN or infinite.
+    [[nodiscard]] bool finite() const {
+        for (const row& r : rows)
+            for (const double entry : r)
+                if (!std::isfinite(entry)) return false;
+        return true;
+    }
+
+    friend constexpr bool operator==(const transform&, const transform&) = default;
+
+  private:
+    static constexpr std::array<row, D> unit() {
+        std::array<row, D> result{};
+        for (std::size_t k = 0; k < D; ++k) result[k][k] = 1.0;
+        return result;
+    }
+};
+
+/// The map that moves every point by `offset`, anything with [].
+template <std::size_t D, class Vector>
+[[nodiscard]] constexpr transform<D> translation(const Vector& offset) {
+    transform<D> result;
+    for (std::size_t k = 0; k < D; ++k) result.rows[k][D] = offset[k];
+    return result;
+}
+
+/// First `inner`, then `outer`, in one map; its entries are rounded.
+template <std::size_t D>
+[[nodiscard]] constexpr transform<D> after(const transform<D>& outer, const transform<D>& inner) {
+    transform<D> result;
+    for (std::size_t k = 0; k < D; ++k)
+        for (std::size_t j = 0; j <= D; ++j) {
+            double sum = j == D ? outer.rows[k][D] : 0.0;
+            for (std::size_t i = 0; i < D; ++i) sum += outer.rows[k][i] * inner.rows[i][j];
+            result.rows[k][j] = sum;
+        }
+    return result;
+}
+
+namespace detail {
+
+/// As `inverse`, but entries may be infinite or NaN.
+template <std::size_t D>
+requires(D == 2 || D == 3) [[nodiscard]] transform<D> unchecked_inverse(const transform<D>& by) {
+    const auto& m = by.rows;
+    transform<D> result;
+    double determinant = 0.0;
+    if constexpr (D == 2) {
+        result.rows = {{{m[1][1], -m[0][1], 0.0}, {-m[1][0], m[0][0], 0.0}}};
+        determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    } else {
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j) {
+                const std::size_t r = (j + 1) % 3, s = (j + 2) % 3;
+                const std::size_t c = (i + 1) % 3, d = (i + 2) % 3;
+                result.rows[i][j] = m[r][c] * m[s][d] - m[r][d] * m[s][c];
+            }
+        for (std::size_t k = 0; k < 3; ++k) determinant += m[0][k] * result.rows[k][0];
+    }
+    for (auto& row : result.rows) {
+        double shift = 0.0;
+        for (std::size_t k = 0; k < D; ++k) {
+            row[k] = row[k] / determinant + 0.0;  // no -0
+            shift -= row[k] * m[k][D];
+        }
+        row[D] = shift + 0.0;
+    }
+    return result;
+}
+
+}  // namespace detail
+
+/// The map that undoes `by`: after(inverse(by), by) is the identity but for rounding. Exactly so
+/// for translations, exchanges of axes and scalings by powers of two.
+///
+/// \throws std::invalid_argument when `by` flattens space, as far as its rounded determinant says,
+///         or an entry of the result is not finite
+/// \source Cramer's rule
+template <std::size_t D>
+requires(D == 2 || D == 3) [[nodiscard]] transform<D> inverse(const transform<D>& by) {
+    const transform<D> result = detail::unchecked_inverse(by);
+    if (!result.finite()) throw std::invalid_argument("treeform::inverse: the map has no inverse");
+    return result;
+}
+
+}  // namespace treeform

@@ -1,0 +1,122 @@
+#pragma once
+/// \file
+/// The wide tree: the pair <ids, nodes>. Data, no algorithm.
+
+#include <treeform/tree/detail/buffer.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace treeform {
+
+/// Eight boxes side by side, so that one query box is tested against all of them at once. A slot
+/// without a box holds [+inf, -inf], which overlaps nothing.
+template <std::size_t D>
+struct alignas(64) wide_node {
+    static constexpr std::size_t width = 8;
+    float min[D][width];
+    float max[D][width];
+};
+
+/// How tree boxes lie in space: a coordinate x of axis k is stored as (x - origin[k]) * scale,
+/// rounded outward to float; a box of a primitive besides grows by up to 2^-13 of half its extent
+/// on each side. Boxes about a local origin stay tight however far the model is from the origin of
+/// its own coordinates, and a power-of-two scale keeps tiny and huge models away from the ends of
+/// the range of float.
+template <std::size_t D>
+struct tree_frame {
+    std::array<double, D> origin{};
+    double scale = 1.0;
+    friend bool operator==(const tree_frame&, const tree_frame&) = default;
+};
+
+/// A balanced 8-ary tree of boxes over N primitives, packed: every node is full but the last of its
+/// level.
+///
+/// The shape follows from N alone, so it is stored nowhere. `ids()` is a permutation of the
+/// primitives; leaf block i holds the boxes of the primitives at its places 8i ... 8i+7, box s that
+/// of ids()[8i + s]. On the levels above, node i holds the boxes of its children, nodes
+/// 8i ... 8i+7 of the level below. Level 0 is the root. So a node of level l covers the places
+/// [i * capacity(l), (i + 1) * capacity(l)), as far as there are any, and every level has an eighth
+/// of the nodes of the next: 32 bytes a primitive in space, 23 in the plane, ids included, and one
+/// node of a level that is not full. The tree refers to nothing; copies are deep.
+///
+/// \source the balanced n-ary layout of Sajovic, Knez and Korez, tf::tree, section III-A, with
+///         boxes stored in their parent and no offsets; packed as by Kamel and Faloutsos, On
+///         Packing R-trees, CIKM 1993
+template <std::size_t D>
+class tree {
+  public:
+    static constexpr std::size_t dimensions = D;
+    static constexpr std::size_t width = wide_node<D>::width;
+
+    /// A tree over nothing, to be searched (nothing is found) and rebuilt. It has no memory, so no
+    /// nodes to look at before `reset`.
+    tree() = default;
+
+    /// Takes the shape for `size` primitives; memory is reused, contents are not.
+    void reset(std::size_t size) {
+        assert(size <= max_size);
+        size_ = size;
+        levels_ = 1;
+        while (capacity(0) < size) ++levels_;
+        ids_.resize(size);
+        nodes_.resize(level_begin(levels_));
+    }
+
+    /// Primitives in the tree, at most `max_size`.
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] bool empty() const { return size_ == 0; }
+    static constexpr std::size_t max_size = 0xFFFFFFF8;
+
+    /// [N] the primitives in leaf order, by their place in the range the tree was built over.
+    [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_.span(); }
+    [[nodiscard]] std::uint32_t* ids_data() { return ids_.data(); }
+
+    /// Node levels, leaf blocks included; level 0 is the root.
+    [[nodiscard]] unsigned levels() const { return levels_; }
+    [[nodiscard]] bool is_leaf_level(unsigned level) const { return level + 1 == levels_; }
+    /// Primitives below a full node of `level`.
+    [[nodiscard]] std::size_t capacity(unsigned level) const {
+        return std::size_t{1} << (3 * (levels_ - level));
+    }
+    /// At least the root, which a tree built over nothing has, too.
+    [[nodiscard]] std::size_t nodes_in_level(unsigned level) const {
+        return level == 0 ? 1 : (size_ + capacity(level) - 1) / capacity(level);
+    }
+    /// Children of node `node` of `level`; on the last level, its primitives.
+    [[nodiscard]] std::size_t children(unsigned level, std::size_t node) const {
+        const std::size_t below = is_leaf_level(level) ? size_ : nodes_in_level(level + 1);
+        return std::min(width, below - width * node);
+    }
+
+    [[nodiscard]] std::span<const wide_node<D>> level(unsigned level) const {
+        return {nodes_.data() + level_begin(level), nodes_in_level(level)};
+    }
+    [[nodiscard]] wide_node<D>* level_data(unsigned level) {
+        return nodes_.data() + level_begin(level);
+    }
+
+    [[nodiscard]] const tree_frame<D>& frame() const { return frame_; }
+    void set_frame(const tree_frame<D>& frame) { frame_ = frame; }
+
+  private:
+    /// Nodes above `level`.
+    [[nodiscard]] std::size_t level_begin(unsigned level) const {
+        std::size_t begin = 0;
+        for (unsigned l = 0; l < level; ++l) begin += nodes_in_level(l);
+        return begin;
+    }
+
+    std::size_t size_ = 0;
+    unsigned levels_ = 1;
+    detail::buffer<std::uint32_t> ids_;
+    detail::buffer<wide_node<D>> nodes_;
+    tree_frame<D> frame_;
+};
+
+}  // namespace treeform

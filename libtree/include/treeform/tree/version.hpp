@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// Which treeform this is: the version of the headers, and that of the library loaded beside them.
+
+#include <treeform/tree/export.hpp>
+
+// The only place where the version is written: the build reads it from these three lines.
+#define TREEFORM_VERSION_MAJOR 0
+#define TREEFORM_VERSION_MINOR 1
+#define TREEFORM_VERSION_PATCH 0
+
+/// The number of a version, for comparisons:
+/// `#if TREEFORM_VERSION >= TREEFORM_VERSION_OF(1, 2, 0)`.
+#define TREEFORM_VERSION_OF(major, minor, patch) ((major)*1000000 + (minor)*1000 + (patch))
+
+/// The version of the headers.
+#define TREEFORM_VERSION \
+    TREEFORM_VERSION_OF(TREEFORM_VERSION_MAJOR, TREEFORM_VERSION_MINOR, TREEFORM_VERSION_PATCH)
+
+namespace treeform {
+
+/// The version of the library that is loaded, comparable with `TREEFORM_VERSION`. The two differ
+/// when a program runs with another shared library than it was compiled for.
+[[nodiscard]] TREEFORM_API int version() noexcept;
+
+/// The same as text: "0.1.0".
+[[nodiscard]] TREEFORM_API const char* version_string() noexcept;
+
+}  // namespace treeform
