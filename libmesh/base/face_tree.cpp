@@ -1,6 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/checked_face_tree.hpp>
 #include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/prepared_slots.hpp>
 #include <treeform/tree/build.hpp>
 
 #include <cmath>
@@ -10,6 +11,11 @@ namespace treeform {
 tree<3> face_tree(mesh_view mesh) {
     detail::base::check_faces("face_tree", mesh.points.size(), mesh.faces);
     return detail::base::checked_face_tree(mesh);
+}
+
+const tree<3>& face_tree(const prepared_mesh& mesh) {
+    constexpr detail::base::slot<tree<3>> slot{detail::base::slot_name::face_tree};
+    return detail::base::prepared_slots::get(mesh, slot, [&] { return face_tree(mesh.view()); });
 }
 
 tree<3> detail::base::checked_face_tree(mesh_view mesh) {

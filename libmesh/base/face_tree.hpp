@@ -3,6 +3,7 @@
 /// The tree over the faces of a mesh, which queries of meshes take.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/export.hpp>
 #include <treeform/tree/tree.hpp>
 
@@ -18,5 +19,8 @@ namespace treeform {
 /// \cost   O(F log F) time, some 30 bytes a face
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API tree<3> face_tree(mesh_view mesh);
+
+/// The same of a prepared mesh, which keeps it.
+[[nodiscard]] TREEFORM_API const tree<3>& face_tree(const prepared_mesh& mesh);
 
 }  // namespace treeform

@@ -1,0 +1,57 @@
+#include <libmesh/base/prepared_slots.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <array>
+#include <atomic>
+#include <utility>
+
+namespace treeform {
+
+struct prepared_mesh::state {
+    struct place {
+        once filled;
+        std::shared_ptr<const void> index;
+    };
+
+    mesh owned{};
+    std::array<place, static_cast<std::size_t>(detail::base::slot_name::count)> places{};
+    std::atomic<std::uint64_t> built{0};
+};
+
+prepared_mesh::prepared_mesh() : state_(std::make_unique<state>()) {}
+prepared_mesh::~prepared_mesh() = default;
+
+prepared_mesh::prepared_mesh(mesh&& owned) : prepared_mesh() {
+    state_->owned = std::move(owned);
+    view_ = state_->owned;
+}
+
+prepared_mesh prepared_mesh::borrow(mesh_view view) {
+    prepared_mesh result;
+    result.view_ = view;
+    return result;
+}
+
+prepared_mesh::prepared_mesh(prepared_mesh&& other) noexcept
+    : view_(std::exchange(other.view_, {})), state_(std::move(other.state_)) {}
+
+prepared_mesh& prepared_mesh::operator=(prepared_mesh&& other) noexcept {
+    view_ = std::exchange(other.view_, {});
+    state_ = std::move(other.state_);
+    return *this;
+}
+
+std::uint64_t prepared_mesh::indexes_built() const { return state_->built.load(); }
+
+const void* detail::base::prepared_slots::get(const prepared_mesh& mesh, slot_name name,
+                                              function_ref<std::shared_ptr<const void>()> build) {
+    auto& place = mesh.state_->places[static_cast<std::size_t>(name)];
+    place.filled.call([&] {
+        place.index = build();
+        mesh.state_->built.fetch_add(1, std::memory_order_relaxed);
+    });
+    return place.index.get();
+}
+
+}  // namespace treeform

@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// The typed slots of a prepared mesh. The type is low, what a slot holds is not its business: each
+/// floor names a slot with its own type and fills it.
+
+#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
+
+#include <cstddef>
+#include <memory>
+
+namespace treeform::detail::base {
+
+/// One name a kind of index, so that no two floors take the same place.
+enum class slot_name : std::size_t {
+    face_tree,
+    triangle_blocks,
+    closest_triangles,
+    joined_corners,
+    open_edge,
+    count
+};
+
+/// The slot of that name holds a T.
+template <class T>
+struct slot {
+    slot_name name;
+};
+
+class prepared_slots {
+  public:
+    /// What slot `s` of `mesh` holds; `make()` fills it first when it is empty. When `make` throws,
+    /// the slot stays empty.
+    template <class T, class Make>
+    [[nodiscard]] static const T& get(const prepared_mesh& mesh, slot<T> s, const Make& make) {
+        const auto build = [&]() -> std::shared_ptr<const void> {
+            return std::make_shared<const T>(make());
+        };
+        return *static_cast<const T*>(get(mesh, s.name, build));
+    }
+
+  private:
+    static const void* get(const prepared_mesh& mesh, slot_name name,
+                           function_ref<std::shared_ptr<const void>()> build);
+};
+
+}  // namespace treeform::detail::base

@@ -1,0 +1,74 @@
+#pragma once
+/// \file
+/// What is known for certain of a mesh that an operation returns.
+
+#include <treeform/mesh/point.hpp>
+#include <treeform/tree/export.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace treeform {
+
+/// How an operation that makes a mesh has ended.
+enum class status : std::uint8_t {
+    ok,              ///< all that the operation promises was checked and holds
+    open_input,      ///< an operand is not closed; `open` says where; no mesh is returned
+    sheet,           ///< the mesh has a border, as was asked for, and is otherwise as promised
+    excessive_loss,  ///< more was lost than the caller allows
+    not_manifold,    ///< with equal coordinates joined, an edge has more than two faces, or a
+                     ///< vertex more than one fan
+    not_certified,   ///< faces still meet in the coordinates returned; `meeting` says which
+    vanished,        ///< all of the result is thinner than the coordinates tell apart
+    out_of_range,    ///< a coordinate of the result is beyond the numbers asked for
+    cancelled        ///< `progress` said stop; nothing is returned
+};
+
+/// A vertex or face of an operand: `index` counts within operand `operand`.
+struct operand_element {
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t operand = none;
+    std::uint32_t index = none;
+    friend bool operator==(const operand_element&, const operand_element&) = default;
+};
+
+/// A place where a surface ends.
+struct open_edge {
+    operand_element face{};        ///< at the edge
+    std::array<point3, 2> ends{};  ///< of the open part of the edge; rounded where it is cut
+};
+
+/// The same in every operation that makes a mesh (`boolean`, `resolve_self_intersections`). What is
+/// certified was checked with exact predicates on the coordinates returned.
+struct TREEFORM_API certificate {
+    treeform::status status = treeform::status::ok;
+    /// Pairs of faces that meet where they should not; twice the same face where it is degenerate
+    /// or has its outside behind it. The first 100 of `meeting_count`.
+    std::uint64_t meeting_count = 0;
+    std::vector<std::array<std::uint32_t, 2>> meeting{};
+    /// Edges whose signed face count is not zero. The first 100 of `open_count`.
+    std::uint64_t open_count = 0;
+    std::vector<open_edge> open{};
+    /// Bound of how far rounding moved a vertex, in each coordinate.
+    double max_displacement = 0.0;
+
+    explicit operator bool() const { return status == treeform::status::ok; }
+    /// One sentence for people.
+    [[nodiscard]] std::string message() const;
+};
+
+/// What `value()` of a result throws; `what()` is the certificate's message.
+class TREEFORM_API not_certified_error : public std::runtime_error {
+  public:
+    explicit not_certified_error(certificate why);
+    [[nodiscard]] const certificate& why() const { return why_; }
+
+  private:
+    certificate why_;
+};
+
+}  // namespace treeform
