@@ -224,7 +224,7 @@ TEST_CASE("what cannot be arranged is named") {
     tf::mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
     mesh.points[1].y = nan;
     CHECK_THROWS_WITH_AS(static_cast<void>(tf::arrange_faces(mesh)),
-                         "tf::arrange_faces: point 1 is not finite or beyond 2^1000",
+                         "treeform::arrange_faces: point 1 is not finite or beyond 2^1000",
                          std::invalid_argument);
     mesh.points[1].y = 0x1p1001;
     CHECK_THROWS_AS(static_cast<void>(tf::arrange_faces(mesh)), std::invalid_argument);

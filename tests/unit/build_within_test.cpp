@@ -102,7 +102,7 @@ TEST_CASE("build_overlap: gives the pairs of whole trees, and skips what cannot 
     boxes<3> unsound = a;
     unsound[77].min[0] = infinity;
     CHECK_THROWS_WITH_AS((void)tf::build_overlap(unsound, itself, a, itself),
-                         "tf::build_overlap: the box of element 77 is empty or not finite",
+                         "treeform::build_overlap: the box of element 77 is empty or not finite",
                          std::invalid_argument);
     CHECK_THROWS_AS((void)tf::build_overlap(a, itself, unsound, itself), std::invalid_argument);
 }
@@ -125,10 +125,10 @@ TEST_CASE("build_within: refuses boxes that are not finite, also far off, and na
     of[20'001].max[1] = infinity;
     of[29'000].min[2] = std::numeric_limits<double>::quiet_NaN();
     CHECK_THROWS_WITH_AS((void)tf::build_within(of, itself, of[0]),
-                         "tf::build_within: the box of element 20001 is empty or not finite",
+                         "treeform::build_within: the box of element 20001 is empty or not finite",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tf::box_of_all(of, itself),
-                         "tf::box_of_all: the box of element 20001 is empty or not finite",
+                         "treeform::box_of_all: the box of element 20001 is empty or not finite",
                          std::invalid_argument);
     CHECK_THROWS_AS((void)tf::build_within(boxes<3>{}, itself, of[29'000]), std::invalid_argument);
 }

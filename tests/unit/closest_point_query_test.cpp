@@ -132,7 +132,8 @@ TEST_CASE("closest point query: what cannot be meant is refused by name") {
     const tf::closest_point_query query(mesh);
     const std::vector<tf::point3> queries{{0, 0, 0}, {0, infinity, 0}};
     CHECK_THROWS_WITH_AS((void)query.nearest(queries),
-                         "tf::closest_point_query: query 1 is not finite", std::invalid_argument);
+                         "treeform::closest_point_query: query 1 is not finite",
+                         std::invalid_argument);
     CHECK_THROWS_AS((void)query.nearest(queries[1]), std::invalid_argument);
     CHECK_THROWS_AS((void)query.nearest(queries[0], -1.0), std::invalid_argument);
     mesh.points[3].y = std::numeric_limits<double>::quiet_NaN();
@@ -140,6 +141,6 @@ TEST_CASE("closest point query: what cannot be meant is refused by name") {
     mesh = test::grid(2);
     mesh.faces[5][1] = 99;
     CHECK_THROWS_WITH_AS(tf::closest_point_query{mesh},
-                         "tf::closest_point_query: face 5 has a corner that is no point",
+                         "treeform::closest_point_query: face 5 has a corner that is no point",
                          std::invalid_argument);
 }

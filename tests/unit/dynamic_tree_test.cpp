@@ -138,28 +138,28 @@ TEST_CASE("dynamic_tree: refuses ids that are not there or come twice, and boxes
     unsound.max[1] = std::numeric_limits<double>::quiet_NaN();
     const auto before = tree.statistics();
     CHECK_THROWS_WITH_AS(tree.remove(ids{1, 5}),
-                         "tf::dynamic_tree: cannot remove id 5, which is not there",
+                         "treeform::dynamic_tree: cannot remove id 5, which is not there",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(tree.remove(ids{1000}),
-                         "tf::dynamic_tree: cannot remove id 1000, which is not there",
+                         "treeform::dynamic_tree: cannot remove id 1000, which is not there",
                          std::invalid_argument);
-    CHECK_THROWS_WITH_AS(tree.remove(ids{3, 8, 3}), "tf::dynamic_tree: cannot remove id 3 twice",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(tree.remove(ids{3, 8, 3}),
+                         "treeform::dynamic_tree: cannot remove id 3 twice", std::invalid_argument);
     ids many;
     for (std::uint32_t id = 10; id < 900; ++id) many.push_back(id);
     many.push_back(77);
-    CHECK_THROWS_WITH_AS(tree.remove(many), "tf::dynamic_tree: cannot remove id 77 twice",
+    CHECK_THROWS_WITH_AS(tree.remove(many), "treeform::dynamic_tree: cannot remove id 77 twice",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(tree.move(ids{1, 5}, boxes<3>{sound, sound}),
-                         "tf::dynamic_tree: cannot move id 5, which is not there",
+                         "treeform::dynamic_tree: cannot move id 5, which is not there",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(tree.move(ids{1, 9}, boxes<3>{sound, unsound}),
-                         "tf::dynamic_tree: the box of id 9 is empty or not finite",
+                         "treeform::dynamic_tree: the box of id 9 is empty or not finite",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(tree.move(ids{1, 9}, boxes<3>{sound}),
-                         "tf::dynamic_tree: 2 ids but 1 boxes", std::invalid_argument);
+                         "treeform::dynamic_tree: 2 ids but 1 boxes", std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tree.insert(boxes<3>{sound, sound, unsound}),
-                         "tf::dynamic_tree: the box of element 2 is empty or not finite",
+                         "treeform::dynamic_tree: the box of element 2 is empty or not finite",
                          std::invalid_argument);
     CHECK(tree.statistics() == before);
     CHECK(tree.size() == 999);

@@ -159,6 +159,6 @@ TEST_CASE("lazy_tree: refuses boxes that are not finite before any search, namin
     boxes<3> of = along_a_line(10'000, 11);
     of[9'999].max[2] = std::numeric_limits<double>::quiet_NaN();
     CHECK_THROWS_WITH_AS(tf::lazy_tree(of, itself),
-                         "tf::lazy_tree: the box of element 9999 is empty or not finite",
+                         "treeform::lazy_tree: the box of element 9999 is empty or not finite",
                          std::invalid_argument);
 }

@@ -79,7 +79,7 @@ TEST_CASE("nearness batch: the query that is not finite is named") {
     queries[71][1] = std::numeric_limits<double>::infinity();
     queries[80][2] = std::numeric_limits<double>::quiet_NaN();
     CHECK_THROWS_WITH_AS((void)tf::nearest_batch(in.tree, queries, in),
-                         "tf::nearness: query 71 is not finite, or an empty box",
+                         "treeform::nearness: query 71 is not finite, or an empty box",
                          std::invalid_argument);
 }
 

@@ -176,9 +176,10 @@ TEST_CASE("point location: an open mesh is refused, naming the edge") {
     REQUIRE(edge);
     CHECK(*edge == std::array<std::uint32_t, 2>{5, 6});
     const auto tree = tf::face_tree(open);
-    CHECK_THROWS_WITH_AS(tf::point_locator(open, tree),
-                         "tf::point_locator: the mesh is open at the edge between points 5 and 6",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        tf::point_locator(open, tree),
+        "treeform::point_locator: the mesh is open at the edge between points 5 and 6",
+        std::invalid_argument);
     tf::mesh turned = cube();
     std::swap(turned.faces[0][0], turned.faces[0][1]);
     CHECK(tf::find_open_edge(turned));
@@ -196,7 +197,7 @@ TEST_CASE("point location: empty meshes and bad numbers") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK_THROWS_WITH_AS(
         static_cast<void>(locator.locate(std::vector<tf::point3>{{}, {0, nan, 0}})),
-        "tf::point_locator: point 1 is not finite", std::invalid_argument);
+        "treeform::point_locator: point 1 is not finite", std::invalid_argument);
     CHECK_THROWS_AS(tf::point_locator(cube(), tree), std::invalid_argument);
 }
 
@@ -259,7 +260,8 @@ TEST_CASE("point location: an open curve is refused, and an empty one holds noth
     const curves open{{{0, 0}, {1, 0}, {0, 1}}, {{0, 1}, {1, 2}}};
     const auto open_tree = tf::edge_tree(open);
     CHECK_THROWS_WITH_AS(tf::curve_locator(open, open_tree),
-                         "tf::curve_locator: the curve is open at point 0", std::invalid_argument);
+                         "treeform::curve_locator: the curve is open at point 0",
+                         std::invalid_argument);
     const curves wild{{{0, 0}}, {{0, 1}}};
     CHECK_THROWS_AS(static_cast<void>(tf::edge_tree(wild)), std::invalid_argument);
     CHECK(tf::polygon_edges(1) == std::vector<tf::curve_edge>{{0, 0}});

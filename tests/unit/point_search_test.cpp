@@ -134,7 +134,7 @@ TEST_CASE("point search: what cannot be meant is refused") {
     CHECK_THROWS_AS((void)search.all_within({0, 0}, nan), std::invalid_argument);
     const cloud<2> queries{{0, 0}, {0, nan}};
     CHECK_THROWS_WITH_AS((void)search.k_nearest(queries, 1),
-                         "tf::point_search: query 1 is not finite", std::invalid_argument);
+                         "treeform::point_search: query 1 is not finite", std::invalid_argument);
     CHECK_THROWS_AS(tf::point_search<2>(cloud<2>{{0, nan}}), std::invalid_argument);
 }
 

@@ -138,7 +138,8 @@ TEST_CASE("refit: refuses a box that is not finite, naming the element, and can 
         auto tree = tf::build(of, itself);
         const auto built = tree;
         of[12'345].max[1] = bad;
-        const std::string complaint = "tf::refit: the box of element 12345 is empty or not finite";
+        const std::string complaint =
+            "treeform::refit: the box of element 12345 is empty or not finite";
         CHECK_THROWS_WITH_AS(tf::refit(tree, of, itself), complaint.c_str(), std::invalid_argument);
         const std::vector<std::uint32_t> places{3, tf::places_of(tree)[12'345], 77};
         CHECK_THROWS_WITH_AS(tf::refit(tree, of, itself, places), complaint.c_str(),
@@ -152,7 +153,7 @@ TEST_CASE("refit: refuses a place that the tree does not have") {
     const boxes<2> of = box_family<2>("random", 20, 1);
     auto tree = tf::build(of, itself);
     CHECK_THROWS_WITH_AS(tf::refit(tree, of, itself, std::vector<std::uint32_t>{3, 20}),
-                         "tf::refit: place 20 is not in the tree", std::invalid_argument);
+                         "treeform::refit: place 20 is not in the tree", std::invalid_argument);
 }
 
 TEST_CASE("refit: refuses a range that is not of the size of the tree") {

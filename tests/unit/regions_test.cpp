@@ -116,7 +116,7 @@ TEST_CASE("regions: two places where sheets cross are two, each with its box") {
 TEST_CASE("regions: a pair of a face that is not there is refused by its number") {
     const tf::mesh sheet = test::grid(1);
     CHECK_THROWS_WITH_AS((void)tf::group_pairs(sheet, pairs{{0, 1, {}}, {0, 2, {}}}),
-                         "tf::group_pairs: pair 1 has a face that is not in the mesh",
+                         "treeform::group_pairs: pair 1 has a face that is not in the mesh",
                          std::invalid_argument);
     tf::mesh bad = sheet;
     bad.faces[1][1] = 4;

@@ -264,7 +264,7 @@ TEST_CASE("topology: a corner that is no point is refused by the number of its f
     const faces list{{0, 1, 2}, {1, 2, 3}};
     CHECK_NOTHROW((void)tf::count_topology(4, list));
     CHECK_THROWS_WITH_AS((void)tf::count_topology(3, list),
-                         "tf::count_topology: face 1 has a corner that is no point",
+                         "treeform::count_topology: face 1 has a corner that is no point",
                          std::invalid_argument);
     CHECK_THROWS_AS((void)tf::face_components(3, list), std::invalid_argument);
 }

@@ -152,7 +152,7 @@ TEST_CASE("build: refuses a box that is empty or not finite and names the elemen
         of[20'001].max[1] = bad;
         of[29'000].min[2] = bad;
         CHECK_THROWS_WITH_AS((void)tf::build(of, itself),
-                             "tf::build: the box of element 20001 is empty or not finite",
+                             "treeform::build: the box of element 20001 is empty or not finite",
                              std::invalid_argument);
     }
     boxes<3> empty_box(1);

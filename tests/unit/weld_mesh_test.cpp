@@ -257,28 +257,29 @@ TEST_CASE("weld_mesh: what cannot be meant is refused by name") {
         CHECK_THROWS_WITH_AS((void)tf::weld_mesh(mesh, properties, options), text,
                              std::invalid_argument);
     };
-    refused({}, {.conditions = {{"q"}}}, "tf::weld_mesh: no vertex property 'q'");
-    refused({}, {.keep = tf::weld_keep::lowest}, "tf::weld_mesh: no vertex property ''");
-    refused({}, {.conditions = {{"xy"}}}, "tf::weld_mesh: no vertex property 'xy'");
+    refused({}, {.conditions = {{"q"}}}, "treeform::weld_mesh: no vertex property 'q'");
+    refused({}, {.keep = tf::weld_keep::lowest}, "treeform::weld_mesh: no vertex property ''");
+    refused({}, {.conditions = {{"xy"}}}, "treeform::weld_mesh: no vertex property 'xy'");
     for (const double bad : {-1.0, not_a_number, infinite})
         refused({}, {.conditions = {{"x", bad}}},
-                "tf::weld_mesh: the tolerance of 'x' must be finite and not negative");
+                "treeform::weld_mesh: the tolerance of 'x' must be finite and not negative");
     const ids kind(3);
     refused({}, {.points = {.kind = kind}, .conditions = {{"x"}}},
-            "tf::weld_mesh: 3 kinds for 4 points");
+            "treeform::weld_mesh: 3 kinds for 4 points");
     tf::attributes properties = vertex_columns({{"q", {1, 2, 3}}});
-    refused(properties, {}, "tf::weld_mesh: element 'vertex' has 3 rows for 4 points");
+    refused(properties, {}, "treeform::weld_mesh: element 'vertex' has 3 rows for 4 points");
     properties.elements[0].rows = 4;
-    refused(properties, {}, "tf::weld_mesh: column 'q' does not fit element 'vertex'");
+    refused(properties, {}, "treeform::weld_mesh: column 'q' does not fit element 'vertex'");
     tf::attributes list;
     tf::obtain_element(list, "vertex", 4).columns = {
         {.name = "l", .list_length = tf::scalar_type::uint8, .list_begin = {0, 0, 0, 0, 0}}};
-    refused(list, {.conditions = {{"l"}}}, "tf::weld_mesh: the vertex property 'l' is a list");
+    refused(list, {.conditions = {{"l"}}},
+            "treeform::weld_mesh: the vertex property 'l' is a list");
     tf::attributes faces;
     faces.elements.push_back({.name = "face", .rows = 1});
-    refused(faces, {}, "tf::weld_mesh: element 'face' has 1 rows for 2 faces");
+    refused(faces, {}, "treeform::weld_mesh: element 'face' has 1 rows for 2 faces");
     CHECK_THROWS_WITH_AS((void)tf::weld_mesh(tf::mesh{mesh.points, {{0, 1, 2}, {1, 2, 9}}}, {}, {}),
-                         "tf::weld_mesh: face 1 has a corner that is no point",
+                         "treeform::weld_mesh: face 1 has a corner that is no point",
                          std::invalid_argument);
     CHECK_THROWS_AS((void)tf::weld_mesh(mesh, {}, {.points = {.tolerance = -1.0}}),
                     std::invalid_argument);
