@@ -398,8 +398,9 @@ arrange_faces_result detail::arrange::arrange_without_points(mesh_view mesh,
             }
         usable.faces = kept;
     }
-    self_intersection_result found =
-        self_intersections(usable, {.progress = part_of(options.progress, 0.0, 0.5)});
+    self_intersection_result found = self_intersections(
+        usable,
+        {.vertices = vertex_identity::by_index, .progress = part_of(options.progress, 0.0, 0.5)});
     if (found.cancelled) return cancelled_result(std::move(degenerate));
     if (!degenerate.empty())
         for (face_pair& pair : found.pairs) {

@@ -18,6 +18,7 @@ enum class slot_name : std::size_t {
     closest_triangles,
     joined_corners,
     open_edge,
+    sound_operand,
     count
 };
 

@@ -9,7 +9,9 @@
 #include <libmesh/boolean/mended_operands.hpp>
 #include <libmesh/boolean/merged_faces.hpp>
 #include <libmesh/boolean/operand_tree.hpp>
+#include <libmesh/boolean/sound_operand.hpp>
 #include <libmesh/boolean/sound_pair.hpp>
+#include <libmesh/boolean/split_nonmanifold.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <treeform/mesh/boolean.hpp>
@@ -31,6 +33,7 @@ namespace {
 
 using detail::base::part_of;
 using detail::boolean::joined_operands;
+using detail::boolean::unmended_result;
 
 constexpr std::size_t grain = std::size_t{1} << 14;
 
@@ -57,22 +60,22 @@ mesh_view input_of(const mesh_arrangement& cut, const joined_operands& joined) {
     return {cut.given_points, joined.all.faces};
 }
 
-std::vector<open_operand_edge> open_edges(const arrangement_cells& cells,
-                                          const mesh_arrangement& cut,
-                                          const joined_operands& joined) {
-    std::vector<open_operand_edge> edges;
+certificate open_input(const arrangement_cells& cells, const mesh_arrangement& cut,
+                       const joined_operands& joined) {
+    certificate result{.status = status::open_input, .open_count = cells.open_count};
     for (const open_arrangement_edge& e : cells.open)
-        edges.push_back({joined.face_source(e.face),
-                         {rounded(cut.point(e.points[0])), rounded(cut.point(e.points[1]))}});
-    return edges;
+        result.open.push_back({joined.face_source(e.face),
+                               {rounded(cut.point(e.points[0])), rounded(cut.point(e.points[1]))}});
+    return result;
 }
 
-solid_result with_counts(const arrange_faces_result& arranged) {
-    solid_result result;
-    result.pairs = arranged.pairs;
-    result.cut_faces = arranged.cut_faces;
-    result.degenerate = arranged.degenerate.size();
-    result.cancelled = arranged.cancelled;
+/// The status is that of a result which is not there yet.
+boolean_result with_counts(const arrange_faces_result& arranged) {
+    boolean_result result;
+    result.certificate.status = status::cancelled;
+    result.statistics.pairs = arranged.pairs;
+    result.statistics.cut_faces = arranged.cut_faces;
+    result.statistics.degenerate = arranged.degenerate.size();
     return result;
 }
 
@@ -108,9 +111,10 @@ std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uin
 /// `exact_faces` are faces of `cut`, `face_of` says which; both become the surface of `result`.
 /// What is not needed any more is let go on the way: `cut` and `joined.all` are empty then, and
 /// `face_of` is of the input.
-void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact_faces,
+void finish(unmended_result& made, mesh_arrangement& cut, std::vector<face> exact_faces,
             std::vector<std::uint32_t> face_of, joined_operands& joined, bool solid,
             const boolean_options& options) {
+    boolean_result& result = made.result;
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(exact_faces), std::vector<std::uint8_t>(face_of.size())};
     const auto source_of = [&](std::size_t f) { return cut.covers_of(face_of[f]).front().face; };
@@ -128,38 +132,34 @@ void finish(solid_result& result, mesh_arrangement& cut, std::vector<face> exact
         face_of_point = simplify(exact, face_of, cut, joined, options);
         for (std::size_t f = 0; f < face_of.size(); ++f) face_of[f] = source_of(f);
     }
-    result.exact_faces = face_of.size();
+    result.statistics.exact_faces = face_of.size();
     cut = {};
     joined.all = {};
     rounded_surface r =
-        round_surface(std::move(exact), {.to_float = options.to_float,
+        round_surface(std::move(exact), {.precision = options.precision,
                                          .solid = solid,
                                          .steps = options.rounding_steps,
                                          .progress = part_of(options.progress, 0.7, 1.0)});
-    result.cancelled = r.cancelled;
-    if (r.cancelled) return;
-    result.surface = std::move(r.surface);
-    result.max_move = r.max_move;
-    result.certified = r.certified;
-    result.meeting_faces = std::move(r.meeting);
-    result.meeting_count = r.meeting_count;
-    result.rounding_steps = r.steps;
-    result.broken = std::move(r.broken);
-    result.lost_parts = r.lost_parts;
-    result.lost_places = std::move(r.lost_places);
-    detail::base::at_once([&] { result.source_face.resize(r.face_of.size()); },
-                          [&] { result.source_point.resize(r.point_of.size()); });
+    result.certificate = std::move(r.certificate);
+    if (result.certificate.status == status::cancelled) return;
+    result.mesh = std::move(r.surface);
+    result.statistics.rounding_steps = r.steps;
+    made.broken = std::move(r.broken);
+    result.vanished_components = r.vanished_components;
+    result.vanished_at = std::move(r.vanished_at);
+    detail::base::at_once([&] { result.face_source.resize(r.face_of.size()); },
+                          [&] { result.vertex_source.resize(r.point_of.size()); });
     for_chunks(r.face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
-            result.source_face[f] = joined.face_source(face_of[r.face_of[f]]);
+            result.face_source[f] = joined.face_source(face_of[r.face_of[f]]);
     });
     for_chunks(r.point_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t p = begin; p < end; ++p)
-            if (r.point_of[p] < given) result.source_point[p] = joined.point_source(r.point_of[p]);
+            if (r.point_of[p] < given) result.vertex_source[p] = joined.point_source(r.point_of[p]);
     });
     if (!options.simplify) return;
     for (const std::uint32_t p : r.point_of)
-        result.face_of_cut_point.push_back(
+        result.face_of_cut_vertex.push_back(
             p < given || p == rounded_surface::none ? operand_element{} : face_of_point[p - given]);
 }
 
@@ -219,7 +219,7 @@ void cover_from_both_sides(mesh_arrangement& cut, const std::vector<std::uint32_
 detail::round::solid_faces kept_of_sheet(mesh_arrangement& cut, const arrangement_cells& cells,
                                          const std::vector<std::uint32_t>& operand_of_face,
                                          const std::vector<std::uint8_t>& way, std::uint32_t sheet,
-                                         const boolean_expression& expression, inside_rule rule) {
+                                         const boolean_expression& expression, fill_rule rule) {
     detail::round::solid_faces kept;
     const auto in = std::make_unique<bool[]>(cells.operands);
     for (std::size_t f = 0; f < way.size(); ++f) {
@@ -239,38 +239,39 @@ detail::round::solid_faces kept_of_sheet(mesh_arrangement& cut, const arrangemen
     return kept;
 }
 
-solid_result boolean_of(std::span<const mesh_view> operands, const boolean_expression& expression,
-                        const boolean_options& options) {
+unmended_result boolean_of(std::span<const mesh_view> operands,
+                           const boolean_expression& expression, const boolean_options& options,
+                           bool sound) {
     check_expression("boolean", operands, expression);
-    if (options.sound_operands && operands.size() == 2 && !options.simplify && !options.volumes)
+    if (sound && operands.size() == 2 && !options.simplify && !options.volumes)
         if (auto result =
                 detail::boolean::boolean_of_sound_pair(operands.first<2>(), expression, options))
-            return std::move(*result);
+            return {std::move(*result), {}};
     auto [joined, arranged] =
         arrange_operands("boolean", operands, part_of(options.progress, 0.0, 0.5));
-    solid_result result = with_counts(arranged);
-    if (result.cancelled) return result;
+    unmended_result made{with_counts(arranged), {}};
+    boolean_result& result = made.result;
+    if (arranged.cancelled) return made;
     arrangement_cells cells = detail::arrange::cells_of(
         input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), operands.size());
     if (!cells.open.empty()) {
-        result.open = open_edges(cells, arranged.cut, joined);
-        result.open_count = cells.open_count;
-        return result;
+        result.certificate = open_input(cells, arranged.cut, joined);
+        return made;
     }
     if (options.volumes && operands.size() == 2)
         result.volumes =
             detail::boolean::find_volumes(operands, arranged.cut, cells, options.inside);
     const auto inside = detail::boolean::inside_of_cells(cells, options.inside, expression);
-    result.cells = inside.size();
+    result.statistics.cells = inside.size();
     detail::round::solid_faces chosen = detail::round::faces_around(arranged.cut, cells, inside);
     cells = {};  // nearly as large as the surface
-    finish(result, arranged.cut, std::move(chosen.faces), std::move(chosen.face_of), joined, true,
+    finish(made, arranged.cut, std::move(chosen.faces), std::move(chosen.face_of), joined, true,
            options);
-    return result;
+    return made;
 }
 
-solid_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
-                     const boolean_expression& expression, const boolean_options& options) {
+unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
+                        const boolean_expression& expression, const boolean_options& options) {
     check_expression("clip", operands, expression);
     if (sheet >= operands.size())
         throw std::invalid_argument("treeform::clip: the sheet is no operand");
@@ -278,8 +279,9 @@ solid_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
         throw std::invalid_argument("treeform::clip: the expression holds more than of the sheet");
     auto [joined, arranged] =
         arrange_operands("clip", operands, part_of(options.progress, 0.0, 0.5));
-    solid_result result = with_counts(arranged);
-    if (result.cancelled) return result;
+    unmended_result made{with_counts(arranged), {}};
+    boolean_result& result = made.result;
+    if (arranged.cancelled) return made;
     mesh_arrangement& cut = arranged.cut;
     const std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
     const std::vector<std::uint8_t> way = sheet_faces(cut, operand_of_face, sheet);
@@ -287,62 +289,134 @@ solid_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
     const arrangement_cells cells =
         detail::arrange::cells_of(input_of(cut, joined), cut, operand_of_face, operands.size());
     if (!cells.open.empty()) {
-        result.open = open_edges(cells, cut, joined);
-        result.open_count = cells.open_count;
-        return result;
+        result.certificate = open_input(cells, cut, joined);
+        return made;
     }
-    result.cells = cells.winding.size() / operands.size();
+    result.statistics.cells = cells.winding.size() / operands.size();
     detail::round::solid_faces chosen =
         kept_of_sheet(cut, cells, operand_of_face, way, sheet, expression, options.inside);
-    finish(result, cut, std::move(chosen.faces), std::move(chosen.face_of), joined, false, options);
-    return result;
+    finish(made, cut, std::move(chosen.faces), std::move(chosen.face_of), joined, false, options);
+    return made;
 }
 
-solid_result split_of(std::span<const mesh_view> operands, const boolean_options& options) {
+unmended_result split_of(std::span<const mesh_view> operands, const boolean_options& options) {
     auto [joined, arranged] =
         arrange_operands("split", operands, part_of(options.progress, 0.0, 0.7));
-    solid_result result = with_counts(arranged);
-    if (result.cancelled) return result;
+    unmended_result made{with_counts(arranged), {}};
+    boolean_result& result = made.result;
+    if (arranged.cancelled) return made;
     std::vector<std::uint32_t> all(arranged.cut.faces.size());
     std::iota(all.begin(), all.end(), 0U);
-    result.covered = count_covered(arranged, joined.all.faces.size());
+    result.statistics.covered = count_covered(arranged, joined.all.faces.size());
     boolean_options as_cut = options;
     as_cut.simplify = false;
-    finish(result, arranged.cut, std::move(arranged.cut.faces), std::move(all), joined, false,
+    finish(made, arranged.cut, std::move(arranged.cut.faces), std::move(all), joined, false,
            as_cut);
-    return result;
+    return made;
+}
+
+/// The result as it is returned: a solid as a manifold.
+boolean_result finished(boolean_result&& result, bool solid) {
+    if (!result.certificate) return std::move(result);
+    if (result.mesh.faces.empty() && result.statistics.exact_faces > 0) {
+        result.certificate.status = status::vanished;
+        return std::move(result);
+    }
+    if (!solid) return std::move(result);
+    detail::boolean::manifold_surface manifold =
+        detail::boolean::split_nonmanifold(std::move(result.mesh));
+    result.mesh = std::move(manifold.surface);
+    result.statistics.split_vertices = manifold.vertex_of_added.size();
+    for (auto* sources : {&result.vertex_source, &result.face_of_cut_vertex})
+        if (!sources->empty())
+            for (const std::uint32_t p : manifold.vertex_of_added)
+                sources->push_back((*sources)[p]);
+    return std::move(result);
+}
+
+boolean_result evaluate(std::span<const mesh_view> operands, const boolean_expression& expression,
+                        const boolean_options& options, bool sound) {
+    return finished(detail::boolean::with_mended_operands(
+                        operands, options,
+                        [&](auto given, const auto& how) {
+                            return boolean_of(given, expression, how,
+                                              sound && given.data() == operands.data());
+                        }),
+                    true);
 }
 
 }  // namespace
 
-solid_result boolean(std::span<const mesh_view> operands, const boolean_expression& expression,
-                     const boolean_options& options) {
-    return detail::boolean::with_mended_operands(
-        operands, options,
-        [&](auto given, const auto& how) { return boolean_of(given, expression, how); });
+boolean_result boolean(std::span<const mesh_view> operands, const boolean_expression& expression,
+                       const boolean_options& options) {
+    return evaluate(operands, expression, options, false);
 }
 
-solid_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
-                  const boolean_expression& expression, const boolean_options& options) {
-    return detail::boolean::with_mended_operands(
-        operands, options,
-        [&](auto given, const auto& how) { return clip_of(given, sheet, expression, how); });
+boolean_result boolean(std::span<const mesh_operand> operands, const boolean_expression& expression,
+                       const boolean_options& options) {
+    std::vector<mesh_view> views;
+    for (const mesh_operand& operand : operands) views.push_back(operand.view());
+    const bool sound =
+        operands.size() == 2 && std::ranges::all_of(operands, [](const mesh_operand& operand) {
+            return operand.prepared() != nullptr && detail::boolean::is_sound(*operand.prepared());
+        });
+    return evaluate(views, expression, options, sound);
 }
 
-solid_result split(std::span<const mesh_view> operands, const boolean_options& options) {
-    return detail::boolean::with_mended_operands(
-        operands, options, [](auto given, const auto& how) { return split_of(given, how); });
+boolean_result unite(const mesh_operand& a, const mesh_operand& b, const boolean_options& options) {
+    return boolean({a, b}, boolean_expression::union_of(2), options);
 }
 
-solid_check check_solid(mesh_view mesh, const progress_callback& progress) {
+boolean_result intersection(const mesh_operand& a, const mesh_operand& b,
+                            const boolean_options& options) {
+    return boolean({a, b}, boolean_expression::intersection_of(2), options);
+}
+
+boolean_result subtract(const mesh_operand& a, const mesh_operand& b,
+                        const boolean_options& options) {
+    return boolean({a, b}, boolean_expression::difference_of(2), options);
+}
+
+boolean_result symmetric_difference(const mesh_operand& a, const mesh_operand& b,
+                                    const boolean_options& options) {
+    return boolean({a, b}, boolean_expression::xor_of(2), options);
+}
+
+boolean_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
+                    const boolean_expression& expression, const boolean_options& options) {
+    return finished(
+        detail::boolean::with_mended_operands(
+            operands, options,
+            [&](auto given, const auto& how) { return clip_of(given, sheet, expression, how); }),
+        false);
+}
+
+boolean_result split(std::span<const mesh_view> operands, const boolean_options& options) {
+    return finished(
+        detail::boolean::with_mended_operands(
+            operands, options, [](auto given, const auto& how) { return split_of(given, how); }),
+        false);
+}
+
+const mesh& boolean_result::value() const& {
+    if (!certificate) throw not_certified_error(certificate);
+    return mesh;
+}
+
+treeform::mesh boolean_result::value() && {
+    if (!certificate) throw not_certified_error(std::move(certificate));
+    return std::move(mesh);
+}
+
+certificate check_solid(mesh_view mesh, const progress_callback& progress) {
     detail::boolean::check_operands("check_solid", {&mesh, 1});
     if (!find_open_edge(detail::boolean::join_operands({&mesh, 1}).all)) return {};
     const auto [joined, arranged] =
         arrange_operands("check_solid", {&mesh, 1}, part_of(progress, 0.0, 1.0));
-    if (arranged.cancelled) return {.cancelled = true};
+    if (arranged.cancelled) return {.status = status::cancelled};
     const arrangement_cells cells = detail::arrange::cells_of(
         input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), 1);
-    return {.open = open_edges(cells, arranged.cut, joined), .open_count = cells.open_count};
+    return cells.open.empty() ? certificate{} : open_input(cells, arranged.cut, joined);
 }
 
 }  // namespace treeform

@@ -47,19 +47,19 @@ bool winds_once(const arrangement_cells& cells, std::size_t operand) {
 
 }  // namespace
 
-bool is_inside(inside_rule rule, std::int32_t winding) {
+bool is_inside(fill_rule rule, std::int32_t winding) {
     switch (rule) {
-        case inside_rule::odd:
+        case fill_rule::odd:
             return winding % 2 != 0;
-        case inside_rule::positive:
+        case fill_rule::positive:
             return winding > 0;
-        case inside_rule::nonzero:
+        case fill_rule::nonzero:
             break;
     }
     return winding != 0;
 }
 
-std::vector<std::uint8_t> inside_of_cells(const arrangement_cells& cells, inside_rule rule,
+std::vector<std::uint8_t> inside_of_cells(const arrangement_cells& cells, fill_rule rule,
                                           const boolean_expression& expression) {
     const std::size_t operands = cells.operands;
     const std::size_t count = operands == 0 ? 1 : cells.winding.size() / operands;
@@ -77,12 +77,12 @@ std::vector<std::uint8_t> inside_of_cells(const arrangement_cells& cells, inside
 }
 
 operand_volumes find_volumes(std::span<const mesh_view> operands, const mesh_arrangement& cut,
-                             const arrangement_cells& cells, inside_rule rule) {
+                             const arrangement_cells& cells, fill_rule rule) {
     const auto volume = [&](const char* text) {
         return volume_of(cut, cells, inside_of_cells(cells, rule, {text, 2}));
     };
     const auto volume_of_one = [&](std::size_t operand) {
-        const bool any_way = rule != inside_rule::positive;
+        const bool any_way = rule != fill_rule::positive;
         if (winds_once(cells, operand) && any_way)
             return std::abs(signed_volume(operands[operand]));
         return volume(operand == 0 ? "a" : "b");

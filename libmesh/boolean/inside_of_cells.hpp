@@ -12,18 +12,18 @@
 
 namespace treeform::detail::boolean {
 
-[[nodiscard]] bool is_inside(inside_rule rule, std::int32_t winding);
+[[nodiscard]] bool is_inside(fill_rule rule, std::int32_t winding);
 
 /// [C] 1 where the expression is true.
 /// \same on any number of threads
 [[nodiscard]] std::vector<std::uint8_t> inside_of_cells(const arrangement_cells& cells,
-                                                        inside_rule rule,
+                                                        fill_rule rule,
                                                         const boolean_expression& expression);
 
 /// \pre  there are two operands, and the surface of each is closed
 /// \same on any number of threads
 [[nodiscard]] operand_volumes find_volumes(std::span<const mesh_view> operands,
                                            const mesh_arrangement& cut,
-                                           const arrangement_cells& cells, inside_rule rule);
+                                           const arrangement_cells& cells, fill_rule rule);
 
 }  // namespace treeform::detail::boolean

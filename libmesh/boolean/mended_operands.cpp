@@ -20,7 +20,7 @@ namespace {
 constexpr int steps_of_surface = 2;
 
 /// Of `reach_of_bits`, in step k = 0, 1, ...
-int bits_of_step(int step, bool to_float) { return (to_float ? 22 : 48) - 4 * step; }
+int bits_of_step(int step, precision p) { return (p == precision::float32 ? 22 : 48) - 4 * step; }
 
 /// Operands as joined, each with its own points, and the way back.
 struct near_operands {
@@ -83,16 +83,15 @@ class mending {
     }
 
     template <class Ask>
-    solid_result step(int number, const std::vector<aabb<double, 3>>& broken, const Ask& ask) {
+    unmended_result step(int number, const std::vector<aabb<double, 3>>& broken, const Ask& ask) {
         const double reach =
-            round::reach_of_bits(given_.all.points, bits_of_step(number, options_.to_float));
+            round::reach_of_bits(given_.all.points, bits_of_step(number, options_.precision));
         const round::joined_near near = round::join_near(
             given_.all, next_to(broken, given_.all, reach),
             {.reach = reach, .source = source_, .solid = false, .operand = operand_of_face_});
         const near_operands joined(near, operand_of_face_, given_.first_face.size() - 1);
         boolean_options how = options_;
         how.rounding_steps = steps_of_surface;
-        how.sound_operands = false;
         how.volumes = false;
         if (options_.progress) how.progress = [&](double) { return options_.progress(1.0); };
         std::vector<std::uint32_t> groups;
@@ -102,12 +101,13 @@ class mending {
             how.face_groups = groups;
         }
         const std::vector<mesh_view> views(joined.meshes.begin(), joined.meshes.end());
-        solid_result result = ask(std::span<const mesh_view>(views), how);
-        result.max_move += near.moved;
-        for (operand_element& face : result.source_face) face = face_source(joined, face);
-        for (operand_element& face : result.face_of_cut_point) face = face_source(joined, face);
-        for (operand_element& point : result.source_point) point = point_source(joined, point);
-        return result;
+        unmended_result made = ask(std::span<const mesh_view>(views), how);
+        boolean_result& result = made.result;
+        result.certificate.max_displacement += near.moved;
+        for (operand_element& face : result.face_source) face = face_source(joined, face);
+        for (operand_element& face : result.face_of_cut_vertex) face = face_source(joined, face);
+        for (operand_element& point : result.vertex_source) point = point_source(joined, point);
+        return made;
     }
 
   private:
@@ -130,45 +130,44 @@ class mending {
 };
 
 /// The surface of `mended`, and what is certain about it, with the rest as it was said before.
-void take_surface(solid_result& result, solid_result&& mended) {
-    result.surface = std::move(mended.surface);
-    result.source_face = std::move(mended.source_face);
-    result.source_point = std::move(mended.source_point);
-    result.face_of_cut_point = std::move(mended.face_of_cut_point);
-    result.max_move = mended.max_move;
-    result.certified = mended.certified;
-    result.meeting_faces = std::move(mended.meeting_faces);
-    result.meeting_count = mended.meeting_count;
-    result.lost_parts = mended.lost_parts;
-    result.lost_places = std::move(mended.lost_places);
+void take_surface(boolean_result& result, boolean_result&& mended) {
+    result.mesh = std::move(mended.mesh);
+    result.face_source = std::move(mended.face_source);
+    result.vertex_source = std::move(mended.vertex_source);
+    result.face_of_cut_vertex = std::move(mended.face_of_cut_vertex);
+    result.certificate = std::move(mended.certificate);
+    result.vanished_components = mended.vanished_components;
+    result.vanished_at = std::move(mended.vanished_at);
 }
 
 }  // namespace
 
-solid_result with_mended_operands(
+boolean_result with_mended_operands(
     std::span<const mesh_view> operands, const boolean_options& options,
-    function_ref<solid_result(std::span<const mesh_view>, const boolean_options&)> ask) {
+    function_ref<unmended_result(std::span<const mesh_view>, const boolean_options&)> ask) {
     boolean_options first = options;
     first.rounding_steps = std::min(options.rounding_steps, steps_of_surface);
-    solid_result result = ask(operands, first);
-    const auto is_done = [&](const solid_result& r) {
-        return r.certified || r.cancelled || r.open_count > 0 || !std::isfinite(r.max_move);
+    auto [result, broken] = ask(operands, first);
+    const auto is_done = [&](const certificate& c) {
+        return c.status != status::not_certified || !std::isfinite(c.max_displacement);
     };
-    if (is_done(result) || options.rounding_steps <= steps_of_surface) return result;
+    if (is_done(result.certificate) || options.rounding_steps <= steps_of_surface) return result;
     mending again(operands, options);
     for (int step = 0; step < options.rounding_steps - steps_of_surface; ++step) {
-        solid_result mended = again.step(step, result.broken, ask);
-        result.cancelled = mended.cancelled;
-        if (mended.cancelled) break;
-        ++result.rounding_steps;
-        result.broken.insert(result.broken.end(), mended.broken.begin(), mended.broken.end());
-        if (is_done(mended) && !mended.certified) continue;
-        const bool diverges = mended.meeting_count > 4 * result.meeting_count + 1000;
-        if (mended.certified || mended.meeting_count < result.meeting_count)
-            take_surface(result, std::move(mended));
-        if (result.certified || diverges) break;
+        auto [mended, broken_again] = again.step(step, broken, ask);
+        if (mended.certificate.status == status::cancelled) {
+            result.certificate.status = status::cancelled;
+            break;
+        }
+        ++result.statistics.rounding_steps;
+        broken.insert(broken.end(), broken_again.begin(), broken_again.end());
+        if (is_done(mended.certificate) && !mended.certificate) continue;
+        const std::uint64_t before = result.certificate.meeting_count;
+        const std::uint64_t after = mended.certificate.meeting_count;
+        if (mended.certificate || after < before) take_surface(result, std::move(mended));
+        if (result.certificate || after > 4 * before + 1000) break;
     }
-    return result;
+    return std::move(result);
 }
 
 }  // namespace treeform::detail::boolean

@@ -4,11 +4,20 @@
 
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 
 #include <span>
+#include <vector>
 
 namespace treeform::detail::boolean {
+
+/// The answer to the operands as they are.
+struct unmended_result {
+    boolean_result result;
+    /// Boxes of all faces that met after a step of mending or before; of faces as rounded.
+    std::vector<aabb<double, 3>> broken{};
+};
 
 /// What `ask` says of the operands; where that cannot be certified, of operands whose faces next to
 /// what is broken are joined, further and further, as long as there are steps left. All but the
@@ -19,8 +28,8 @@ namespace treeform::detail::boolean {
 ///
 /// \throws what `ask` throws
 /// \same   on any number of threads, if `ask` is
-[[nodiscard]] solid_result with_mended_operands(
+[[nodiscard]] boolean_result with_mended_operands(
     std::span<const mesh_view> operands, const boolean_options& options,
-    function_ref<solid_result(std::span<const mesh_view>, const boolean_options&)> ask);
+    function_ref<unmended_result(std::span<const mesh_view>, const boolean_options&)> ask);
 
 }  // namespace treeform::detail::boolean

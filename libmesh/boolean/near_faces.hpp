@@ -31,7 +31,7 @@ struct near_faces {
 /// those. Whatever lies in faces of the former kind is apart from all faces that are left out,
 /// and these are outside the other operand.
 ///
-/// None where it is seen that the operands are not what `boolean_options::sound_operands` says, or
+/// None where it is seen that the operands are not sound (`is_sound`), or
 /// that no such face is to be told: a point that faces use is not finite or beyond 2^1000, or two
 /// points of one operand are equal.
 ///

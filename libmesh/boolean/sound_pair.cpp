@@ -127,7 +127,7 @@ class assembly {
 
     /// `source` are faces of operands, ascending, one for each face of `rounded`, whose points are
     /// those of `near_` and others.
-    void write(const rounded_surface& rounded, const ids& source, solid_result& result) {
+    void write(const rounded_surface& rounded, const ids& source, boolean_result& result) {
         number_points(rounded, result);
         ids corner(rounded.point_of.size());
         const auto first_made = static_cast<std::uint32_t>(given_);
@@ -163,7 +163,7 @@ class assembly {
     }
 
     /// Numbers the points in use, those of operands first.
-    void number_points(const rounded_surface& rounded, solid_result& result) {
+    void number_points(const rounded_surface& rounded, boolean_result& result) {
         const auto use = [&](std::size_t p) {
             std::atomic_ref(number_[p]).store(1, std::memory_order_relaxed);
         };
@@ -188,9 +188,9 @@ class assembly {
         });
         for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
         given_ = first.back();
-        std::vector<point3>& points = result.surface.points;
+        std::vector<point3>& points = result.mesh.points;
         points.resize(given_ + made);
-        result.source_point.resize(given_ + made);
+        result.vertex_source.resize(given_ + made);
         for_chunks(points_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
             std::size_t next = first[c];
             for (std::size_t p = begin; p < end; ++p) {
@@ -199,7 +199,7 @@ class assembly {
                 const auto index = static_cast<std::uint32_t>(p - points_[k]);
                 number_[p] = static_cast<std::uint32_t>(next);
                 points[next] = operands_[k].points[index];
-                result.source_point[next++] = {static_cast<std::uint32_t>(k), index};
+                result.vertex_source[next++] = {static_cast<std::uint32_t>(k), index};
             }
         });
         std::size_t next = given_;
@@ -208,7 +208,7 @@ class assembly {
     }
 
     void write_faces(const rounded_surface& rounded, const ids& corner, const ids& source,
-                     solid_result& result) const {
+                     boolean_result& result) const {
         const auto looked_at = [&](std::size_t face) {
             return static_cast<std::size_t>(std::lower_bound(source.begin(), source.end(), face) -
                                             source.begin());
@@ -220,15 +220,15 @@ class assembly {
             first[c + 1] = count;
         });
         for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
-        std::vector<face>& faces = result.surface.faces;
+        std::vector<face>& faces = result.mesh.faces;
         faces.resize(first.back());
-        result.source_face.resize(first.back());
+        result.face_source.resize(first.back());
         for_chunks(faces_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
             std::size_t next = first[c];
             const auto put = [&](std::size_t f, const face& corners) {
                 const std::size_t k = operand_of(f);
                 faces[next] = corners;
-                result.source_face[next++] = {static_cast<std::uint32_t>(k),
+                result.face_source[next++] = {static_cast<std::uint32_t>(k),
                                               static_cast<std::uint32_t>(f - faces_[k])};
             };
             std::size_t piece = looked_at(begin);
@@ -266,14 +266,16 @@ bool can_be_counted_through(std::span<const mesh_view, 2> operands) {
 
 }  // namespace
 
-std::optional<solid_result> boolean_of_sound_pair(std::span<const mesh_view, 2> operands,
-                                                  const boolean_expression& expression,
-                                                  const boolean_options& options) {
-    if (options.to_float || !can_be_counted_through(operands)) return std::nullopt;
-    solid_result result;
+std::optional<boolean_result> boolean_of_sound_pair(std::span<const mesh_view, 2> operands,
+                                                    const boolean_expression& expression,
+                                                    const boolean_options& options) {
+    if (options.precision == precision::float32 || !can_be_counted_through(operands))
+        return std::nullopt;
+    boolean_result result;
     const auto goes_on = [&](double done) {
-        result.cancelled = options.progress && !options.progress(done);
-        return !result.cancelled;
+        if (!options.progress || options.progress(done)) return true;
+        result.certificate.status = status::cancelled;
+        return false;
     };
     auto near = find_near_faces(operands);
     if (!near) return std::nullopt;
@@ -304,18 +306,18 @@ std::optional<solid_result> boolean_of_sound_pair(std::span<const mesh_view, 2> 
     // What was left out meets no box of what was cut, and so no piece of it either, rounded or not:
     // rounding to nearest takes no coordinate out of a box of doubles.
     rounded_surface rounded = round_surface(std::move(exact), {.steps = 0});
-    if (!rounded.certified || rounded.lost_parts > 0) return std::nullopt;
+    if (!rounded.certificate || rounded.vanished_components > 0) return std::nullopt;
     if (!goes_on(0.8)) return result;
     ids source(rounded.face_of.size());
     for_chunks(source.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) source[i] = chosen.face_of[rounded.face_of[i]];
     });
     assembly(operands, *near, choice).write(rounded, source, result);
-    result.max_move = rounded.max_move;
-    result.certified = true;
-    result.pairs = arranged.pairs;
-    result.cut_faces = arranged.cut_faces;
-    result.exact_faces = result.surface.faces.size() + (chosen.face_of.size() - source.size());
+    result.certificate = std::move(rounded.certificate);
+    result.statistics.pairs = arranged.pairs;
+    result.statistics.cut_faces = arranged.cut_faces;
+    result.statistics.exact_faces =
+        result.mesh.faces.size() + (chosen.face_of.size() - source.size());
     goes_on(1.0);
     return result;
 }

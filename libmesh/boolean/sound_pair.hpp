@@ -10,13 +10,12 @@
 
 namespace treeform::detail::boolean {
 
-/// What `boolean` gives for two operands that are as `boolean_options::sound_operands` says, but
-/// for the count of cells, which nobody needs: only faces near the other operand are arranged, the
-/// rest is copied.
+/// What `boolean` gives for two operands that are sound (`is_sound`), except for the count of
+/// cells, which nobody needs: only faces near the other operand are arranged, the rest is copied.
 ///
-/// None where only the general way will do: floats are asked for, rounding has broken something, or
+/// None where only the general way will do: float32 is asked for, rounding has broken something, or
 /// the operands turn out not to be sound.
-[[nodiscard]] std::optional<solid_result> boolean_of_sound_pair(
+[[nodiscard]] std::optional<boolean_result> boolean_of_sound_pair(
     std::span<const mesh_view, 2> operands, const boolean_expression& expression,
     const boolean_options& options);
 

@@ -1,9 +1,12 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/checked_face_tree.hpp>
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/finite.hpp>
 #include <libmesh/base/first_bad.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
 #include <libmesh/intersect/pair_sieve.hpp>
 #include <libmesh/intersect/pairs_by_tree.hpp>
+#include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search_self.hpp>
@@ -28,8 +31,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 void check(mesh_view mesh, const self_intersection_options& options) {
     detail::base::check_faces("self_intersections", mesh.points.size(), mesh.faces);
     const std::size_t bad_point = detail::base::first_bad(mesh.points.size(), [&](std::size_t i) {
-        const point3& p = mesh.points[i];
-        return !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+        return !detail::base::is_finite(mesh.points[i]);
     });
     if (bad_point != mesh.points.size())
         throw std::invalid_argument("treeform::self_intersections: point " +
@@ -39,6 +41,9 @@ void check(mesh_view mesh, const self_intersection_options& options) {
         throw std::invalid_argument("treeform::self_intersections: " + std::to_string(labels) +
                                     " components for " + std::to_string(mesh.faces.size()) +
                                     " faces");
+    if (options.between && options.within)
+        throw std::invalid_argument(
+            "treeform::self_intersections: between and within leave no pair");
 }
 
 bool fits_filter(points_view points) {
@@ -62,22 +67,8 @@ detail::buffer<detail::intersect::numbered_face> leaf_order(mesh_view mesh, cons
     return faces;
 }
 
-}  // namespace
-
-self_intersection_result self_intersections(mesh_view mesh,
-                                            const self_intersection_options& options) {
-    check(mesh, options);
-    const auto start = std::chrono::steady_clock::now();
-    tree<3> tree = detail::base::checked_face_tree(mesh);
-    const double seconds = seconds_since(start);
-    self_intersection_result result =
-        detail::intersect::pairs_by_tree(mesh, std::move(tree), options);
-    result.tree_seconds = seconds;
-    return result;
-}
-
-self_intersection_result detail::intersect::pairs_by_tree(
-    mesh_view mesh, tree<3> tree, const self_intersection_options& options) {
+self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
+                                    const self_intersection_options& options) {
     self_intersection_result result;
     const auto pair_start = std::chrono::steady_clock::now();
     const detail::buffer<detail::intersect::numbered_face> faces = leaf_order(mesh, tree);
@@ -103,6 +94,37 @@ self_intersection_result detail::intersect::pairs_by_tree(
     result.cancelled = progress.cancelled();
     result.pair_seconds = seconds_since(pair_start);
     return result;
+}
+
+}  // namespace
+
+self_intersection_result self_intersections(mesh_view mesh,
+                                            const self_intersection_options& options) {
+    check(mesh, options);
+    detail::weld::joined_faces joined;
+    if (options.vertices == vertex_identity::by_coordinates)
+        joined = detail::weld::join_faces(mesh);
+    const auto start = std::chrono::steady_clock::now();
+    tree<3> tree = detail::base::checked_face_tree(mesh);
+    const double seconds = seconds_since(start);
+    self_intersection_result result =
+        detail::intersect::pairs_by_tree(joined.of(mesh), std::move(tree), options);
+    result.tree_seconds = seconds;
+    return result;
+}
+
+self_intersection_result self_intersections(const prepared_mesh& mesh,
+                                            const self_intersection_options& options) {
+    check(mesh.view(), options);
+    const mesh_view view = options.vertices == vertex_identity::by_coordinates
+                               ? detail::weld::join_faces(mesh).of(mesh.view())
+                               : mesh.view();
+    return find_pairs(view, face_tree(mesh), options);
+}
+
+self_intersection_result detail::intersect::pairs_by_tree(
+    mesh_view mesh, tree<3> tree, const self_intersection_options& options) {
+    return find_pairs(mesh, tree, options);
 }
 
 }  // namespace treeform

@@ -47,19 +47,19 @@ std::vector<point3> points_in_use(mesh_view mesh) {
 /// has failed.
 class remover {
   public:
-    remover(mesh_view given, const repair_options& options)
+    remover(mesh_view given, const resolve_options& options)
         : options_(options),
           given_{points_in_use(given), {given.faces.begin(), given.faces.end()}},
           fates_(given_.faces.size(), fate::stays),
           few_(given_.faces.size(), 0),
           tries_(given_.faces.size(), 0) {
-        if (options.to_float) to_floats();
+        if (options.precision == precision::float32) to_floats();
     }
 
-    repaired_mesh run() {
+    resolve_result run() {
         keep_all();
         // Beyond the range of float, or with nothing to be done.
-        if (!std::isfinite(result_.max_move) || !look()) return finished();
+        if (!std::isfinite(result_.certificate.max_displacement) || !look()) return finished();
         edges_ = directed_edges(given_.faces);
         find_parts();
         const int rounds = std::max(options_.removal_rounds, 0);
@@ -79,7 +79,8 @@ class remover {
             const point3 rounded{base::nearest_float(p.x), base::nearest_float(p.y),
                                  base::nearest_float(p.z)};
             for (std::size_t k = 0; k < 3; ++k)
-                result_.max_move = std::max(result_.max_move, std::abs(rounded[k] - p[k]));
+                result_.certificate.max_displacement =
+                    std::max(result_.certificate.max_displacement, std::abs(rounded[k] - p[k]));
             p = rounded;
         }
     }
@@ -114,7 +115,7 @@ class remover {
         const directed_edges edges(now_);
         for (std::size_t i = 0; i < now_.size(); ++i)
             for_edges(now_[i], [&](std::uint32_t u, std::uint32_t v) {
-                if (!edges.has(v, u)) ends[part_of_[result_.face_of[i]]] = 1;
+                if (!edges.has(v, u)) ends[part_of_[result_.face_source[i]]] = 1;
             });
         is_closed_.resize(count);
         for (std::uint32_t f = 0; f < count; ++f) is_closed_[f] = ends[part_of_[f]] == 0;
@@ -123,18 +124,18 @@ class remover {
     void keep_all() {
         now_ = given_.faces;
         kept_ = now_.size();
-        result_.face_of.resize(kept_);
-        std::iota(result_.face_of.begin(), result_.face_of.end(), 0U);
+        result_.face_source.resize(kept_);
+        std::iota(result_.face_source.begin(), result_.face_source.end(), 0U);
     }
 
     /// The faces that stay, and those that fill the holes of patches.
     void build() {
         now_.clear();
-        result_.face_of.clear();
+        result_.face_source.clear();
         for (std::uint32_t f = 0; f < fates_.size(); ++f) {
             if (fates_[f] != fate::stays) continue;
             now_.push_back(given_.faces[f]);
-            result_.face_of.push_back(f);
+            result_.face_source.push_back(f);
         }
         kept_ = now_.size();
         const directed_edges kept(now_);
@@ -153,7 +154,7 @@ class remover {
             for (const auto& rim : rims)
                 for (const face& f : fill(given_.points, rim, kept)) {
                     now_.push_back(f);
-                    result_.face_of.push_back(repaired_mesh::none);
+                    result_.face_source.push_back(resolve_result::none);
                     patch_of_fill_.push_back(p);
                 }
         }
@@ -203,21 +204,22 @@ class remover {
 
     /// Finds what meets, is degenerate, or is not closed; whether there is any.
     bool look() {
-        result_.meeting.clear();
-        result_.meeting_count = 0;
+        result_.certificate.meeting.clear();
+        result_.certificate.meeting_count = 0;
         pairs_.clear();
         rings_.assign(patches_.size(), 0);
         places_.clear();
         const double done = std::exchange(done_, (done_ + 1.0) / 2.0);  // rounds are not known
         const auto found =
-            self_intersections(now(), {.progress = base::part_of(options_.progress, done, done_)});
-        result_.cancelled = found.cancelled;
+            self_intersections(now(), {.vertices = vertex_identity::by_index,
+                                       .progress = base::part_of(options_.progress, done, done_)});
+        if (found.cancelled) result_.certificate.status = status::cancelled;
         if (found.cancelled) return false;
         for (const std::uint32_t f : find_defects(now()).degenerate_faces) complain(f, f);
         for (const face_pair& pair : found.pairs)
             if (!is_let_be(pair)) complain(pair.a, pair.b);
         find_holes();
-        return result_.meeting_count > 0 || has_hole_;
+        return result_.certificate.meeting_count > 0 || has_hole_;
     }
     /// Of faces given: contact, and what meets a degenerate one, which is told of by itself.
     [[nodiscard]] bool is_let_be(const face_pair& pair) const {
@@ -226,15 +228,17 @@ class remover {
                (pair.kind == pair_kind::touching && !options_.touching);
     }
     void complain(std::uint32_t f, std::uint32_t g) {
-        if (f < kept_ && g < kept_) pairs_.push_back({result_.face_of[f], result_.face_of[g]});
+        if (f < kept_ && g < kept_)
+            pairs_.push_back({result_.face_source[f], result_.face_source[g]});
         for (const auto& [x, other] : {std::array{f, g}, std::array{g, f}}) {
             if (x < kept_) continue;
             const std::uint32_t patch = patch_of_fill_[x - kept_];
             fail(patch, now_[x]);
-            if (other < kept_) blame(patch, result_.face_of[other]);
+            if (other < kept_) blame(patch, result_.face_source[other]);
         }
-        ++result_.meeting_count;
-        if (result_.meeting.size() < listed_pairs) result_.meeting.push_back({f, g});
+        ++result_.certificate.meeting_count;
+        if (result_.certificate.meeting.size() < listed_pairs)
+            result_.certificate.meeting.push_back({f, g});
     }
     /// The hole is to become wider at these points.
     void fail(std::uint32_t patch, std::span<const std::uint32_t> points) {
@@ -319,31 +323,34 @@ class remover {
         const directed_edges edges(now_);
         for (const face& f : now_)
             for_edges(f, [&](std::uint32_t u, std::uint32_t v) {
-                result_.left_open += !edges.has(v, u) && edges_.has(v, u);
+                result_.statistics.left_open += !edges.has(v, u) && edges_.has(v, u);
             });
     }
 
     /// Without the points that no face uses.
-    repaired_mesh finished() {
-        result_.certified = std::isfinite(result_.max_move) && !result_.cancelled &&
-                            result_.meeting_count == 0 && !has_hole_;
+    resolve_result finished() {
+        certificate& known = result_.certificate;
+        if (!std::isfinite(known.max_displacement))
+            known.status = status::out_of_range;
+        else if (known.status == status::ok && (known.meeting_count > 0 || has_hole_))
+            known.status = status::not_certified;
         count_left_open();
-        std::vector<std::uint32_t> number(given_.points.size(), repaired_mesh::none);
+        std::vector<std::uint32_t> number(given_.points.size(), resolve_result::none);
         for (const face& f : now_)
             for (const std::uint32_t c : f) number[c] = 0;
         for (std::uint32_t p = 0; p < number.size(); ++p) {
-            if (number[p] == repaired_mesh::none) continue;
-            number[p] = static_cast<std::uint32_t>(result_.point_of.size());
-            result_.point_of.push_back(p);
-            result_.surface.points.push_back(given_.points[p]);
+            if (number[p] == resolve_result::none) continue;
+            number[p] = static_cast<std::uint32_t>(result_.vertex_source.size());
+            result_.vertex_source.push_back(p);
+            result_.mesh.points.push_back(given_.points[p]);
         }
         for (face& f : now_)
             for (std::uint32_t& c : f) c = number[c];
-        result_.surface.faces = std::move(now_);
+        result_.mesh.faces = std::move(now_);
         return std::move(result_);
     }
 
-    const repair_options& options_;
+    const resolve_options& options_;
     mesh given_;
     directed_edges edges_{{}};             ///< of the faces given
     std::vector<std::uint32_t> part_of_;   ///< by face: the lowest face of its part
@@ -362,13 +369,13 @@ class remover {
     std::vector<std::array<std::uint32_t, 2>> pairs_;   ///< of faces given, that stay and meet
     bool has_hole_ = false;
     double done_ = 0.0;
-    repaired_mesh result_{};
+    resolve_result result_{};
 };
 
 }  // namespace
 
-repaired_mesh remove_faces(mesh_view mesh, const repair_options& options) {
-    base::check_faces("repair", mesh.points.size(), mesh.faces);
+resolve_result remove_faces(mesh_view mesh, const resolve_options& options) {
+    base::check_faces("resolve_self_intersections", mesh.points.size(), mesh.faces);
     return remover(mesh, options).run();
 }
 

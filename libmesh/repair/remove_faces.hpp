@@ -1,12 +1,12 @@
 #pragma once
 /// \file
-/// Repair by deleting faces and filling the holes.
+/// Self-intersections resolved by deleting faces and filling the holes.
 
-#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/resolve.hpp>
 
 namespace treeform::detail::repair {
 
-/// `repair` in the mode `remove`.
-[[nodiscard]] repaired_mesh remove_faces(mesh_view mesh, const repair_options& options);
+/// `resolve_self_intersections` in the mode `remove`.
+[[nodiscard]] resolve_result remove_faces(mesh_view mesh, const resolve_options& options);
 
 }  // namespace treeform::detail::repair

@@ -63,35 +63,42 @@ class rounding {
     }
 
     rounded_surface run() {
+        result_.certificate.status = status::out_of_range;
         while (settle()) {
-            result_.certified = check();
-            if (result_.steps == 0 && (vanished_ || !result_.certified)) remember_parts();
-            if (result_.certified || result_.cancelled) break;
+            const bool sound = check();
+            if (result_.steps == 0 && (vanished_ || !sound)) remember_parts();
+            if (sound || is_cancelled()) break;
             if (result_.steps >= options_.steps && !gets_better()) break;
             if (gets_worse()) break;
             ++result_.steps;
-            last_meeting_count_ = result_.meeting_count;
+            last_meeting_count_ = result_.certificate.meeting_count;
             if (!cut_again()) break;
         }
         point_of_.resize(result_.surface.points.size());  // a step may have ended half way
         if (vanished_) drop_unused_points();
-        count_lost_parts();
+        count_vanished_components();
         result_.point_of = std::move(point_of_);
         return std::move(result_);
     }
 
   private:
+    [[nodiscard]] bool to_float32() const { return options_.precision == precision::float32; }
+    [[nodiscard]] bool is_cancelled() const {
+        return result_.certificate.status == status::cancelled;
+    }
+
     /// Fewer faces meet than before the last step. Where nothing is joined, that ends as a rule, if
     /// slowly; otherwise each step joins what is further apart.
     [[nodiscard]] bool gets_better() const {
         const int most_steps = only_cut_ ? 12 : 4;
         return options_.steps > 0 && result_.steps < most_steps &&
-               result_.meeting_count < last_meeting_count_;
+               result_.certificate.meeting_count < last_meeting_count_;
     }
     /// More and more faces would be cut by each other.
     [[nodiscard]] bool gets_worse() const {
         return result_.surface.faces.size() > most_faces_ ||
-               (result_.steps > 0 && result_.meeting_count > 2 * last_meeting_count_ + 1000);
+               (result_.steps > 0 &&
+                result_.certificate.meeting_count > 2 * last_meeting_count_ + 1000);
     }
 
     /// Each phase has half of the work that was left; nobody knows how many there will be.
@@ -105,9 +112,9 @@ class rounding {
 
     [[nodiscard]] point3 rounded_point(std::uint32_t p) const {
         const std::size_t given = exact_.given.size();
-        if (p < given) return options_.to_float ? to_single(exact_.given[p]) : exact_.given[p];
+        if (p < given) return to_float32() ? to_single(exact_.given[p]) : exact_.given[p];
         const constructed_point& made = exact_.constructed[p - given];
-        return options_.to_float ? rounded_to_float(made) : rounded(made);
+        return to_float32() ? rounded_to_float(made) : rounded(made);
     }
 
     /// The exact surface becomes the rounded one; false when a coordinate is too large for it.
@@ -126,7 +133,7 @@ class rounding {
                        }
                    });
         const double move = *std::max_element(moves.begin(), moves.end());
-        result_.max_move += move;
+        result_.certificate.max_displacement += move;
         const bool joined = join_equal(points, std::move(at));
         moved_ = joined && move > 0.0 ? std::numeric_limits<double>::infinity() : move;
         return finite;
@@ -140,7 +147,7 @@ class rounding {
         const constructed_point& made = exact_.constructed[p - given];
         const double most = largest_difference(made.centre(), to) + made.radius();
         if (!(most < std::numeric_limits<double>::infinity())) return most;
-        const double bound = options_.to_float ? most : std::min(most, half_unit(to));
+        const double bound = to_float32() ? most : std::min(most, half_unit(to));
         return bound <= known || !equal(made, to) ? bound : 0.0;
     }
 
@@ -226,22 +233,22 @@ class rounding {
             if (part_of_[f] == place_of_part_.size())
                 place_of_part_.push_back(rounded_point(exact_.faces[f][0]));
     }
-    void count_lost_parts() {
+    void count_vanished_components() {
         std::vector<std::uint8_t> is_left(place_of_part_.size(), 0);
         if (!is_left.empty())
             for (const std::uint32_t f : result_.face_of) is_left[part_of_[f]] = 1;
         for (std::size_t part = 0; part < is_left.size(); ++part) {
             if (is_left[part] != 0) continue;
-            ++result_.lost_parts;
-            if (result_.lost_places.size() < most_listed)
-                result_.lost_places.push_back(place_of_part_[part]);
+            ++result_.vanished_components;
+            if (result_.vanished_at.size() < most_listed)
+                result_.vanished_at.push_back(place_of_part_[part]);
         }
     }
 
     /// Whether what is known of an exact face holds of it as `rounded`: no corner has moved.
     [[nodiscard]] std::uint8_t stays_sound(std::size_t f, points_view points,
                                            const face& rounded) const {
-        if (exact_.sound[f] == 0 || !options_.to_float) return exact_.sound[f];
+        if (exact_.sound[f] == 0 || !to_float32()) return exact_.sound[f];
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t p = exact_.faces[f][i];
             if (p >= exact_.given.size() || !(exact_.given[p] == points[rounded[i]])) return 0;
@@ -258,13 +265,13 @@ class rounding {
     /// edges of all other faces.
     bool check() {
         const mesh& now = result_.surface;
-        result_.meeting.clear();
-        result_.meeting_count = 0;
+        result_.certificate.meeting.clear();
+        result_.certificate.meeting_count = 0;
         offending_.assign(now.faces.size(), 0);
         const detail::round::surface_faults faults = detail::round::find_faults(
             now,
             {.sound = sound_, .solid = options_.solid, .moved = moved_, .progress = next_phase()});
-        result_.cancelled = faults.cancelled;
+        result_.certificate.status = status::cancelled;
         if (faults.cancelled) return false;
         for (const std::uint32_t f : faults.degenerate) complain(f, f);
         for (const face_pair& pair : faults.pairs) complain(pair.a, pair.b);
@@ -274,13 +281,16 @@ class rounding {
             aabb<double, 3>& box = result_.broken.emplace_back();
             for (const std::uint32_t corner : now.faces[f]) box.include(now.points[corner]);
         }
-        return result_.meeting_count == 0 && !faults.open;
+        const bool sound = result_.certificate.meeting_count == 0 && !faults.open;
+        result_.certificate.status = sound ? status::ok : status::not_certified;
+        return sound;
     }
 
     void complain(std::uint32_t f, std::uint32_t g) {
         offending_[f] = offending_[g] = 1;
-        ++result_.meeting_count;
-        if (result_.meeting.size() < most_listed) result_.meeting.push_back({f, g});
+        ++result_.certificate.meeting_count;
+        if (result_.certificate.meeting.size() < most_listed)
+            result_.certificate.meeting.push_back({f, g});
     }
 
     /// The rounded surface, with what is next to each other joined, and cut along itself, becomes
@@ -289,7 +299,7 @@ class rounding {
         const detail::round::joined_near near = join_what_is_near();
         const mesh& now = near.surface;
         arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
-        result_.cancelled = arranged.cancelled;
+        if (arranged.cancelled) result_.certificate.status = status::cancelled;
         if (arranged.cancelled) return false;
         mesh_arrangement& cut = arranged.cut;
         std::vector<std::uint32_t> face_of_cut(cut.faces.size());
@@ -325,18 +335,18 @@ class rounding {
     /// Where that only spreads, nothing is joined.
     detail::round::joined_near join_what_is_near() {
         const mesh& now = result_.surface;
-        const detail::round::joint how{
-            .reach = detail::round::reach_of_bits(now.points,
-                                                  bits_of_step(result_.steps, options_.to_float)),
-            .source = result_.face_of,
-            .solid = options_.solid};
+        const detail::round::joint how{.reach = detail::round::reach_of_bits(
+                                           now.points, bits_of_step(result_.steps, to_float32())),
+                                       .source = result_.face_of,
+                                       .solid = options_.solid};
         constexpr int most_rounds = 8;
         detail::round::joined_near near;
         for (int round = 0; round < most_rounds && !only_cut_; ++round) {
             near = detail::round::join_near(now, offending_, how);
             bool more = false;
-            const std::vector<face_pair> meeting = self_intersections(near.surface).pairs;
-            if (meeting.size() > 8 * result_.meeting_count + 2000) {
+            const std::vector<face_pair> meeting =
+                self_intersections(near.surface, {.vertices = vertex_identity::by_index}).pairs;
+            if (meeting.size() > 8 * result_.certificate.meeting_count + 2000) {
                 only_cut_ = true;
                 break;
             }
@@ -352,7 +362,7 @@ class rounding {
             near.face_of.resize(now.faces.size());
             std::iota(near.face_of.begin(), near.face_of.end(), 0U);
         }
-        result_.max_move += near.moved;
+        result_.certificate.max_displacement += near.moved;
         point_of_.resize(near.surface.points.size(), rounded_surface::none);
         return near;
     }

@@ -4,6 +4,7 @@
 /// broke on the way.
 
 #include <libmesh/exact/constructed_point.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/export.hpp>
@@ -29,8 +30,7 @@ struct exact_surface {
 };
 
 struct round_options {
-    /// To the nearest float (then widened) rather than the nearest double.
-    bool to_float = false;
+    treeform::precision precision = treeform::precision::float64;  ///< of the rounded coordinates
     /// The faces bound a solid, which is behind them, and are to do so when rounded. Otherwise they
     /// are a complex of which every piece stays.
     bool solid = true;
@@ -48,39 +48,32 @@ struct rounded_surface {
     std::vector<std::uint32_t> face_of;
     std::vector<std::uint32_t> point_of;  ///< [V] exact point that each one is, or `none`: where
                                           ///< rounded faces were cut
-    /// Bound of how far rounding and mending moved a point, in each coordinate.
-    double max_move = 0.0;
-    /// Checked on the coordinates above: two faces have a common corner, a common edge or nothing
-    /// in common, none is degenerate, and, of a solid, they run along every edge as often one way
-    /// as the other and have its inside behind them.
-    bool certified = false;
-    std::vector<std::array<std::uint32_t, 2>> meeting{};  ///< pairs of faces that break it, at
-                                                          ///< most 100; twice the same: it is
-                                                          ///< degenerate, or turned inside out
-    std::uint64_t meeting_count = 0;                      ///< of all such pairs
-    int steps = 0;                                        ///< of mending that were taken
+    /// Status ok: checked on the coordinates above, two faces have a common corner, a common edge
+    /// or nothing in common, none is degenerate, and, of a solid, they run along every edge as
+    /// often one way as the other and have its inside behind them.
+    treeform::certificate certificate{};
+    int steps = 0;                          ///< of mending that were taken
     std::vector<aabb<double, 3>> broken{};  ///< boxes of all faces that met in any step
     /// Components of the exact surface, by points, no face of which is left: all of each was within
     /// what the rounded coordinates tell apart.
-    std::uint64_t lost_parts = 0;
-    std::vector<point3> lost_places{};  ///< a point of each, at most 100
-    bool cancelled = false;
+    std::uint64_t vanished_components = 0;
+    std::vector<point3> vanished_at{};  ///< a point of each, at most 100
 };
 
 /// `exact` in rounded coordinates, without the points that no face uses.
 ///
-/// Every point is rounded once, to nearest; given points stay bit for bit unless floats are asked
+/// Every point is rounded once, to nearest; given points stay bit for bit unless float32 is asked
 /// for. Then the surface is checked with the exact predicates: every face that has moved, or is not
 /// known to be sound, against all others. Where it is broken, it is mended,
 /// step by step: corners, edges and faces next to each other are joined where faces meet, the
 /// surface is cut along itself (`arrange_faces`), of a solid what it does not wind around any more
 /// is left out, and what was cut is rounded. Next to each other is what is nearer than 2^-48 of the
-/// largest coordinate in the first step (2^-22 for floats), four times as far in each that follows.
-/// Faces that lose their area or cover each other in opposite directions vanish; points of these
-/// places may move by that much.
+/// largest coordinate in the first step (2^-22 for float32), four times as far in each that
+/// follows. Faces that lose their area or cover each other in opposite directions vanish; points of
+/// these places may move by that much.
 ///
-/// No number of steps is sure to suffice: `certified` tells. Mending also ends when the surface
-/// only grows by it. With nothing in `meeting`, a coordinate was too large to be rounded.
+/// No number of steps is sure to suffice: the certificate tells. Mending also ends when the surface
+/// only grows by it. Status `out_of_range`: a coordinate was too large to be rounded.
 ///
 /// Where a part of a solid is thinner than rounding moves its points, it may be turned inside out
 /// and meet nothing: then the cells of the whole surface are found, and what is turned is mended.

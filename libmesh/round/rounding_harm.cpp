@@ -36,7 +36,7 @@ using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// Ascending; none where stopped, which `cancelled` then says.
 pairs meeting_pairs(mesh_view mesh, const progress_callback& progress, bool& cancelled) {
-    self_intersection_options options{.progress = progress};
+    self_intersection_options options{.vertices = vertex_identity::by_index, .progress = progress};
     for (const pair_kind kind : {pair_kind::touching, pair_kind::degenerate})
         options.kinds[static_cast<std::size_t>(kind)] = false;
     const self_intersection_result found = self_intersections(mesh, options);

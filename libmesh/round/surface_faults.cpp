@@ -32,7 +32,8 @@ void find_turned(mesh_view surface, surface_faults& result) {
 
 surface_faults all_faults(mesh_view surface, const surface_check& check) {
     surface_faults result;
-    self_intersection_result found = self_intersections(surface, {.progress = check.progress});
+    self_intersection_result found = self_intersections(
+        surface, {.vertices = vertex_identity::by_index, .progress = check.progress});
     result.cancelled = found.cancelled;
     if (result.cancelled) return result;
     result.pairs = std::move(found.pairs);
@@ -124,7 +125,8 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
         doubted.size() > count / 2 ? all_of(count) : with_neighbours(surface, doubted, check.sound);
     const std::vector<face> faces = faces_of(surface, near);
     const mesh_view part{surface.points, faces};
-    const self_intersection_result found = self_intersections(part, {.progress = check.progress});
+    const self_intersection_result found = self_intersections(
+        part, {.vertices = vertex_identity::by_index, .progress = check.progress});
     result.cancelled = found.cancelled;
     if (result.cancelled) return result;
     for (const face_pair& pair : found.pairs)

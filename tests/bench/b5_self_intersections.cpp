@@ -33,16 +33,17 @@ std::optional<double> distance(double pairs, const std::optional<double>& expect
 
 job find_pairs(const shared_mesh& mesh, const truth& expected) {
     using answer = self_intersection_result;
-    return make_job([mesh] { return self_intersections(*mesh); },
-                    [expected](const answer& result) {
-                        return distance(pairs_of_proper_faces(result), expected());
-                    },
-                    [](const answer& result) {
-                        return std::vector<figure>{
-                            {"pairs", pairs_of_proper_faces(result)},
-                            {"pairs of boxes", static_cast<double>(result.box_pairs)},
-                            {"pairs left to exact", static_cast<double>(result.exact_pairs)}};
-                    });
+    return make_job(
+        [mesh] { return self_intersections(*mesh, {.vertices = vertex_identity::by_index}); },
+        [expected](const answer& result) {
+            return distance(pairs_of_proper_faces(result), expected());
+        },
+        [](const answer& result) {
+            return std::vector<figure>{
+                {"pairs", pairs_of_proper_faces(result)},
+                {"pairs of boxes", static_cast<double>(result.box_pairs)},
+                {"pairs left to exact", static_cast<double>(result.exact_pairs)}};
+        });
 }
 
 contest contest_of(const std::string& name, const truth& expected,
@@ -76,7 +77,9 @@ mesh two_along(const mesh& one, std::size_t axis) {
 mesh overlapping_copies(const mesh& one) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         mesh both = two_along(one, axis);
-        if (!self_intersections(both, {.first_only = true}).pairs.empty()) return both;
+        if (!self_intersections(both, {.vertices = vertex_identity::by_index, .first_only = true})
+                 .pairs.empty())
+            return both;
     }
     throw std::runtime_error("copies that overlap by a tenth do not meet");
 }

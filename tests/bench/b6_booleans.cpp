@@ -69,14 +69,14 @@ std::vector<two_solids> pairs(const setting& setting) {
     return result;
 }
 
-std::vector<figure> figures_of(const mesh& a, const mesh& b, const solid_result& r) {
+std::vector<figure> figures_of(const mesh& a, const mesh& b, const boolean_result& r) {
     const auto bytes = [](const mesh& m) {
         return static_cast<double>(m.points.size() * sizeof(point3) +
                                    m.faces.size() * sizeof(face));
     };
-    return {{"faces", static_cast<double>(r.surface.faces.size())},
+    return {{"faces", static_cast<double>(r.mesh.faces.size())},
             {"pairs", static_cast<double>(r.pairs)},
-            {"MB in and out", (bytes(a) + bytes(b) + bytes(r.surface)) / 1e6}};
+            {"MB in and out", (bytes(a) + bytes(b) + bytes(r.mesh)) / 1e6}};
 }
 
 contest contest_of(const two_solids& solids, const std::string& suffix,
@@ -85,28 +85,35 @@ contest contest_of(const two_solids& solids, const std::string& suffix,
         .name = solids.name + suffix,
         .size = [solids] { return solids.a()->faces.size() + solids.b()->faces.size(); },
         .long_runs = 3};
-    const auto evaluate = [make](const mesh& a, const mesh& b, bool sound) {
-        return boolean(std::array<mesh_view, 2>{a, b}, make(), {.sound_operands = sound});
+    const auto evaluate = [make](const mesh_operand& a, const mesh_operand& b) {
+        return boolean({a, b}, make());
     };
-    // Without a word about the operands, as scans need it; and as the peer takes them, for sound.
-    for (const bool sound : {false, true})
+    // Meshes as they come, and prepared ones that have been asked about before.
+    for (const bool is_prepared : {false, true})
         for (const unsigned threads : {1U, 2U})
             contest.contestants.push_back(
-                {sound ? "treeform (sound operands)" : "treeform", threads, [=] {
+                {is_prepared ? "treeform (prepared)" : "treeform", threads, [=] {
                      const shared_mesh a = solids.a(), b = solids.b();
+                     const auto ready_a =
+                         std::make_shared<prepared_mesh>(prepared_mesh::borrow(*a));
+                     const auto ready_b =
+                         std::make_shared<prepared_mesh>(prepared_mesh::borrow(*b));
+                     if (is_prepared) (void)evaluate(*ready_a, *ready_b);
                      return make_job(
-                         [=] { return evaluate(*a, *b, sound); },
-                         [](const solid_result& r) -> std::optional<double> {
-                             return r.certified ? 0.0 : 1.0;
+                         [=] {
+                             return is_prepared ? evaluate(*ready_a, *ready_b) : evaluate(*a, *b);
                          },
-                         [a, b](const solid_result& r) { return figures_of(*a, *b, r); });
+                         [](const boolean_result& r) -> std::optional<double> {
+                             return r.certificate ? 0.0 : 1.0;
+                         },
+                         [a, b](const boolean_result& r) { return figures_of(*a, *b, r); });
                  }});
     // What cannot be had for less: a tree of each operand, and the result written once more.
     for (const unsigned threads : {1U, 2U})
         contest.contestants.push_back(
             {"trees and a copy", threads, [=] {
                  const shared_mesh a = solids.a(), b = solids.b();
-                 const auto made = std::make_shared<const mesh>(evaluate(*a, *b, true).surface);
+                 const auto made = std::make_shared<const mesh>(evaluate(*a, *b).mesh);
                  struct answer {
                      tree<3> of_a, of_b;
                      mesh copy;

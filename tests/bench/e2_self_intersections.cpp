@@ -50,7 +50,9 @@ pair_list without_degenerate(const mesh& mesh, const pair_list& pairs) {
 
 pair_list own_pairs(const mesh& mesh) {
     pair_list pairs;
-    for (const face_pair& pair : self_intersections(mesh).pairs) pairs.push_back({pair.a, pair.b});
+    for (const face_pair& pair :
+         self_intersections(mesh, {.vertices = vertex_identity::by_index}).pairs)
+        pairs.push_back({pair.a, pair.b});
     return pairs;
 }
 

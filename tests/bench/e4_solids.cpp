@@ -10,7 +10,7 @@
 #include "bench/written_surface.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/resolve.hpp>
 
 #include <fmt/core.h>
 #include <support/rational_points.hpp>
@@ -61,7 +61,7 @@ std::function<const T&()> once(const std::function<T()>& find) {
 double errors_of(const answer& found) {
     if (!found) return 1;
     const surface_defects d = defects_of(*found);
-    return static_cast<double>(d.intersections + d.degenerate + d.open_edges);
+    return static_cast<double>(d.intersections + d.statistics.degenerate + d.open_edges);
 }
 
 std::vector<figure> figures_of(const answer& found, const true_solid& truth) {
@@ -71,7 +71,7 @@ std::vector<figure> figures_of(const answer& found, const true_solid& truth) {
                                 {intersections_name, static_cast<double>(d.intersections)},
                                 {open_name, static_cast<double>(d.open_edges)},
                                 {"crowded edges", static_cast<double>(d.crowded_edges)},
-                                {degenerate_name, static_cast<double>(d.degenerate)},
+                                {degenerate_name, static_cast<double>(d.statistics.degenerate)},
                                 {"faces", static_cast<double>(found->faces.size())}};
     if (truth.volume) {
         const mpq_class off = abs(test::volume_of(*found) - *truth.volume) / truth.scale;
@@ -187,8 +187,10 @@ contest boolean_contest(const two_solids& solids, corefinement operation) {
             return job_of(
                 [=, a = solids.a(), b = solids.b()]() -> answer {
                     const std::array<mesh_view, 2> operands{*a, *b};
-                    solid_result r = boolean(operands, expression, {.to_float = in_float});
-                    return r.certified ? answer(std::move(r.surface)) : std::nullopt;
+                    boolean_result r = boolean(
+                        operands, expression,
+                        {.precision = in_float ? tf::precision::float32 : tf::precision::float64});
+                    return r.certificate ? answer(std::move(r.mesh)) : std::nullopt;
                 },
                 truth);
         });
@@ -232,15 +234,16 @@ contest repair_contest(const setting& setting, const std::string& path) {
                  return job_of(ask, truth, is_own ? ending::done : ending_of(has_answer, patience));
              }});
     };
-    const auto own = [&](std::string who, repair_mode mode, bool in_float) {
+    const auto own = [&](std::string who, resolve_mode mode, bool in_float) {
         add(std::move(who), true, [=](const mesh& given) -> answer {
-            repaired_mesh r = repair(given, {.mode = mode, .to_float = in_float});
-            return r.certified ? answer(std::move(r.surface)) : std::nullopt;
+            resolve_result r = resolve_self_intersections(
+                given, mode, {.precision = in_float ? precision::float32 : precision::float64});
+            return r.certificate ? answer(std::move(r.mesh)) : std::nullopt;
         });
     };
-    own("treeform outer", repair_mode::outer, false);
-    own("treeform outer to float", repair_mode::outer, true);
-    own("treeform remove", repair_mode::remove, false);
+    own("treeform outer", resolve_mode::outer, false);
+    own("treeform outer to float", resolve_mode::outer, true);
+    own("treeform remove", resolve_mode::remove, false);
     add(cgal_name() + " autorefine", false,
         [](const mesh& given) { return cgal_repaired(given, cgal_repair::autorefine); });
     add(cgal_name() + " local", false,

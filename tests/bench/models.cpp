@@ -46,7 +46,8 @@ mesh read_joined(const fs::path& path) { return join_equal_points(read_mesh(path
 /// The bunny of one package has two pairs of faces that meet, that of another none.
 mesh without_meeting_faces(mesh mesh) {
     std::vector<bool> meets(mesh.faces.size(), false);
-    for (const face_pair& pair : self_intersections(mesh).pairs)
+    for (const face_pair& pair :
+         self_intersections(mesh, {.vertices = vertex_identity::by_index}).pairs)
         meets[pair.a] = meets[pair.b] = true;
     std::size_t kept = 0;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)

@@ -31,13 +31,14 @@ tf::mesh operand(tf::fuzz::bytes& in) {
     return made;
 }
 
-void check(const tf::solid_result& result) {
+void check(const tf::boolean_result& result) {
     using tf::fuzz::require;
-    const tf::mesh& surface = result.surface;
-    require(result.source_face.size() == surface.faces.size(), "a source for each face");
-    require(result.source_point.size() == surface.points.size(), "a source for each point");
-    if (result.open_count > 0) require(surface.faces.empty(), "open operands give nothing");
-    if (!result.certified) return;
+    const tf::mesh& surface = result.mesh;
+    require(result.face_source.size() == surface.faces.size(), "a source for each face");
+    require(result.vertex_source.size() == surface.points.size(), "a source for each point");
+    if (result.certificate.open_count > 0)
+        require(surface.faces.empty(), "open operands give nothing");
+    if (!result.certificate) return;
     require(tf::find_defects(surface) == tf::mesh_defects{}, "no degenerate face");
     require(!tf::find_open_edge(surface), "no open edge");
     require(tf::self_intersections(surface).pairs.empty(), "no two faces meet");
@@ -48,22 +49,25 @@ void check_sound(const tf::mesh& a, const tf::mesh& b, const tf::boolean_express
     const auto alone = [](const tf::mesh_view& operand) {
         return tf::boolean(std::span(&operand, 1), tf::boolean_expression::union_of(1));
     };
-    const tf::solid_result of_a = alone(a);
-    const tf::solid_result of_b = alone(b);
+    const tf::boolean_result of_a = alone(a);
+    const tf::boolean_result of_b = alone(b);
     check(of_a);
     check(of_b);
-    for (const tf::solid_result* result : {&of_a, &of_b}) {
-        if (!result->certified) return;
-        tf::fuzz::require(alone(result->surface).surface == result->surface,
+    for (const tf::boolean_result* result : {&of_a, &of_b}) {
+        if (!result->certificate) return;
+        tf::fuzz::require(alone(result->mesh).mesh == result->mesh,
                           "a certified solid united is what it was");
     }
-    const std::array<tf::mesh_view, 2> views{of_a.surface, of_b.surface};
-    const tf::solid_result looked_at = tf::boolean(views, expression);
-    const tf::solid_result taken = tf::boolean(views, expression, {.sound_operands = true});
+    const std::array<tf::mesh_view, 2> views{of_a.mesh, of_b.mesh};
+    const tf::boolean_result looked_at = tf::boolean(views, expression);
+    const auto ready_a = tf::prepared_mesh::borrow(of_a.mesh);
+    const auto ready_b = tf::prepared_mesh::borrow(of_b.mesh);
+    const tf::boolean_result taken = tf::boolean({ready_a, ready_b}, expression);
     check(looked_at);
-    tf::fuzz::require(looked_at.certified == taken.certified, "the same certificate");
-    tf::fuzz::require(looked_at.surface == taken.surface, "the same surface");
-    tf::fuzz::require(looked_at.source_face == taken.source_face, "the same sources");
+    tf::fuzz::require(looked_at.certificate.status == taken.certificate.status,
+                      "the same certificate");
+    tf::fuzz::require(looked_at.mesh == taken.mesh, "the same surface");
+    tf::fuzz::require(looked_at.face_source == taken.face_source, "the same sources");
 }
 
 }  // namespace
@@ -76,8 +80,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                             : operation == 1 ? boolean_expression::intersection_of(2)
                                              : boolean_expression::difference_of(2);
     tf::boolean_options options;
-    options.to_float = in.below(2) == 1;
-    options.inside = static_cast<tf::inside_rule>(in.below(3));
+    options.precision = in ? tf::precision::float32 : tf::precision::float64.below(2) == 1;
+    options.inside = static_cast<tf::fill_rule>(in.below(3));
     const std::size_t more = in.below(8);
     options.simplify = (more & 1) != 0;
     options.volumes = (more & 2) != 0;

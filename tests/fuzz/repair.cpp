@@ -3,7 +3,7 @@
 
 #include "bytes.hpp"
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/resolve.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/validate.hpp>
 #include <treeform/tf.hpp>
@@ -13,25 +13,24 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using tf::fuzz::require;
     tf::fuzz::bytes in(data, size);
-    tf::repair_options options;
-    options.mode = static_cast<tf::repair_mode>(in.below(3));
-    options.to_float = in.below(2) == 1;
+    tf::resolve_options options;
+    const auto mode = static_cast<tf::resolve_mode>(in.below(3));
+    options.precision = in.below(2) == 1 ? tf::precision::float32 : tf::precision::float64;
     const tf::mesh mesh = in.below(4) == 0 ? in.solid() : in.shape(40, 20);
     options.touching = in.below(2) == 1;
-    tf::repaired_mesh result;
+    tf::resolve_result result;
     try {
-        result = tf::repair(mesh, options);
+        result = tf::resolve_self_intersections(mesh, mode, options);
     } catch (const std::invalid_argument&) {
         return -1;  // coordinates beyond 2^1000
     }
-    require(result.face_of.size() == result.surface.faces.size(), "a source for each face");
-    require(result.point_of.size() == result.surface.points.size(), "a source for each point");
-    if (!result.certified) return 0;
-    require(tf::find_defects(result.surface) == tf::mesh_defects{}, "no degenerate face");
-    const bool may_touch = options.mode == tf::repair_mode::remove && !options.touching;
-    for (const tf::face_pair& pair : tf::self_intersections(result.surface).pairs)
+    require(result.face_source.size() == result.mesh.faces.size(), "a source for each face");
+    require(result.vertex_source.size() == result.mesh.points.size(), "a source for each point");
+    if (!result.certificate) return 0;
+    require(tf::find_defects(result.mesh) == tf::mesh_defects{}, "no degenerate face");
+    const bool may_touch = mode == tf::resolve_mode::remove && !options.touching;
+    for (const tf::face_pair& pair : tf::self_intersections(result.mesh).pairs)
         require(may_touch && pair.kind == tf::pair_kind::touching, "no two faces meet");
-    if (options.mode == tf::repair_mode::outer)
-        require(!tf::find_open_edge(result.surface), "no open edge");
+    if (mode == tf::resolve_mode::outer) require(!tf::find_open_edge(result.mesh), "no open edge");
     return 0;
 }

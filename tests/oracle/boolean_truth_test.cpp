@@ -28,13 +28,13 @@ tf::mesh read(const std::filesystem::path& path, const tf::transform<3>& by) {
     return mesh;
 }
 
-/// As `boolean_options::sound_operands` wants it; of a mesh whose volume is positive, part by part.
+/// Whether the quick way is open to it; of a mesh whose volume is positive, part by part.
 bool is_sound(const tf::mesh& mesh) {
     if (!test::is_clean_solid(mesh)) return false;
-    const tf::solid_result alone =
+    const tf::boolean_result alone =
         tf::boolean(std::vector<tf::mesh_view>{mesh}, tf::boolean_expression::union_of(1),
-                    {.inside = tf::inside_rule::positive});
-    return alone.surface.faces == mesh.faces && alone.surface.points == mesh.points;
+                    {.inside = tf::fill_rule::positive});
+    return alone.mesh.faces == mesh.faces && alone.mesh.points == mesh.points;
 }
 
 }  // namespace
@@ -59,30 +59,32 @@ TEST_CASE("truth: every boolean of every pair of files has the volume of the exa
         const tf::mesh b = read(folder / row.text("file_b"), row.map("matrix_b"));
         const std::vector<tf::mesh_view> operands{a, b};
         const bool are_sound = is_sound(a) && is_sound(b);
+        const std::array prepared{tf::prepared_mesh::borrow(a), tf::prepared_mesh::borrow(b)};
         for (const question& q : questions) {
             CAPTURE(q.formula);
-            const tf::solid_result result = tf::boolean(operands, {q.formula, 2});
+            const tf::boolean_result result = tf::boolean(operands, {q.formula, 2});
             if (are_sound) {
-                const tf::solid_result quick =
-                    tf::boolean(operands, {q.formula, 2}, {.sound_operands = true});
-                CHECK(quick.surface == result.surface);
-                CHECK(quick.source_face == result.source_face);
-                CHECK(quick.source_point == result.source_point);
-                sound += quick.cells == 0;
+                const tf::boolean_result quick = tf::boolean(
+                    {tf::mesh_operand(prepared[0]), tf::mesh_operand(prepared[1])}, {q.formula, 2});
+                CHECK(quick.mesh == result.mesh);
+                CHECK(quick.face_source == result.face_source);
+                CHECK(quick.vertex_source == result.vertex_source);
+                sound += quick.statistics.cells == 0;
             }
-            CHECK(result.certified);
-            CHECK(result.open_count == 0);
-            CHECK(test::is_clean_solid(result.surface));
+            CHECK(result.certificate);
+            CHECK(result.certificate.open_count == 0);
+            CHECK(test::is_clean_solid(result.mesh));
             ++checked;
-            mended += result.rounding_steps > 0;
+            mended += result.statistics.rounding_steps > 0;
             const std::string truth = row.text(q.column);
             if (truth.empty() || truth == "nonmanifold") continue;
             // Moving the surface by m in each coordinate changes the volume by its area times
             // sqrt(3) m at most, but for terms of m^2; the truth itself is cut to double.
             const double volume = row.real(q.column);
             const double most =
-                2.0 * result.max_move * test::area(result.surface) + 0x1p-50 * std::abs(volume);
-            CHECK(std::abs(tf::signed_volume(result.surface) - volume) <= most);
+                2.0 * result.certificate.max_displacement * test::area(result.mesh) +
+                0x1p-50 * std::abs(volume);
+            CHECK(std::abs(tf::signed_volume(result.mesh) - volume) <= most);
         }
     }
     CHECK(checked > 0);

@@ -10,7 +10,7 @@
 #include <treeform/mesh/equal_points.hpp>
 #include <treeform/mesh/io_error.hpp>
 #include <treeform/mesh/read.hpp>
-#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/resolve.hpp>
 #include <treeform/mesh/validate.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/transform.hpp>
@@ -58,32 +58,36 @@ tf::mesh read(const std::filesystem::path& path, const tf::transform<3>& by = {}
 /// A result that is said to be good is; one that is not says where, and is right about it.
 template <class Result>
 void look_at(const Result& result, bool is_solid, bool to_float) {
-    if (result.certified) {
-        CHECK(result.meeting_count == 0);
-        CHECK(test::is_clean_complex(result.surface));
-        CHECK((!is_solid || test::is_clean_solid(result.surface)));
-        CHECK((!to_float || test::is_in_floats(result.surface)));
+    if (result.certificate) {
+        CHECK(result.certificate.meeting_count == 0);
+        CHECK(test::is_clean_complex(result.mesh));
+        CHECK((!is_solid || test::is_clean_solid(result.mesh)));
+        CHECK((!to_float || test::is_in_floats(result.mesh)));
     } else {
-        CHECK(result.meeting_count <= test::count_meeting(result.surface));
+        CHECK(result.certificate.meeting_count <= test::count_meeting(result.mesh));
     }
 }
 
 void repair_in_all_ways(const tf::mesh& mesh, const std::string& file,
                         test::certified_tally& tally) {
-    constexpr std::array<std::pair<tf::repair_mode, const char*>, 3> modes{
-        {{tf::repair_mode::split, " split"},
-         {tf::repair_mode::outer, " outer"},
-         {tf::repair_mode::remove, " remove"}}};
+    constexpr std::array<std::pair<tf::resolve_mode, const char*>, 3> modes{
+        {{tf::resolve_mode::split, " split"},
+         {tf::resolve_mode::outer, " outer"},
+         {tf::resolve_mode::remove, " remove"}}};
     for (const auto& [mode, name] : modes)
         for (const bool to_float : {false, true}) {
             const std::string what = file + name + (to_float ? " in floats" : " in doubles");
             CAPTURE(what);
-            const auto result =
-                tf::repair(mesh, {.mode = mode, .to_float = to_float, .touching = true});
-            if (result.open_count > 0) continue;            // bounds nothing, and is told so
-            if (!std::isfinite(result.max_move)) continue;  // beyond the range of float
-            look_at(result, mode == tf::repair_mode::outer, to_float);
-            tally.count(result.certified, what + ", " + std::to_string(result.meeting_count));
+            const auto result = tf::resolve_self_intersections(
+                mesh, mode,
+                {.precision = to_float ? tf::precision::float32 : tf::precision::float64,
+                 .touching = true});
+            if (result.certificate.open_count > 0) continue;  // bounds nothing, and is told so
+            if (!std::isfinite(result.certificate.max_displacement))
+                continue;  // beyond the range of float
+            look_at(result, mode == tf::resolve_mode::outer, to_float);
+            tally.count(static_cast<bool>(result.certificate),
+                        what + ", " + std::to_string(result.certificate.meeting_count));
         }
 }
 
@@ -112,10 +116,13 @@ void combine_pairs(const std::filesystem::path& folder, test::certified_tally& a
                 const std::string what =
                     row.text("pair") + " " + formula + (to_float ? " in floats" : " in doubles");
                 CAPTURE(what);
-                const auto result = tf::boolean(views, {formula, 2}, {.to_float = to_float});
-                if (result.open_count > 0) break;  // bounds nothing, and is told so
+                const auto result = tf::boolean(
+                    views, {formula, 2},
+                    {.precision = to_float ? tf::precision::float32 : tf::precision::float64});
+                if (result.certificate.open_count > 0) break;  // bounds nothing, and is told so
                 look_at(result, true, to_float);
-                tally.count(result.certified, what + ", " + std::to_string(result.meeting_count));
+                tally.count(static_cast<bool>(result.certificate),
+                            what + ", " + std::to_string(result.certificate.meeting_count));
             }
     }
     MESSAGE(tally.summary());

@@ -163,9 +163,9 @@ TEST_CASE("corefinement: where CGAL has an answer, volumes agree to 1e-12") {
                     ++without;
                     continue;
                 }
-                const tf::solid_result made = tf::boolean(views, {what, 2});
-                CHECK(made.certified);
-                const mpq_class off = abs(test::volume_of(made.surface) - *expected);
+                const tf::boolean_result made = tf::boolean(views, {what, 2});
+                CHECK(made.certificate);
+                const mpq_class off = abs(test::volume_of(made.mesh) - *expected);
                 CHECK(off <= mpq_class(1e-12) * abs(*expected));
                 if (*expected != 0)
                     largest = std::max(largest, mpq_class(off / abs(*expected)).get_d());

@@ -127,17 +127,17 @@ struct tally {
 };
 
 /// Checks a rounded result against its exact volume.
-void check_result(const tf::solid_result& result, const mpq_class& volume, double scale,
+void check_result(const tf::boolean_result& result, const mpq_class& volume, double scale,
                   tally& counts) {
     ++counts.results;
-    CHECK(result.open_count == 0);
-    if (!result.certified) return;
+    CHECK(result.certificate.open_count == 0);
+    if (!result.certificate) return;
     ++counts.certified;
-    CHECK(tf::self_intersections(result.surface).pairs.empty());
-    CHECK(!tf::find_open_edge(result.surface));
+    CHECK(tf::self_intersections(result.mesh).pairs.empty());
+    CHECK(!tf::find_open_edge(result.mesh));
     // Each of the points moves by max_move at most, and the area is bounded by the box's.
-    const mpq_class off = abs(mpq_class(volume_of(result.surface) - volume));
-    CHECK(off.get_d() <= 64.0 * scale * scale * (result.max_move + 1e-300));
+    const mpq_class off = abs(mpq_class(volume_of(result.mesh) - volume));
+    CHECK(off.get_d() <= 64.0 * scale * scale * (result.certificate.max_displacement + 1e-300));
 }
 
 void check_pair(const tf::mesh& a, const tf::mesh& b, double scale, tally& counts,
@@ -293,8 +293,8 @@ TEST_CASE("a Menger sponge has the volume of its definition") {
         }
         const std::vector<tf::mesh_view> views(solids.begin(), solids.end());
         const auto result = tf::boolean(views, tf::boolean_expression::difference_of(views.size()));
-        CHECK(result.certified);
-        CHECK(volume_of(result.surface) ==
+        CHECK(result.certificate);
+        CHECK(volume_of(result.mesh) ==
               mpq_class(static_cast<long>(std::lround(std::pow(20.0, level)))));
     }
 }
@@ -317,10 +317,10 @@ TEST_CASE("wedges about one edge, in any number, are one solid") {
         const std::vector<tf::mesh_view> views(wedges.begin(), wedges.end());
         const auto all = tf::boolean(views, tf::boolean_expression::union_of(views.size()));
         ++counts.results;
-        if (!all.certified) continue;
+        if (!all.certificate) continue;
         ++counts.certified;
-        CHECK(volume_of(all.surface).get_d() <= sum.get_d() * (1.0 + 1e-12));
-        CHECK(!tf::find_open_edge(all.surface));
+        CHECK(volume_of(all.mesh).get_d() <= sum.get_d() * (1.0 + 1e-12));
+        CHECK(!tf::find_open_edge(all.mesh));
     }
 }
 
@@ -333,13 +333,13 @@ TEST_CASE("a chain of a hundred unions, each fed the last result, stays a solid"
         all.push_back(test::moved(turned(test::box(1, 0.5, 0.25), source, source.in(0, 3)),
                                   {source.in(-1, 1), source.in(-1, 1), source.in(-1, 1)}));
         const std::array<tf::mesh_view, 2> two{so_far, all.back()};
-        tf::solid_result next = tf::boolean(two, tf::boolean_expression::union_of(2));
-        REQUIRE(next.certified);
-        so_far = std::move(next.surface);
+        tf::boolean_result next = tf::boolean(two, tf::boolean_expression::union_of(2));
+        REQUIRE(next.certificate);
+        so_far = std::move(next.mesh);
     }
     const std::vector<tf::mesh_view> views(all.begin(), all.end());
     const auto at_once = tf::boolean(views, tf::boolean_expression::union_of(views.size()));
-    REQUIRE(at_once.certified);
+    REQUIRE(at_once.certificate);
     CHECK(tf::signed_volume(so_far) ==
-          doctest::Approx(tf::signed_volume(at_once.surface)).epsilon(1e-12));
+          doctest::Approx(tf::signed_volume(at_once.mesh)).epsilon(1e-12));
 }

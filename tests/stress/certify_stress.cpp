@@ -41,25 +41,26 @@ double area_of(const std::vector<tf::mesh>& operands) {
 }
 
 /// A result that is said to be good is; one that is not says where, and is right about it.
-void look_at(const tf::solid_result& result, bool to_float) {
-    CHECK(result.open_count == 0);
-    if (result.certified) {
-        CHECK(result.meeting_count == 0);
-        CHECK(test::is_clean_solid(result.surface));
-        CHECK((!to_float || test::is_in_floats(result.surface)));
+void look_at(const tf::boolean_result& result, bool to_float) {
+    CHECK(result.certificate.open_count == 0);
+    if (result.certificate) {
+        CHECK(result.certificate.meeting_count == 0);
+        CHECK(test::is_clean_solid(result.mesh));
+        CHECK((!to_float || test::is_in_floats(result.mesh)));
     } else {
-        CHECK(result.meeting_count == test::count_meeting(result.surface));
+        CHECK(result.certificate.meeting_count == test::count_meeting(result.mesh));
     }
 }
 
 /// Each point has moved by max_move at most, in each coordinate; the faces that moved are some of
 /// the operands', or of those that are left.
-void compare_volume(const tf::solid_result& result, const mpf_class& volume, double area) {
-    const mpf_class got(test::volume_of(result.surface), 1024);
+void compare_volume(const tf::boolean_result& result, const mpf_class& volume, double area) {
+    const mpf_class got(test::volume_of(result.mesh), 1024);
     const double off = std::abs(mpf_class(volume - got).get_d());
-    const double most = 2.0 * result.max_move * (area + test::area(result.surface));
+    const double most =
+        2.0 * result.certificate.max_displacement * (area + test::area(result.mesh));
     double reach = 0.0;
-    for (const tf::point3& p : result.surface.points)
+    for (const tf::point3& p : result.mesh.points)
         reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     // Sums of products of three coordinates, in 1024 bits.
     CHECK(off <= most + 1e-250 * reach * reach * reach + 1e-300);
@@ -77,13 +78,16 @@ void check_case(const test::solid_case& made, const std::string& name,
             const std::string what =
                 name + " question " + std::to_string(k) + (to_float ? " in floats" : " in doubles");
             CAPTURE(what);
-            const auto result = tf::boolean(views, made.asked[k], {.to_float = to_float});
+            const auto result = tf::boolean(
+                views, made.asked[k],
+                {.precision = to_float ? tf::precision::float32 : tf::precision::float64});
             // Beyond the range of float there is nothing to be written.
-            const bool too_large = to_float && !std::isfinite(result.max_move);
+            const bool too_large = to_float && !std::isfinite(result.certificate.max_displacement);
             if (too_large) continue;
             look_at(result, to_float);
-            if (result.certified) compare_volume(result, volumes[k], area);
-            tally.count(result.certified, what + ", " + std::to_string(result.meeting_count));
+            if (result.certificate) compare_volume(result, volumes[k], area);
+            tally.count(static_cast<bool>(result.certificate),
+                        what + ", " + std::to_string(result.certificate.meeting_count));
         }
 }
 
@@ -128,11 +132,14 @@ TEST_CASE("chains of a hundred unions, each fed the last result, stay certified"
                 CAPTURE(what);
                 const tf::mesh next = link_of_chain(chain, source);
                 const std::array<tf::mesh_view, 2> two{so_far, next};
-                tf::solid_result result = tf::boolean(two, {"a+b", 2}, {.to_float = to_float});
+                tf::boolean_result result = tf::boolean(
+                    two, {"a+b", 2},
+                    {.precision = to_float ? tf::precision::float32 : tf::precision::float64});
                 look_at(result, to_float);
-                tally.count(result.certified, what + ", " + std::to_string(result.meeting_count));
-                if (!result.certified) break;
-                so_far = std::move(result.surface);
+                tally.count(static_cast<bool>(result.certificate),
+                            what + ", " + std::to_string(result.certificate.meeting_count));
+                if (!result.certificate) break;
+                so_far = std::move(result.mesh);
             }
         }
     MESSAGE(tally.summary());

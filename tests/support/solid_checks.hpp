@@ -13,11 +13,13 @@
 
 namespace test {
 
-/// Closed, and no two faces have more in common than corners and edges.
+/// Closed, and no two faces have more in common than corners and edges, in the coordinates: parts
+/// that touch may have vertices of their own there.
 inline bool is_clean_solid(const tf::mesh& mesh) {
-    if (tf::find_defects(mesh) != tf::mesh_defects{}) return false;
-    if (tf::find_equal_points(mesh.points).first_of_new.size() != mesh.points.size()) return false;
     if (tf::find_open_edge(mesh)) return false;
+    const tf::mesh joined = tf::join_equal_points(mesh);
+    if (tf::find_defects(joined) != tf::mesh_defects{}) return false;
+    if (tf::find_open_edge(joined)) return false;
     return tf::self_intersections(mesh).pairs.empty();
 }
 

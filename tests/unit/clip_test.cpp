@@ -48,14 +48,14 @@ double area_of(const tf::mesh& mesh) {
     return area;
 }
 
-tf::solid_result clipped(const std::vector<tf::mesh>& meshes, const std::string& text,
-                         std::uint32_t which = 0, const tf::boolean_options& options = {}) {
-    const tf::solid_result result =
+tf::boolean_result clipped(const std::vector<tf::mesh>& meshes, const std::string& text,
+                           std::uint32_t which = 0, const tf::boolean_options& options = {}) {
+    const tf::boolean_result result =
         tf::clip(std::vector<tf::mesh_view>(meshes.begin(), meshes.end()), which,
                  {text, meshes.size()}, options);
-    CHECK(result.certified == result.open.empty());
-    CHECK(tf::self_intersections(result.surface).pairs.empty());
-    for (const tf::operand_element& source : result.source_face) CHECK(source.operand == which);
+    CHECK(static_cast<bool>(result.certificate) == result.certificate.open.empty());
+    CHECK(tf::self_intersections(result.mesh).pairs.empty());
+    for (const tf::operand_element& source : result.face_source) CHECK(source.operand == which);
     return result;
 }
 
@@ -65,26 +65,26 @@ TEST_CASE("clip: a solid cuts a piece out of a sheet, or leaves it alone") {
     const tf::mesh flat = sheet(4, 0, 0, 1);
     const tf::mesh b = moved(box(2, 2, 2), {1, 1, 0});
     const auto outside = clipped({flat, b}, "a-b"), inside = clipped({flat, b}, "a*b");
-    CHECK(area_of(outside.surface) == 12.0);
-    CHECK(area_of(inside.surface) == 4.0);
-    for (const tf::mesh& part : {outside.surface, inside.surface})
+    CHECK(area_of(outside.mesh) == 12.0);
+    CHECK(area_of(inside.mesh) == 4.0);
+    for (const tf::mesh& part : {outside.mesh, inside.mesh})
         for (const auto& [i, j, k] : part.faces)
             CHECK(tf::orient2d(2, part.points[i], part.points[j], part.points[k]) == 1);
-    CHECK(area_of(clipped({b, flat}, "b-a", 1).surface) == 12.0);
-    CHECK(area_of(clipped({flat, b, moved(b, {1, 0, 0})}, "(a-b)*c").surface) == 2.0);
+    CHECK(area_of(clipped({b, flat}, "b-a", 1).mesh) == 12.0);
+    CHECK(area_of(clipped({flat, b, moved(b, {1, 0, 0})}, "(a-b)*c").mesh) == 2.0);
     // Far away, and around everything.
-    CHECK(clipped({flat, moved(b, {9, 9, 9})}, "a-b").surface == flat);
-    CHECK(clipped({flat, moved(box(20, 20, 20), {-9, -9, -9})}, "a*b").surface == flat);
-    CHECK(clipped({flat, moved(box(20, 20, 20), {-9, -9, -9})}, "a-b").surface == tf::mesh{});
+    CHECK(clipped({flat, moved(b, {9, 9, 9})}, "a-b").mesh == flat);
+    CHECK(clipped({flat, moved(box(20, 20, 20), {-9, -9, -9})}, "a*b").mesh == flat);
+    CHECK(clipped({flat, moved(box(20, 20, 20), {-9, -9, -9})}, "a-b").mesh == tf::mesh{});
 }
 
 TEST_CASE("clip: what lies on the surface of a solid is in it") {
     const tf::mesh flat = sheet(4, 0, 0, 2);
     for (const double z : {0.0, 2.0}) {  // below and above the sheet
         const tf::mesh b = moved(box(2, 2, 2), {1, 1, z});
-        CHECK(area_of(clipped({flat, b}, "a*b").surface) == 4.0);
-        CHECK(area_of(clipped({b, flat}, "b*a", 1).surface) == 4.0);
-        CHECK(area_of(clipped({flat, b}, "a-b").surface) == 12.0);
+        CHECK(area_of(clipped({flat, b}, "a*b").mesh) == 4.0);
+        CHECK(area_of(clipped({b, flat}, "b*a", 1).mesh) == 4.0);
+        CHECK(area_of(clipped({flat, b}, "a-b").mesh) == 12.0);
     }
 }
 
@@ -97,8 +97,7 @@ TEST_CASE("clip: of sheets and boxes at random, pieces are where they should be"
         const tf::mesh b = moved(box(source.in(0.5, 3), source.in(0.5, 3), source.in(0.5, 3)),
                                  {source.in(-2, 0), source.in(-2, 0), source.in(-2, 0)});
         const auto outside = clipped({rough, b}, "a-b"), inside = clipped({rough, b}, "a*b");
-        CHECK(area_of(outside.surface) + area_of(inside.surface) ==
-              doctest::Approx(area_of(rough)));
+        CHECK(area_of(outside.mesh) + area_of(inside.mesh) == doctest::Approx(area_of(rough)));
         const tf::tree<3> tree = tf::face_tree(b);
         const tf::point_locator where(b, tree);
         const auto middles_are = [&](const tf::mesh& part, tf::location wanted) {
@@ -109,39 +108,39 @@ TEST_CASE("clip: of sheets and boxes at random, pieces are where they should be"
                 CHECK(where.locate(middle).where == wanted);
             }
         };
-        middles_are(outside.surface, tf::location::outside);
-        middles_are(inside.surface, tf::location::inside);
+        middles_are(outside.mesh, tf::location::outside);
+        middles_are(inside.mesh, tf::location::inside);
     }
 }
 
 TEST_CASE("clip: a sheet may overlap itself, and be closed") {
     const tf::mesh twice = together(sheet(4, 0, 0, 1), sheet(4, 2, 0, 1));
-    CHECK(area_of(clipped({twice, moved(box(2, 4, 2), {3, 0, 0})}, "a-b").surface) == 16.0);
+    CHECK(area_of(clipped({twice, moved(box(2, 4, 2), {3, 0, 0})}, "a-b").mesh) == 16.0);
     const tf::mesh b = box(2, 2, 2);
-    CHECK(area_of(clipped({b, moved(b, {1, 0, 0})}, "a-b").surface) == 12.0);
+    CHECK(area_of(clipped({b, moved(b, {1, 0, 0})}, "a-b").mesh) == 12.0);
     // Crossing itself.
     tf::mesh cross = sheet(2, 0, 0, 0);
     for (tf::point3& p : cross.points) p.z = p.x - 1;
     const double area = area_of(cross);
     cross = together(cross, sheet(2, 0, 0, 0));
-    CHECK(area_of(clipped({cross, moved(box(1, 1, 1), {5, 5, 5})}, "a-b").surface) ==
+    CHECK(area_of(clipped({cross, moved(box(1, 1, 1), {5, 5, 5})}, "a-b").mesh) ==
           doctest::Approx(area + 4));
 }
 
 TEST_CASE("clip: simplified, what is left of a square has few faces") {
     const auto result =
         clipped({sheet(4, 0, 0, 1), moved(box(2, 2, 2), {1, 1, 0})}, "a-b", 0, {.simplify = true});
-    CHECK(result.surface.points.size() == 8);
-    CHECK(result.surface.faces.size() == 8);
+    CHECK(result.mesh.points.size() == 8);
+    CHECK(result.mesh.faces.size() == 8);
 }
 
 TEST_CASE("clip: another open operand is named, and a union refused") {
     tf::mesh open = box(1, 1, 1);
     open.faces.pop_back();
     const auto result = clipped({sheet(2, 0, 0, 5), open}, "a-b");
-    CHECK(result.open_count == 3);
-    CHECK(result.open[0].face.operand == 1);
-    CHECK(result.surface == tf::mesh{});
+    CHECK(result.certificate.open_count == 3);
+    CHECK(result.certificate.open[0].face.operand == 1);
+    CHECK(result.mesh == tf::mesh{});
     const tf::mesh b = box(1, 1, 1);
     const std::vector<tf::mesh_view> both{b, b};
     for (const char* text : {"a+b", "a^b", "b-a", "b"})
@@ -158,14 +157,14 @@ TEST_CASE("clip: the same bytes on any number of threads") {
     const auto expected = clipped(meshes, "a-b-c");
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK(clipped(meshes, "a-b-c").surface == expected.surface);
+        CHECK(clipped(meshes, "a-b-c").mesh == expected.mesh);
     }
 }
 
 TEST_CASE("boolean: the volumes of two operands and of what they make") {
     const tf::mesh b = box(2, 2, 2);
     const auto volumes = [](const tf::mesh& first, const tf::mesh& second,
-                            tf::inside_rule rule = tf::inside_rule::nonzero) {
+                            tf::fill_rule rule = tf::fill_rule::nonzero) {
         const std::vector<tf::mesh_view> views{first, second};
         const auto result = tf::boolean(views, {"a-b", 2}, {.inside = rule, .volumes = true});
         REQUIRE(result.volumes.has_value());
@@ -181,10 +180,10 @@ TEST_CASE("boolean: the volumes of two operands and of what they make") {
     // An operand that overlaps itself, and one that is inside out.
     const tf::mesh twice = together(b, moved(b, {1, 0, 0}));
     CHECK(volumes(twice, b).first == 12.0);
-    CHECK(volumes(twice, b, tf::inside_rule::odd).first == 8.0);
+    CHECK(volumes(twice, b, tf::fill_rule::odd).first == 8.0);
     const tf::mesh turned = test::inside_out(b);
     CHECK(volumes(b, turned).second == 8.0);
-    CHECK(volumes(b, turned, tf::inside_rule::positive).second == 0.0);
+    CHECK(volumes(b, turned, tf::fill_rule::positive).second == 0.0);
     const std::vector<tf::mesh_view> three{b, b, b};
     CHECK(!tf::boolean(three, {"a-b", 3}, {.volumes = true}).volumes.has_value());
     test::random source(53);

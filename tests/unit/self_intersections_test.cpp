@@ -2,6 +2,7 @@
 /// Self-intersections against all pairs looked at one by one, and under changes that must not
 /// matter.
 
+#include <treeform/mesh/equal_points.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 
@@ -22,7 +23,8 @@ using pairs = std::vector<tf::face_pair>;
 
 /// The pairs, after the counts have been compared with them.
 pairs found_in(const tf::mesh& mesh) {
-    const tf::self_intersection_result result = tf::self_intersections(mesh);
+    const tf::self_intersection_result result =
+        tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index});
     std::array<std::uint64_t, tf::pair_kind_count> counts{};
     for (const tf::face_pair& pair : result.pairs) ++counts[static_cast<std::size_t>(pair.kind)];
     CHECK(result.counts == counts);
@@ -69,7 +71,7 @@ TEST_CASE("self_intersections: each kind in its smallest example") {
     CHECK(found_in({p, {{0, 1, 2}, {0, 10, 11}}}).empty());
 }
 
-TEST_CASE("self_intersections: corners at one place but of two numbers are not shared") {
+TEST_CASE("self_intersections: corners at one place are shared, unless numbers are asked for") {
     const tf::mesh square = test::grid(1);
     tf::mesh soup = square;
     soup.points.push_back(square.points[0]);
@@ -77,6 +79,39 @@ TEST_CASE("self_intersections: corners at one place but of two numbers are not s
     soup.faces[1] = {4, 5, 2};
     CHECK(found_in(square).empty());
     CHECK(found_in(soup) == pairs{{0, 1, tf::pair_kind::touching}});
+    CHECK(tf::self_intersections(soup).pairs.empty());
+    CHECK(tf::self_intersections(tf::prepared_mesh::borrow(soup)).pairs.empty());
+}
+
+TEST_CASE(
+    "self_intersections: by coordinates, a mesh that repeats its vertices is as one that does "
+    "not") {
+    test::random source(5);
+    for (int round = 0; round < 20; ++round) {
+        const tf::mesh mesh = test::lattice_soup(source, 60, 12, 4);
+        tf::mesh repeated;
+        for (const tf::face& f : mesh.faces) {
+            const auto first = static_cast<std::uint32_t>(repeated.points.size());
+            for (const std::uint32_t corner : f) repeated.points.push_back(mesh.points[corner]);
+            repeated.faces.push_back({first, first + 1, first + 2});
+        }
+        const pairs expected = tf::self_intersections(tf::join_equal_points(mesh),
+                                                      {.vertices = tf::vertex_identity::by_index})
+                                   .pairs;
+        CHECK(tf::self_intersections(repeated).pairs == expected);
+        CHECK(tf::self_intersections(mesh).pairs == expected);
+    }
+}
+
+TEST_CASE("self_intersections: a second search of a prepared mesh builds nothing") {
+    const tf::mesh mesh = test::grid(20);
+    const auto ready = tf::prepared_mesh::borrow(mesh);
+    CHECK(ready.indexes_built() == 0);
+    const auto first = tf::self_intersections(ready);
+    const auto built = ready.indexes_built();
+    CHECK(built == 2);  // joined corners and the tree
+    CHECK(tf::self_intersections(ready).pairs == first.pairs);
+    CHECK(ready.indexes_built() == built);
 }
 
 TEST_CASE("self_intersections: lattice soups as an independent intersection finds them") {
@@ -133,9 +168,11 @@ TEST_CASE("self_intersections: every option takes from the same pairs") {
         CHECK(tf::self_intersections(mesh, options).pairs ==
               of_kind(static_cast<tf::pair_kind>(k), all));
     }
-    const auto limited = tf::self_intersections(mesh, {.limit = 17});
+    const auto limited =
+        tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index, .limit = 17});
     CHECK(limited.pairs == pairs(all.begin(), all.begin() + 17));
-    CHECK(limited.counts == tf::self_intersections(mesh).counts);
+    CHECK(limited.counts ==
+          tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index}).counts);
 
     std::vector<std::uint32_t> component(mesh.faces.size());
     for (std::uint32_t& c : component) c = static_cast<std::uint32_t>(source.below(3));
@@ -143,22 +180,30 @@ TEST_CASE("self_intersections: every option takes from the same pairs") {
     pairs between;
     for (const tf::face_pair& pair : all)
         (component[pair.a] == component[pair.b] ? within : between).push_back(pair);
-    CHECK(tf::self_intersections(mesh, {.component_of_face = component, .within = true}).pairs ==
-          within);
-    CHECK(tf::self_intersections(mesh, {.component_of_face = component, .between = true}).pairs ==
-          between);
+    CHECK(tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index,
+                                        .component_of_face = component,
+                                        .within = true})
+              .pairs == within);
+    CHECK(tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index,
+                                        .component_of_face = component,
+                                        .between = true})
+              .pairs == between);
 }
 
 TEST_CASE("self_intersections: the first pair is one of all, on any number of threads the same") {
     test::random source(6);
     const tf::mesh mesh = test::random_soup(source, 20000, 0.01);
     const pairs all = found_in(mesh);
-    const pairs first = tf::self_intersections(mesh, {.first_only = true}).pairs;
+    const pairs first = tf::self_intersections(
+                            mesh, {.vertices = tf::vertex_identity::by_index, .first_only = true})
+                            .pairs;
     REQUIRE(first.size() == 1);
     CHECK(std::find(all.begin(), all.end(), first[0]) != all.end());
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK(tf::self_intersections(mesh, {.first_only = true}).pairs == first);
+        CHECK(tf::self_intersections(
+                  mesh, {.vertices = tf::vertex_identity::by_index, .first_only = true})
+                  .pairs == first);
     }
     CHECK(tf::self_intersections(test::grid(30), {.first_only = true}).pairs.empty());
 }

@@ -28,28 +28,28 @@ using test::box;
 using test::moved;
 using test::together;
 
-tf::solid_result evaluate(const std::vector<tf::mesh>& meshes, const std::string& text,
-                          tf::boolean_options options = {}) {
+tf::boolean_result evaluate(const std::vector<tf::mesh>& meshes, const std::string& text,
+                            tf::boolean_options options = {}) {
     return tf::boolean(std::vector<tf::mesh_view>(meshes.begin(), meshes.end()),
                        {text, meshes.size()}, options);
 }
 
 /// After a look at whether it is the same solid as without being simplified.
 tf::mesh simplified(const std::vector<tf::mesh>& meshes, const std::string& text) {
-    const tf::solid_result result = evaluate(meshes, text, {.simplify = true});
-    const tf::mesh full = evaluate(meshes, text).surface;
-    CHECK(result.certified);
-    CHECK(test::is_clean_solid(result.surface));
-    CHECK(result.surface.faces.size() <= full.faces.size());
-    CHECK(result.source_face.size() == result.surface.faces.size());
-    CHECK(result.face_of_cut_point.size() == result.surface.points.size());
-    for (std::size_t p = 0; p < result.surface.points.size(); ++p)
-        CHECK((result.source_point[p] == tf::operand_element{}) !=
-              (result.face_of_cut_point[p] == tf::operand_element{}));
-    const auto topology = tf::count_topology(result.surface.points.size(), result.surface.faces);
+    const tf::boolean_result result = evaluate(meshes, text, {.simplify = true});
+    const tf::mesh full = evaluate(meshes, text).mesh;
+    CHECK(result.certificate);
+    CHECK(test::is_clean_solid(result.mesh));
+    CHECK(result.mesh.faces.size() <= full.faces.size());
+    CHECK(result.face_source.size() == result.mesh.faces.size());
+    CHECK(result.face_of_cut_vertex.size() == result.mesh.points.size());
+    for (std::size_t p = 0; p < result.mesh.points.size(); ++p)
+        CHECK((result.vertex_source[p] == tf::operand_element{}) !=
+              (result.face_of_cut_vertex[p] == tf::operand_element{}));
+    const auto topology = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
     CHECK(topology.components_by_edge ==
           tf::count_topology(full.points.size(), full.faces).components_by_edge);
-    return result.surface;
+    return tf::join_equal_points(result.mesh);  // parts that touch share what they touch in
 }
 
 /// Points at which no face bends, or only along one straight line, with no third face about.
@@ -167,7 +167,7 @@ TEST_CASE("simplify: of lattice boxes by any formula, the same volume and nothin
         for (const char* text : {"a+b+c+d", "(a-b)*(c+d)", "a^b^c^d"}) {
             CAPTURE(text);
             const tf::mesh solid = simplified(boxes, text);
-            CHECK(tf::signed_volume(solid) == tf::signed_volume(evaluate(boxes, text).surface));
+            CHECK(tf::signed_volume(solid) == tf::signed_volume(evaluate(boxes, text).mesh));
             CHECK(spare_points(solid) == 0);
             const tf::mesh again = simplified({solid}, "a");
             CHECK(again.points.size() == solid.points.size());
@@ -201,15 +201,15 @@ TEST_CASE("simplify: faces of different groups stay apart") {
     const std::vector<tf::mesh> boxes{box(1, 1, 1), moved(box(1, 1, 1), {1, 0, 0})};
     std::vector<std::uint32_t> groups(24, 0);
     std::fill(groups.begin() + 12, groups.end(), 1U);
-    const tf::solid_result result =
+    const tf::boolean_result result =
         evaluate(boxes, "a+b", {.simplify = true, .face_groups = groups});
-    CHECK(result.certified);
-    CHECK(result.surface.points.size() == 12);
-    CHECK(result.surface.faces.size() == 20);
-    for (std::size_t f = 0; f < result.surface.faces.size(); ++f)
-        for (const std::uint32_t corner : result.surface.faces[f]) {
-            const double x = result.surface.points[corner].x;
-            CHECK((result.source_face[f].operand == 0 ? x <= 1.0 : x >= 1.0));
+    CHECK(result.certificate);
+    CHECK(result.mesh.points.size() == 12);
+    CHECK(result.mesh.faces.size() == 20);
+    for (std::size_t f = 0; f < result.mesh.faces.size(); ++f)
+        for (const std::uint32_t corner : result.mesh.faces[f]) {
+            const double x = result.mesh.points[corner].x;
+            CHECK((result.face_source[f].operand == 0 ? x <= 1.0 : x >= 1.0));
         }
     groups.pop_back();
     CHECK_THROWS_AS(
@@ -220,32 +220,32 @@ TEST_CASE("simplify: faces of different groups stay apart") {
 TEST_CASE("simplify: a face of before holds each point that was cut") {
     const std::vector<tf::mesh> boxes{refined(box(2, 2, 2), 2),
                                       moved(box(2, 2, 2), {1.125, 1.125, 1.125})};
-    const tf::solid_result result = evaluate(boxes, "a+b", {.simplify = true});
+    const tf::boolean_result result = evaluate(boxes, "a+b", {.simplify = true});
     std::size_t cut_points = 0;
-    for (std::size_t p = 0; p < result.surface.points.size(); ++p) {
-        const auto [operand, index] = result.face_of_cut_point[p];
+    for (std::size_t p = 0; p < result.mesh.points.size(); ++p) {
+        const auto [operand, index] = result.face_of_cut_vertex[p];
         if (operand == tf::operand_element::none) continue;
         ++cut_points;
         const auto& [a, b, c] = boxes[operand].faces[index];
         const auto& q = boxes[operand].points;
-        CHECK(tf::orient3d(q[a], q[b], q[c], result.surface.points[p]) == 0);
+        CHECK(tf::orient3d(q[a], q[b], q[c], result.mesh.points[p]) == 0);
     }
     CHECK(cut_points > 0);
 }
 
 TEST_CASE("simplify: nothing, and one thread or many") {
-    CHECK(evaluate({tf::mesh{}}, "a", {.simplify = true}).certified);
-    CHECK(evaluate({box(1, 1, 1), box(1, 1, 1)}, "a-b", {.simplify = true}).surface == tf::mesh{});
+    CHECK(evaluate({tf::mesh{}}, "a", {.simplify = true}).certificate);
+    CHECK(evaluate({box(1, 1, 1), box(1, 1, 1)}, "a-b", {.simplify = true}).mesh == tf::mesh{});
     test::random source(33);
     std::vector<tf::mesh> boxes;
     for (int k = 0; k < 12; ++k) boxes.push_back(refined(test::lattice_box(source), 3));
     const std::string text = "a+b+c+d-e-f-g+h+i-j+k-l";
-    const tf::solid_result expected = evaluate(boxes, text, {.simplify = true});
-    CHECK(expected.certified);
+    const tf::boolean_result expected = evaluate(boxes, text, {.simplify = true});
+    CHECK(expected.certificate);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        const tf::solid_result found = evaluate(boxes, text, {.simplify = true});
-        CHECK(found.surface == expected.surface);
-        CHECK(found.source_face == expected.source_face);
+        const tf::boolean_result found = evaluate(boxes, text, {.simplify = true});
+        CHECK(found.mesh == expected.mesh);
+        CHECK(found.face_source == expected.face_source);
     }
 }

@@ -23,10 +23,17 @@ using test::moved;
 using test::together;
 using operands = std::array<tf::mesh, 2>;
 
-tf::solid_result evaluate(const operands& pair, const std::string& text,
-                          const tf::boolean_options& options) {
+tf::boolean_result evaluate(const operands& pair, const std::string& text,
+                            const tf::boolean_options& options) {
     const std::array<tf::mesh_view, 2> views{pair[0], pair[1]};
     return tf::boolean(views, {text, 2}, options);
+}
+
+/// Prepared meshes are known to be sound once they have been looked at.
+tf::boolean_result evaluate_prepared(const operands& pair, const std::string& text,
+                                     const tf::boolean_options& options) {
+    const auto a = tf::prepared_mesh::borrow(pair[0]), b = tf::prepared_mesh::borrow(pair[1]);
+    return tf::boolean({a, b}, {text, 2}, options);
 }
 
 /// Whether the quick way, which looks for no cells, is gone all the way.
@@ -36,23 +43,23 @@ enum class quick { never, perhaps, unless_mended };
 void check_both_ways(const operands& pair, quick expected = quick::unless_mended) {
     for (const std::string text : {"a+b", "a*b", "a-b", "b-a", "a^b", "a", "b"}) {
         CAPTURE(text);
-        const tf::solid_result general = evaluate(pair, text, {});
-        const tf::solid_result result = evaluate(pair, text, {.sound_operands = true});
-        REQUIRE(general.certified);
-        CHECK(result.certified);
-        const bool was_quick = result.cells == 0;
-        if (expected == quick::never || general.rounding_steps > 0)
+        const tf::boolean_result general = evaluate(pair, text, {});
+        const tf::boolean_result result = evaluate_prepared(pair, text, {});
+        REQUIRE(general.certificate);
+        CHECK(result.certificate);
+        const bool was_quick = result.statistics.cells == 0;
+        if (expected == quick::never || general.statistics.rounding_steps > 0)
             CHECK_FALSE(was_quick);
         else if (expected == quick::unless_mended)
             CHECK(was_quick);
-        CHECK(result.surface == general.surface);
-        CHECK(result.source_face == general.source_face);
-        CHECK(result.source_point == general.source_point);
-        CHECK(result.max_move == general.max_move);
-        CHECK(result.pairs == general.pairs);
-        CHECK(result.cut_faces == general.cut_faces);
-        CHECK(result.exact_faces == general.exact_faces);
-        CHECK(test::is_clean_solid(result.surface));
+        CHECK(result.mesh == general.mesh);
+        CHECK(result.face_source == general.face_source);
+        CHECK(result.vertex_source == general.vertex_source);
+        CHECK(result.certificate.max_displacement == general.certificate.max_displacement);
+        CHECK(result.statistics.pairs == general.statistics.pairs);
+        CHECK(result.statistics.cut_faces == general.statistics.cut_faces);
+        CHECK(result.statistics.exact_faces == general.statistics.exact_faces);
+        CHECK(test::is_clean_solid(result.mesh));
     }
 }
 
@@ -101,7 +108,7 @@ TEST_CASE(
     const auto check = [](const operands& pair) {
         check_both_ways(pair, quick::perhaps);  // of a^b, pieces have edges of four faces
         for (const std::string text : {"a+b", "a*b", "a-b", "b-a"})
-            CHECK(evaluate(pair, text, {.sound_operands = true}).cells == 0);
+            CHECK(evaluate_prepared(pair, text, {}).statistics.cells == 0);
     };
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
         CAPTURE(seed);
@@ -132,8 +139,7 @@ TEST_CASE("sound operands: results are sound, with cavities and edges of four fa
         // Whether a part within the region looked at is turned inside out may not be told there.
         const auto check = [](const operands& pair) { check_both_ways(pair, quick::perhaps); };
         const auto make = [&](const std::string& text) {
-            return evaluate({test::lattice_box(source), test::lattice_box(source)}, text, {})
-                .surface;
+            return evaluate({test::lattice_box(source), test::lattice_box(source)}, text, {}).mesh;
         };
         const tf::mesh a = make("a^b"), b = make(seed % 2 == 0 ? "a-b" : "a+b");
         check({a, b});
@@ -141,7 +147,7 @@ TEST_CASE("sound operands: results are sound, with cavities and edges of four fa
         const tf::mesh shell =
             evaluate({moved(box(6, 6, 6), {-0.5, -0.5, -0.5}), test::lattice_box(source)}, "a-b",
                      {})
-                .surface;
+                .mesh;
         check({shell, b});
         check({a, shell});
     }
@@ -164,29 +170,27 @@ TEST_CASE("sound operands: where rounding breaks something, the general way mend
     // A ball against itself, moved by less than rounding keeps apart.
     const operands pair{rotated(ball(3, 1.0), 0.7),
                         moved(rotated(ball(3, 1.0), 0.7), {1e-15, 0, 0})};
-    const tf::solid_result general = evaluate(pair, "a+b", {});
-    const tf::solid_result quick = evaluate(pair, "a+b", {.sound_operands = true});
-    CHECK(quick.certified == general.certified);
-    CHECK(quick.surface == general.surface);
-    const tf::solid_result floats =
-        evaluate(pair, "a*b", {.to_float = true, .sound_operands = true});
-    CHECK(floats.surface == evaluate(pair, "a*b", {.to_float = true}).surface);
+    const tf::boolean_result general = evaluate(pair, "a+b", {});
+    const tf::boolean_result quick = evaluate_prepared(pair, "a+b", {});
+    CHECK(quick.certificate.status == general.certificate.status);
+    CHECK(quick.mesh == general.mesh);
+    const tf::boolean_result floats =
+        evaluate_prepared(pair, "a*b", {.precision = tf::precision::float32});
+    CHECK(floats.mesh == evaluate(pair, "a*b", {.precision = tf::precision::float32}).mesh);
 }
 
 TEST_CASE("sound operands: points that no face uses may be anything, bad ones are refused") {
     operands pair{ball(3, 1.0), moved(ball(3, 1.0), {0.5, 0, 0})};
-    const tf::solid_result before = evaluate(pair, "a+b", {.sound_operands = true});
+    const tf::boolean_result before = evaluate_prepared(pair, "a+b", {});
     pair[0].points.push_back({NAN, 0, 0});
     pair[1].points.push_back({1e9, 0, 0});
-    const tf::solid_result after = evaluate(pair, "a+b", {.sound_operands = true});
-    CHECK(after.surface == before.surface);
-    CHECK(after.source_point == before.source_point);
+    const tf::boolean_result after = evaluate_prepared(pair, "a+b", {});
+    CHECK(after.mesh == before.mesh);
+    CHECK(after.vertex_source == before.vertex_source);
     pair[0].points[7].y = INFINITY;
-    CHECK_THROWS_AS(static_cast<void>(evaluate(pair, "a+b", {.sound_operands = true})),
-                    std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(evaluate_prepared(pair, "a+b", {})), std::invalid_argument);
     pair[0].faces[3][1] = 1'000'000;
-    CHECK_THROWS_AS(static_cast<void>(evaluate(pair, "a+b", {.sound_operands = true})),
-                    std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(evaluate_prepared(pair, "a+b", {})), std::invalid_argument);
 }
 
 TEST_CASE("sound operands: what is not sound at sight goes the general way") {
@@ -198,21 +202,31 @@ TEST_CASE("sound operands: what is not sound at sight goes the general way") {
     check_both_ways({soup, moved(ball(3, 1.0), {0.3, 0.2, 0.1})}, quick::never);
 }
 
+TEST_CASE("sound operands: a second question about prepared meshes builds nothing") {
+    const operands pair{ball(3, 1.0), moved(ball(3, 1.0), {0.3, 0.2, 0.1})};
+    const auto a = tf::prepared_mesh::borrow(pair[0]), b = tf::prepared_mesh::borrow(pair[1]);
+    CHECK(a.indexes_built() == 0);
+    CHECK(tf::unite(a, b).certificate);
+    const auto built = a.indexes_built() + b.indexes_built();
+    CHECK(built == 2);
+    CHECK(tf::subtract(a, b).certificate);
+    CHECK(a.indexes_built() + b.indexes_built() == built);
+}
+
 TEST_CASE("sound operands: the same bytes on any number of threads, and progress can say stop") {
     const operands pair{ball(5, 1.0), moved(rotated(ball(5, 1.0), 0.3), {0.4, 0.3, 0.2})};
-    const tf::solid_result all = evaluate(pair, "a-b", {.sound_operands = true});
+    const tf::boolean_result all = evaluate_prepared(pair, "a-b", {});
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        const tf::solid_result result = evaluate(pair, "a-b", {.sound_operands = true});
-        CHECK(result.surface == all.surface);
-        CHECK(result.source_face == all.source_face);
-        CHECK(result.source_point == all.source_point);
+        const tf::boolean_result result = evaluate_prepared(pair, "a-b", {});
+        CHECK(result.mesh == all.mesh);
+        CHECK(result.face_source == all.face_source);
+        CHECK(result.vertex_source == all.vertex_source);
     }
     for (const double limit : {0.0, 0.3, 0.5, 0.7}) {
-        const tf::solid_result stopped = evaluate(
-            pair, "a-b",
-            {.sound_operands = true, .progress = [&](double done) { return done < limit; }});
-        CHECK(stopped.cancelled);
-        CHECK(stopped.surface.faces.empty());
+        const tf::boolean_result stopped =
+            evaluate_prepared(pair, "a-b", {.progress = [&](double done) { return done < limit; }});
+        CHECK(stopped.certificate.status == tf::status::cancelled);
+        CHECK(stopped.mesh.faces.empty());
     }
 }

@@ -77,7 +77,7 @@ place_in_face place_of(const tf::point3& p, const tf::mesh& mesh, const tf::face
 /// A point as it was before it was rounded, where it is one of an input.
 const tf::point3& place_before(std::span<const property_source> inputs, const tf::mesh& surface,
                                const carried_to& made, std::uint32_t p) {
-    const tf::operand_element source = made.source_point[p];
+    const tf::operand_element source = made.vertex_source[p];
     return source == tf::operand_element{} ? surface.points[p]
                                            : inputs[source.operand].file->mesh.points[source.index];
 }
@@ -168,7 +168,7 @@ std::vector<tf::face> carried(std::span<const property_source> inputs, const tf:
     row_carrier<Row> carrier(inputs, surface.points.size());
     std::vector<tf::face> all(surface.faces.size(), {none, none, none});
     for (std::size_t f = 0; f < all.size(); ++f) {
-        const tf::operand_element source = made.source_face[f];
+        const tf::operand_element source = made.face_source[f];
         if (source == tf::operand_element{}) continue;
         const property_source& input = inputs[source.operand];
         const tf::face numbers = carrier.numbers_of(source.operand, input.triangle(source.index));

@@ -52,8 +52,8 @@ void carry_materials(tf::mesh_file& file, std::span<const property_source> input
             if (known.insert(name).second) file.attributes.material_files.push_back(name);
     if (std::none_of(inputs.begin(), inputs.end(), has_materials)) return;
     std::string now;
-    for (std::uint32_t f = 0; f < made.source_face.size(); ++f) {
-        const auto [operand, index] = made.source_face[f];
+    for (std::uint32_t f = 0; f < made.face_source.size(); ++f) {
+        const auto [operand, index] = made.face_source[f];
         if (operand == tf::operand_element::none) continue;
         const std::string& material = material_of(inputs[operand], index);
         if (material == now) continue;

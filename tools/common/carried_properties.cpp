@@ -108,12 +108,12 @@ std::vector<mixture> mixtures_of(std::span<const property_source> inputs, const 
     std::vector<mixture> all(surface.points.size());
     std::vector<std::uint8_t> known(all.size(), 0);
     for (std::size_t p = 0; p < all.size(); ++p) {
-        const tf::operand_element source = made.source_point[p];
+        const tf::operand_element source = made.vertex_source[p];
         if (source != tf::operand_element{})
             all[p] = {source.operand, {source.index, source.index, source.index}};
-        else if (!made.face_of_cut_point.empty() &&
-                 made.face_of_cut_point[p] != tf::operand_element{})
-            all[p] = mixture_at(surface.points[p], inputs, made.face_of_cut_point[p]);
+        else if (!made.face_of_cut_vertex.empty() &&
+                 made.face_of_cut_vertex[p] != tf::operand_element{})
+            all[p] = mixture_at(surface.points[p], inputs, made.face_of_cut_vertex[p]);
         else
             continue;
         known[p] = 1;
@@ -124,8 +124,8 @@ std::vector<mixture> mixtures_of(std::span<const property_source> inputs, const 
             // do. Else the first, for what a corner is given does not hang on the last digits.
             constexpr double enough = 1e-9;
             if (known[p] != 0 && all[p].shares.outside <= enough) continue;
-            if (made.source_face[f] == tf::operand_element{}) continue;
-            const mixture m = mixture_at(surface.points[p], inputs, made.source_face[f]);
+            if (made.face_source[f] == tf::operand_element{}) continue;
+            const mixture m = mixture_at(surface.points[p], inputs, made.face_source[f]);
             if (known[p] == 0 || m.shares.outside < all[p].shares.outside) all[p] = m;
             known[p] = 1;
         }
@@ -155,7 +155,7 @@ tf::point3 carried_normal(std::span<const property_source> inputs, const tf::mes
                 normal[axis] += m.shares.of[k] * tf::number_at(c, m.points[k]);
     }
     if (m.shares.of[0] < 1.0) normal = with_length_one(normal);
-    const tf::operand_element source = made.source_face[f];
+    const tf::operand_element source = made.face_source[f];
     if (source.operand != m.input) return normal;
     const tf::mesh& mesh = inputs[m.input].file->mesh;
     const bool turned = is_turned(flat, normal_of(mesh, mesh.faces[source.index]));
@@ -172,7 +172,7 @@ void carry_normals(tf::element& rows, std::span<const property_source> inputs,
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f)
         for (const std::uint32_t p : surface.faces[f]) {
             const auto is_own = [&](std::uint32_t face) {
-                return made.source_face[face].operand == mixtures[p].input;
+                return made.face_source[face].operand == mixtures[p].input;
             };
             if (seen_from[p] == none || (!is_own(seen_from[p]) && is_own(f))) seen_from[p] = f;
         }
@@ -213,7 +213,7 @@ void carry_properties(tf::mesh_file& file, std::span<const property_source> inpu
         tf::element& rows = tf::obtain_element(file.attributes, "face", surface.faces.size());
         for (const property& p : of_faces)
             rows.columns.push_back(make_values(p, surface.faces.size(), [&](std::size_t row) {
-                const auto [operand, index] = made.source_face[row];
+                const auto [operand, index] = made.face_source[row];
                 const tf::column* values =
                     operand == tf::operand_element::none ? nullptr : p.of_input[operand];
                 return values == nullptr

@@ -31,18 +31,18 @@ struct property_source {
 
 /// What the elements of a mesh come from.
 struct carried_to {
-    std::span<const tf::operand_element> source_face;          ///< [F]
-    std::span<const tf::operand_element> source_point;         ///< [V]
-    std::span<const tf::operand_element> face_of_cut_point{};  ///< [V] or empty
+    std::span<const tf::operand_element> face_source;           ///< [F]
+    std::span<const tf::operand_element> vertex_source;         ///< [V]
+    std::span<const tf::operand_element> face_of_cut_vertex{};  ///< [V] or empty
 };
 
 /// Gives `file` the columns that elements "vertex" and "face" of the inputs have with one value a
 /// row, by name.
 ///
 /// A face has the values of its source, which it lies in, a point those of its own; a point that
-/// was cut has values between those of the corners of the face it lies in: `made.face_of_cut_point`
-/// or else the lowest of its faces' sources. Where an input has no such column, or a face no
-/// source, 0 or NaN stands.
+/// was cut has values between those of the corners of the face it lies in:
+/// `made.face_of_cut_vertex` or else the lowest of its faces' sources. Where an input has no such
+/// column, or a face no source, 0 or NaN stands.
 ///
 /// Normals of points (columns nx, ny and nz) are turned around where the surface is, and have
 /// length 1 again at points that were cut, where there are several the one of the lowest face;

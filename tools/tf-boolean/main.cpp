@@ -112,20 +112,20 @@ std::vector<std::uint32_t> groups_of(const tools::job& work, const boolean_setti
     return tools::groups_of_faces(tools::sources_of(solids), of_properties, s.source_given);
 }
 
-tf::solid_result ask(tools::job& work, const boolean_settings& s,
-                     const std::vector<tools::solid>& solids,
-                     const std::optional<std::uint32_t>& sheet, bool to_single) {
+tf::boolean_result ask(tools::job& work, const boolean_settings& s,
+                       const std::vector<tools::solid>& solids,
+                       const std::optional<std::uint32_t>& sheet, bool to_single) {
     const auto timing = work.time("cut");
     const std::vector<tf::mesh_view> views = tools::views_of(solids);
     tf::boolean_options options;
     options.inside = s.inside;
-    options.to_float = to_single;
+    options.precision = to_single ? tf::precision::float32 : tf::precision::float64;
     options.simplify = s.simplify;
     const std::vector<std::uint32_t> groups = groups_of(work, s, solids);
     options.face_groups = groups;
     options.volumes = work.options.detailed();
     options.progress = work.progress(s.name());
-    tf::solid_result result;
+    tf::boolean_result result;
     if (s.splits())
         result = tf::split(views, options);
     else if (sheet)
@@ -134,7 +134,8 @@ tf::solid_result ask(tools::job& work, const boolean_settings& s,
         result = tf::boolean(views, tools::formula_of(s, views.size()), options);
     work.out.end_progress();
     work.keeper.check();
-    if (result.cancelled) throw tools::failure(tools::stopped, "stopped", work.name + ": stopped");
+    if (result.certificate.status == tf::status::cancelled)
+        throw tools::failure(tools::stopped, "stopped", work.name + ": stopped");
     return result;
 }
 
@@ -144,10 +145,10 @@ std::string remedy_for_floats(tools::job& work, const boolean_settings& s,
                               const std::optional<std::uint32_t>& sheet, bool vanished) {
     const std::string doubles = "--precision double, in a format that has it, ";
     if (!vanished) return "; " + doubles + "may do";
-    const tf::solid_result result = ask(work, s, solids, sheet, false);
-    if (!result.certified || tools::vanishes(result)) return "; nor do doubles hold it";
+    const tf::boolean_result result = ask(work, s, solids, sheet, false);
+    if (!result.certificate) return "; nor do doubles hold it";
     return "; " + doubles +
-           "holds it: " + tools::counted(result.surface.faces.size(), "face", "faces");
+           "holds it: " + tools::counted(result.mesh.faces.size(), "face", "faces");
 }
 
 exit_status check_only(tools::job& work, const std::vector<tools::solid>& solids) {
@@ -172,12 +173,13 @@ exit_status refuse_open(tools::job& work, const std::vector<tools::solid>& solid
 
 /// Whether rounding stays within --max-move.
 bool moves_too_far(tools::job& work, const boolean_settings& s,
-                   const std::vector<tools::solid>& solids, const tf::solid_result& result) {
+                   const std::vector<tools::solid>& solids, const tf::boolean_result& result) {
     if (!s.max_move) return false;
     const double allowed = s.max_move->used(tools::diagonal_of(solids));
     work.entry["max_move"]["used"] = allowed;
-    if (result.max_move <= allowed) return false;
-    work.warn("max-move", "rounding moves a point by up to " + tools::shortest(result.max_move) +
+    if (result.certificate.max_displacement <= allowed) return false;
+    work.warn("max-move", "rounding moves a point by up to " +
+                              tools::shortest(result.certificate.max_displacement) +
                               ", more than " + tools::shortest(allowed) + "; nothing written");
     return true;
 }
@@ -197,10 +199,9 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
             return refuse_open(work, solids, open,
                                "an open surface can be cut, but not united with a solid; ");
     }
-    tf::solid_result result = ask(work, s, solids, sheet, to_single);
-    const bool holds = result.certified && !tools::vanishes(result);
-    if (!s.splits() && !sheet && holds) tools::separate_parts(work, result);
-    if (!result.open.empty())
+    tf::boolean_result result = ask(work, s, solids, sheet, to_single);
+    const bool holds = static_cast<bool>(result.certificate);
+    if (!result.certificate.open.empty())
         return refuse_open(work, solids, tools::check_solids(work, solids), {});
     if (!sheet)
         for (tools::json& input : work.entry["inputs"])
@@ -213,12 +214,14 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
     tools::warn_of_surprises(work, s, solids, result);
     if (!holds) {
         std::string remedy;
-        if (to_single) remedy = remedy_for_floats(work, s, solids, sheet, tools::vanishes(result));
+        if (to_single)
+            remedy = remedy_for_floats(work, s, solids, sheet,
+                                       result.certificate.status == tf::status::vanished);
         tools::warn_of_failure(work, result, remedy);
         return tools::found;
     }
     if (moves_too_far(work, s, solids, result)) return tools::found;
-    tools::warn_of_moves(work, result.surface.points, result.max_move, to_single);
+    tools::warn_of_moves(work, result.mesh.points, result.certificate.max_displacement, to_single);
     tools::write_surface(work, s, solids, result, to_single);
     return tools::done;
 }

@@ -8,7 +8,6 @@
 #include "tools/common/output_file.hpp"
 #include "tools/tf-boolean/words.hpp"
 #include <libmesh/base/finite.hpp>
-#include <libmesh/boolean/separate_fans.hpp>
 #include <libmesh/round/rounding_harm.hpp>
 #include <treeform/mesh/equal_points.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -24,10 +23,10 @@ namespace tools {
 namespace {
 
 /// Of the faces that meet each other, where the first of them is.
-json meeting_list(const tf::solid_result& result) {
+json meeting_list(const tf::boolean_result& result) {
     json list = json::array();
-    for (const auto& [f, g] : result.meeting_faces) {
-        const tf::point3& at = result.surface.points[result.surface.faces[f][0]];
+    for (const auto& [f, g] : result.certificate.meeting) {
+        const tf::point3& at = result.mesh.points[result.mesh.faces[f][0]];
         list.push_back({{"faces", {f, g}}, {"near", {at.x, at.y, at.z}}});
     }
     return list;
@@ -40,9 +39,9 @@ bool printable(const std::string& text) {
 
 /// The columns P_mesh and P_face, and what the numbers of meshes stand for.
 void add_sources(tf::mesh_file& file, const boolean_settings& settings,
-                 const std::vector<solid>& solids, const tf::solid_result& result) {
+                 const std::vector<solid>& solids, const tf::boolean_result& result) {
     std::vector<std::uint32_t> meshes, faces;
-    for (const tf::operand_element& source : result.source_face) {
+    for (const tf::operand_element& source : result.face_source) {
         meshes.push_back(source.operand);
         faces.push_back(solids[source.operand].stored_face(source.index));
     }
@@ -94,23 +93,15 @@ bool writes_single(const job& work, const std::vector<solid>& solids) {
                          files_of(solids));
 }
 
-void separate_parts(job& work, tf::solid_result& result) {
-    tf::separated_fans separated = tf::separate_fans(result.surface);
-    work.entry["separated_points"] = separated.doubled_points;
-    result.surface = std::move(separated.surface);
-    for (auto* sources : {&result.source_point, &result.face_of_cut_point})
-        if (!sources->empty())
-            for (std::size_t p = sources->size(); p < separated.point_of.size(); ++p)
-                sources->push_back((*sources)[separated.point_of[p]]);
-}
-
-void enter_result(job& work, const tf::solid_result& result, bool bounds_solid, bool to_single) {
+void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid, bool to_single) {
     json& entry = work.entry;
     std::uint64_t triangles = 0;
     for (const json& input : entry["inputs"]) triangles += input["triangles"].get<std::uint64_t>();
-    entry["pairs"] = result.pairs;
-    entry["cut_faces"] = result.cut_faces;
-    entry["cells"] = result.cells > 0 ? json(result.cells) : json(nullptr);
+    entry["pairs"] = result.statistics.pairs;
+    entry["cut_faces"] = result.statistics.cut_faces;
+    entry["cells"] = result.statistics.cells > 0 ? json(result.statistics.cells) : json(nullptr);
+    if (bounds_solid && result.certificate)
+        entry["separated_points"] = result.statistics.split_vertices;
     if (result.volumes) {
         const auto& [first, second, either, both] = *result.volumes;
         entry["volumes"] = {{"first", first},
@@ -119,14 +110,15 @@ void enter_result(job& work, const tf::solid_result& result, bool bounds_solid, 
                             {"intersection", both},
                             {"error", (first - either) + (second - both)}};
     }
-    entry["skipped"] = {{"degenerate", result.degenerate},
-                        {"faces_not_cut", triangles - std::min(triangles, result.cut_faces)}};
+    entry["skipped"] = {
+        {"degenerate", result.statistics.degenerate},
+        {"faces_not_cut", triangles - std::min(triangles, result.statistics.cut_faces)}};
     json places = json::array();
-    for (const tf::point3& p : result.lost_places) places.push_back({p.x, p.y, p.z});
-    const tf::mesh& surface = result.surface;
+    for (const tf::point3& p : result.vanished_at) places.push_back({p.x, p.y, p.z});
+    const tf::mesh& surface = result.mesh;
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
     const auto cut =
-        std::count(result.source_point.begin(), result.source_point.end(), tf::operand_element{});
+        std::count(result.vertex_source.begin(), result.vertex_source.end(), tf::operand_element{});
     entry["output"] = {{"file", nullptr},
                        {"format", nullptr},
                        {"precision_out", to_single ? "float" : "double"},
@@ -138,29 +130,29 @@ void enter_result(job& work, const tf::solid_result& result, bool bounds_solid, 
                        {"volume", bounds_solid ? json(tf::signed_volume(surface)) : json(nullptr)},
                        {"closed", bounds_solid ? json(true) : json(topology.boundary_edges == 0)},
                        {"oriented", bounds_solid ? json(true) : json(nullptr)},
-                       {"self_intersections", result.meeting_count},
+                       {"self_intersections", result.certificate.meeting_count},
                        {"meeting", meeting_list(result)},
-                       {"exact_faces", result.exact_faces},
-                       {"lost_parts", {{"count", result.lost_parts}, {"list", places}}},
-                       {"certified", result.certified && !vanishes(result)},
-                       {"max_move", result.max_move},
+                       {"exact_faces", result.statistics.exact_faces},
+                       {"lost_parts", {{"count", result.vanished_components}, {"list", places}}},
+                       {"certified", static_cast<bool>(result.certificate)},
+                       {"max_move", result.certificate.max_displacement},
                        {"step", tf::coordinate_step(surface.points, to_single)},
-                       {"rounding_steps", result.rounding_steps}};
+                       {"rounding_steps", result.statistics.rounding_steps}};
 }
 
 void write_surface(job& work, const boolean_settings& settings, const std::vector<solid>& solids,
-                   tf::solid_result& result, bool to_single) {
+                   tf::boolean_result& result, bool to_single) {
     const common_options& o = work.options;
     if (o.output.empty() || o.dry_run) return;
     const auto timing = work.time("write");
     tf::mesh_file file;
-    file.mesh = std::move(result.surface);
+    file.mesh = std::move(result.mesh);
     file.stored_faces = file.mesh.faces.size();
-    file.stored_as = to_single ? tf::precision::single_ : tf::precision::double_;
+    file.stored_as = to_single ? tf::precision::float32 : tf::precision::float64;
     const written_form form = form_of(o);
     if (!settings.no_attributes)
         carry_properties(file, sources_of(solids),
-                         {result.source_face, result.source_point, result.face_of_cut_point});
+                         {result.face_source, result.vertex_source, result.face_of_cut_vertex});
     if (!settings.no_attributes && form.format == "obj")
         warn_of_ambiguous_materials(work, files_of(solids));
     if (holds_sources(form.format)) add_sources(file, settings, solids, result);
@@ -187,7 +179,8 @@ void write_curves(job& work, const boolean_settings& settings, const std::vector
         }
     }
     all = tf::join_equal_points(all);
-    const auto found = tf::self_intersections(all, {.progress = work.progress("curves")});
+    const auto found = tf::self_intersections(
+        all, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("curves")});
     work.out.end_progress();
     work.keeper.check();
     if (found.cancelled) throw failure(stopped, "stopped", work.name + ": stopped");

@@ -17,11 +17,8 @@ void enter_blank_report(job& work, const boolean_settings& settings);
 /// Whether the result will be written as float32.
 [[nodiscard]] bool writes_single(const job& work, const std::vector<solid>& solids);
 
-/// Gives touching parts of a solid points of their own, and enters how many.
-void separate_parts(job& work, tf::solid_result& result);
-
 /// The facts of the result; an open one, or one of many pieces, has no volume.
-void enter_result(job& work, const tf::solid_result& result, bool bounds_solid, bool to_single);
+void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid, bool to_single);
 
 /// The lines along which faces of the inputs meet each other or themselves, where asked for.
 void write_curves(job& work, const boolean_settings& settings, const std::vector<solid>& solids);
@@ -29,6 +26,6 @@ void write_curves(job& work, const boolean_settings& settings, const std::vector
 /// Writes the surface, reads it again, and puts it in its place only if it is what was certified.
 /// \throws failure (bad_output)
 void write_surface(job& work, const boolean_settings& settings, const std::vector<solid>& solids,
-                   tf::solid_result& result, bool to_single);
+                   tf::boolean_result& result, bool to_single);
 
 }  // namespace tools

@@ -75,7 +75,7 @@ void refuse_what_does_nothing(const boolean_settings& s, const common_options& o
         refuse("--simplify and --accept-open: --check only looks");
     check_curve_path(s.curves);
     if (s.check && !s.curves.empty()) refuse("--curves: --check only looks");
-    if (s.splits() && s.inside != tf::inside_rule::nonzero)
+    if (s.splits() && s.inside != tf::fill_rule::nonzero)
         refuse("--inside: split keeps every piece");
     if (s.source.empty() || s.source.find_first_of(" \t\r\n") != std::string::npos)
         refuse("--source: expected a name without blanks");
@@ -87,13 +87,13 @@ void refuse_what_does_nothing(const boolean_settings& s, const common_options& o
 
 bool holds_sources(const std::string& format) { return format == "ply" || format == "glb"; }
 
-tf::inside_rule parse_inside(std::string_view text) {
+tf::fill_rule parse_inside(std::string_view text) {
     for (std::size_t i = 0; i < rules.size(); ++i)
-        if (text == rules[i]) return static_cast<tf::inside_rule>(i);
+        if (text == rules[i]) return static_cast<tf::fill_rule>(i);
     refuse("--inside " + std::string(text) + ": expected one of " + listed(rules));
 }
 
-const char* name_of(tf::inside_rule rule) { return rules[static_cast<std::size_t>(rule)]; }
+const char* name_of(tf::fill_rule rule) { return rules[static_cast<std::size_t>(rule)]; }
 
 void settle_words(boolean_settings& settings, common_options& options) {
     take_operation(settings, options);

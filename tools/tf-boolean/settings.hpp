@@ -20,7 +20,7 @@ struct boolean_settings {
     std::string expression{};                 ///< of --expr
     std::vector<std::string> matrix_texts{};  ///< of --matrix, "N:FILE"
     std::vector<std::filesystem::path> matrix_files{};  ///< by input; empty: it is not moved
-    tf::inside_rule inside = tf::inside_rule::nonzero;
+    tf::fill_rule inside = tf::fill_rule::nonzero;
     bool check = false;
     bool accept_open = false;
     bool simplify = false;
@@ -38,8 +38,8 @@ struct boolean_settings {
 };
 
 /// \throws failure (bad_usage)
-[[nodiscard]] tf::inside_rule parse_inside(std::string_view text);
-[[nodiscard]] const char* name_of(tf::inside_rule rule);
+[[nodiscard]] tf::fill_rule parse_inside(std::string_view text);
+[[nodiscard]] const char* name_of(tf::fill_rule rule);
 
 /// Whether files of this format can tell which face each one comes from.
 [[nodiscard]] bool holds_sources(const std::string& format);

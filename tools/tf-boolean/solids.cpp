@@ -83,14 +83,14 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     return s;
 }
 
-json edge_entry(const tf::open_operand_edge& edge, const solid& s) {
+json edge_entry(const tf::open_edge& edge, const solid& s) {
     return {{"face", s.stored_face(edge.face.index)},
             {"from", triple(edge.ends[0])},
             {"to", triple(edge.ends[1])}};
 }
 
-std::string reason_of(const tf::solid_check& found, const solid& s) {
-    const tf::open_operand_edge& first = found.open.front();
+std::string reason_of(const tf::certificate& found, const solid& s) {
+    const tf::open_edge& first = found.open.front();
     return "its surface ends at " + counted(found.open_count, "edge", "edges") +
            ", the first from " + in_words(first.ends[0]) + " to " + in_words(first.ends[1]) +
            " at face " + std::to_string(s.stored_face(first.face.index));
@@ -157,16 +157,17 @@ std::vector<std::uint32_t> check_solids(job& work, const std::vector<solid>& sol
     const auto timing = work.time("check");
     std::vector<std::uint32_t> open;
     for (std::uint32_t i = 0; i < solids.size(); ++i) {
-        const tf::solid_check found = tf::check_solid(solids[i].file.mesh, work.progress("check"));
+        const tf::certificate found = tf::check_solid(solids[i].file.mesh, work.progress("check"));
         work.out.end_progress();
         work.keeper.check();
-        if (found.cancelled) throw failure(stopped, "stopped", work.name + ": stopped");
+        if (found.status == tf::status::cancelled)
+            throw failure(stopped, "stopped", work.name + ": stopped");
         json& about = work.entry["inputs"][i];
         about["closed"] = found.open.empty();
         about["open"]["count"] = found.open_count;
         if (found.open.empty()) continue;
         open.push_back(i);
-        for (const tf::open_operand_edge& edge : found.open)
+        for (const tf::open_edge& edge : found.open)
             about["open"]["list"].push_back(edge_entry(edge, solids[i]));
         about["reason"] = reason_of(found, solids[i]);
     }

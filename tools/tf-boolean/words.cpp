@@ -17,51 +17,50 @@ std::string numbers_of(const job& work) {
 }  // namespace
 
 std::string verdict(const job& work, const boolean_settings& settings,
-                    const tf::solid_result& result) {
+                    const tf::boolean_result& result) {
     const json& output = work.entry["output"];
-    std::string text =
-        settings.name() + ": " + counted(result.surface.faces.size(), "face", "faces");
-    if (vanishes(result))
-        return text + " are left of the exact result's " + grouped(result.exact_faces) +
+    std::string text = settings.name() + ": " + counted(result.mesh.faces.size(), "face", "faces");
+    if (result.certificate.status == tf::status::vanished)
+        return text + " are left of the exact result's " + grouped(result.statistics.exact_faces) +
                " when rounded to " + output["precision_out"].get<std::string>();
-    if (result.surface.faces.empty()) return text + ", nothing is left";
+    if (result.mesh.faces.empty()) return text + ", nothing is left";
     const json& volume = output["volume"];
     if (!volume.is_null() && std::isfinite(volume.get<double>()))
         text += ", volume " + shortest(volume.get<double>());
-    if (!result.certified) {
+    if (!result.certificate) {
         const std::string rounded =
             " when rounded to " + output["precision_out"].get<std::string>();
-        if (result.meeting_count == 0) return text + ", but coordinates are too large" + rounded;
-        const tf::face& first = result.surface.faces[result.meeting_faces.front()[0]];
-        return text + ", but " + counted(result.meeting_count, "pair", "pairs") + " of faces meet" +
-               rounded + ", the first near " + in_words(result.surface.points[first[0]]);
+        if (result.certificate.meeting_count == 0)
+            return text + ", but coordinates are too large" + rounded;
+        const tf::face& first = result.mesh.faces[result.certificate.meeting.front()[0]];
+        return text + ", but " + counted(result.certificate.meeting_count, "pair", "pairs") +
+               " of faces meet" + rounded + ", the first near " +
+               in_words(result.mesh.points[first[0]]);
     }
-    if (result.max_move > 0.0)
-        text += ", rounding moved points by " + shortest(result.max_move) + " at most";
+    if (result.certificate.max_displacement > 0.0)
+        text += ", rounding moved points by " + shortest(result.certificate.max_displacement) +
+                " at most";
     return text;
 }
 
-bool vanishes(const tf::solid_result& result) {
-    return result.surface.faces.empty() && result.exact_faces > 0;
-}
-
 void warn_of_surprises(job& work, const boolean_settings& settings,
-                       const std::vector<solid>& solids, const tf::solid_result& result) {
+                       const std::vector<solid>& solids, const tf::boolean_result& result) {
     const bool given = std::any_of(solids.begin(), solids.end(),
                                    [](const solid& s) { return !s.file.mesh.faces.empty(); });
-    if (result.surface.faces.empty() && !vanishes(result) && given && settings.name() == "union")
+    if (result.mesh.faces.empty() && result.certificate.status != tf::status::vanished && given &&
+        settings.name() == "union")
         work.warn("nothing-left", "the inputs bound nothing: their faces cancel each other out");
-    if (result.certified && result.lost_parts > 0 && !vanishes(result))
-        work.warn("lost-parts", counted(result.lost_parts, "part", "parts") +
+    if (result.certificate && result.vanished_components > 0)
+        work.warn("lost-parts", counted(result.vanished_components, "part", "parts") +
                                     " of the exact result left out, the first at " +
-                                    in_words(result.lost_places.front()) + ": thinner than " +
+                                    in_words(result.vanished_at.front()) + ": thinner than " +
                                     numbers_of(work) + " tell apart there");
-    if (result.degenerate > 0)
-        work.warn("degenerate", counted(result.degenerate, "face", "faces") +
+    if (result.statistics.degenerate > 0)
+        work.warn("degenerate", counted(result.statistics.degenerate, "face", "faces") +
                                     " without an area left out; nothing changes by that");
     const json& output = work.entry["output"];
     const auto nonmanifold = output["nonmanifold_edges"].get<std::uint64_t>();
-    if (result.certified && !output["volume"].is_null() && nonmanifold > 0)
+    if (result.certificate && !output["volume"].is_null() && nonmanifold > 0)
         work.warn("nonmanifold", counted(nonmanifold, "edge", "edges") +
                                      " of more than two faces, where the result touches itself");
     if (!settings.splits() && !output["closed"].get<bool>())
@@ -72,21 +71,23 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
         work.warn("attributes", "lists and properties of other elements are not carried over");
 }
 
-void warn_of_failure(job& work, const tf::solid_result& result, const std::string& remedy) {
-    if (vanishes(result))
+void warn_of_failure(job& work, const tf::boolean_result& result, const std::string& remedy) {
+    if (result.certificate.status == tf::status::vanished)
         work.warn("vanished", "all of the exact result is thinner than " + numbers_of(work) +
                                   " tell apart there; nothing written" + remedy);
     else
         work.warn("not-certified", "nothing written" + remedy);
 }
 
-void say_details(job& work, const tf::solid_result& result) {
+void say_details(job& work, const tf::boolean_result& result) {
     if (!work.out.shows(level::info)) return;
-    work.out.info(work.name + ": " + counted(result.pairs, "pair", "pairs") + " of faces meet, " +
-                  counted(result.cut_faces, "face", "faces") + " cut");
-    if (result.rounding_steps > 0)
-        work.out.info(work.name + ": rounding made faces meet; mended in " +
-                      counted(static_cast<std::uint64_t>(result.rounding_steps), "step", "steps"));
+    work.out.info(work.name + ": " + counted(result.statistics.pairs, "pair", "pairs") +
+                  " of faces meet, " + counted(result.statistics.cut_faces, "face", "faces") +
+                  " cut");
+    if (result.statistics.rounding_steps > 0)
+        work.out.info(
+            work.name + ": rounding made faces meet; mended in " +
+            counted(static_cast<std::uint64_t>(result.statistics.rounding_steps), "step", "steps"));
 }
 
 }  // namespace tools

@@ -198,7 +198,7 @@ void write_file(job& work, const tf::mesh_file& file, const std::filesystem::pat
     const tf::write_options options{
         .format = form.format,
         .ascii = form.ascii,
-        .precision = to_single ? tf::precision::single_ : tf::precision::double_};
+        .precision = to_single ? tf::precision::float32 : tf::precision::float64};
     output_place place(path, o.force || o.in_place, work.keeper);
     tf::write_result written;
     try {
@@ -210,7 +210,7 @@ void write_file(job& work, const tf::mesh_file& file, const std::filesystem::pat
     work.entry["output"] = {
         {"file", path.string()},
         {"format", written.format},
-        {"precision_out", written.written_as == tf::precision::single_ ? "float" : "double"},
+        {"precision_out", written.written_as == tf::precision::float32 ? "float" : "double"},
         {"max_move", written.largest_move},
         {"scene", scene}};
     for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);

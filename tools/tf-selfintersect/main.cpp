@@ -92,9 +92,9 @@ void add_what_to_give_back(command_line& line, request& r, common_options& optio
                                  "one lies in as property source_face (PLY)"});
 }
 
-tf::repair_mode parse_repair(std::string_view text) {
-    for (const tf::repair_mode mode :
-         {tf::repair_mode::split, tf::repair_mode::outer, tf::repair_mode::remove})
+tf::resolve_mode parse_repair(std::string_view text) {
+    for (const tf::resolve_mode mode :
+         {tf::resolve_mode::split, tf::resolve_mode::outer, tf::resolve_mode::remove})
         if (text == tools::name_of(mode)) return mode;
     throw tools::failure(tools::bad_usage, "usage",
                          "--repair=" + std::string(text) + ": expected split, outer or remove");

@@ -4,7 +4,7 @@
 
 #include "tools/common/parse_value.hpp"
 #include "tools/tf-selfintersect/search.hpp"
-#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/resolve.hpp>
 #include <treeform/tf.hpp>
 
 #include <filesystem>
@@ -13,13 +13,13 @@
 namespace tools {
 
 struct repair_settings {
-    tf::repair_mode mode = tf::repair_mode::outer;
+    tf::resolve_mode mode = tf::resolve_mode::outer;
     distance max_move{};  ///< no point may move further
     bool keep_components = false;
     bool touching = false;  ///< faces that only touch are to be resolved, too
 };
 
-[[nodiscard]] const char* name_of(tf::repair_mode mode);
+[[nodiscard]] const char* name_of(tf::resolve_mode mode);
 
 /// Repairs the mesh that was searched, enters "repair" and "output" in the report, says the verdict
 /// and writes the result to `output`, if there is one and the result is as it has to be.

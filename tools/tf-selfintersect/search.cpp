@@ -76,6 +76,7 @@ void join_corners(job& work, findings& result, const search_settings& settings, 
 tf::self_intersection_options library_options(job& work, const findings& result,
                                               const search_settings& settings) {
     tf::self_intersection_options options;
+    options.vertices = tf::vertex_identity::by_index;  // joined as asked
     options.first_only = settings.first;
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k)
         options.kinds[k] = settings.looks_for(static_cast<tf::pair_kind>(k));

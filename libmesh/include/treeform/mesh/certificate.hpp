@@ -23,7 +23,8 @@ enum class status : std::uint8_t {
     not_manifold,    ///< with equal coordinates joined, an edge has more than two faces, or a
                      ///< vertex more than one fan
     not_certified,   ///< faces still meet in the coordinates returned; `meeting` says which
-    vanished,        ///< all of the result is thinner than the coordinates tell apart
+    vanished,        ///< nothing is left: the result is thinner than the coordinates tell apart,
+                     ///< or faces cancel each other out
     out_of_range,    ///< a coordinate of the result is beyond the numbers asked for
     cancelled        ///< `progress` said stop; nothing is returned
 };

@@ -4,6 +4,7 @@
 
 #include <treeform/mesh/counters.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/export.hpp>
 #include <treeform/tree/progress.hpp>
 
@@ -34,6 +35,8 @@ struct face_pair {
 };
 
 struct self_intersection_options {
+    /// Which corners are shared: those with equal coordinates, or those with the same number.
+    vertex_identity vertices = vertex_identity::by_coordinates;
     /// Stop at the first pair found. Which one that is does not depend on the thread count.
     bool first_only = false;
     /// Kinds to look for; the others are neither counted nor listed.
@@ -59,19 +62,21 @@ struct self_intersection_result {
 };
 
 /// All pairs of faces that have a common point on none of their shared corners and not on their
-/// shared edge. Corners are shared when they have the same number; to treat equal coordinates as
-/// one corner, join them first (`join_equal_points`).
+/// shared edge. A mesh that repeats its vertices, as an STL does, gives the same pairs as one that
+/// numbers them once (`self_intersection_options::vertices`).
 ///
 /// Exact on the coordinates as given. Degenerate faces (collinear corners) take part as the
 /// segment or point they are and are told apart by their kind.
 ///
 /// \pre    every corner is less than `mesh.points.size()`, every coordinate is finite
-/// \throws std::invalid_argument naming the face or point that breaks this, or when
-///         `component_of_face` has not one entry a face
+/// \throws std::invalid_argument naming the face or point that breaks this, when
+///         `component_of_face` has not one entry a face, or for `between` together with `within`
 /// \cost   O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
 [[nodiscard]] TREEFORM_API self_intersection_result
 self_intersections(mesh_view mesh, const self_intersection_options& options = {});
+[[nodiscard]] TREEFORM_API self_intersection_result
+self_intersections(const prepared_mesh& mesh, const self_intersection_options& options = {});
 
 }  // namespace treeform

@@ -1,17 +1,15 @@
 #include <libmesh/arrange/radial_order.hpp>
-#include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/union_find.hpp>
-#include <libmesh/boolean/separate_fans.hpp>
+#include <libmesh/boolean/split_nonmanifold.hpp>
 #include <libmesh/weld/edge_uses.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
-namespace treeform {
+namespace treeform::detail::boolean {
 namespace {
 
 using detail::arrange::face_side;
@@ -22,7 +20,7 @@ struct touching_edge {
     std::uint32_t high;
     std::vector<face_side> sides;  ///< counter-clockwise, the first seen from behind where they do
     bool alternates = false;       ///< between inside and outside, as around a solid
-    bool by_space = false;         ///< which faces stay together, see `separate_fans`
+    bool by_space = false;         ///< which faces stay together, see `split_nonmanifold`
 };
 
 /// The faces at some edges as an arrangement of their own: all that sorting them needs.
@@ -69,11 +67,11 @@ class few_faces {
 
 class separator {
   public:
-    explicit separator(mesh_view solid)
-        : solid_(solid),
-          edges_(solid.points.size(), solid.faces, detail::weld::repeated_corners::left_out) {}
+    explicit separator(treeform::mesh&& solid)
+        : solid_(std::move(solid)),
+          edges_(solid_.points.size(), solid_.faces, detail::weld::repeated_corners::left_out) {}
 
-    separated_fans run() {
+    manifold_surface run() {
         find_touching_edges();
         sort_around_edges();
         detail::base::union_find fans = find_fans();
@@ -216,46 +214,38 @@ class separator {
         return false;
     }
 
-    /// A point's first fan keeps its number.
-    [[nodiscard]] separated_fans number_points(detail::base::union_find& fans,
-                                               std::uint64_t shared_edges) const {
-        separated_fans result;
-        mesh& surface = result.surface;
-        surface.points.assign(solid_.points.begin(), solid_.points.end());
-        surface.faces.assign(solid_.faces.begin(), solid_.faces.end());
-        result.point_of.resize(surface.points.size());
-        std::iota(result.point_of.begin(), result.point_of.end(), 0U);
-        std::vector<std::uint8_t> is_taken(surface.points.size(), 0);
+    /// A vertex's first fan keeps its number.
+    [[nodiscard]] manifold_surface number_points(detail::base::union_find& fans,
+                                                 std::uint64_t shared_edges) {
+        manifold_surface result;
+        result.shared_edges = shared_edges;
+        std::vector<std::uint8_t> is_taken(solid_.points.size(), 0);
         std::vector<std::uint32_t> point_of_corner(fans.size());
         for (std::uint32_t c = 0; c < fans.size(); ++c) {
-            const std::uint32_t point = solid_.faces[c / 3][c % 3];
+            std::uint32_t& point = solid_.faces[c / 3][c % 3];
             if (const std::uint32_t root = fans.root(c); root != c) {
-                point_of_corner[c] = point_of_corner[root];
+                point = point_of_corner[root];
             } else if (is_taken[point] == 0) {
                 is_taken[point] = 1;
-                point_of_corner[c] = point;
             } else {
-                point_of_corner[c] = static_cast<std::uint32_t>(surface.points.size());
-                surface.points.push_back(solid_.points[point]);
-                result.point_of.push_back(point);
-                ++result.doubled_points;
+                result.vertex_of_added.push_back(point);
+                const point3 at = solid_.points[point];
+                point = static_cast<std::uint32_t>(solid_.points.size());
+                solid_.points.push_back(at);
             }
-            surface.faces[c / 3][c % 3] = point_of_corner[c];
+            point_of_corner[c] = point;
         }
-        result.shared_edges = shared_edges;
+        result.surface = std::move(solid_);
         return result;
     }
 
-    mesh_view solid_;
+    treeform::mesh solid_;
     detail::weld::edge_uses edges_;
     std::vector<touching_edge> touching_{};
 };
 
 }  // namespace
 
-separated_fans separate_fans(mesh_view solid) {
-    detail::base::check_faces("separate_fans", solid.points.size(), solid.faces);
-    return separator(solid).run();
-}
+manifold_surface split_nonmanifold(mesh&& solid) { return separator(std::move(solid)).run(); }
 
-}  // namespace treeform
+}  // namespace treeform::detail::boolean

@@ -1,4 +1,4 @@
-#include <libmesh/boolean/separate_fans.hpp>
+#include <libmesh/boolean/split_nonmanifold.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/equal_points.hpp>
 #include <treeform/mesh/topology.hpp>
@@ -20,25 +20,29 @@ namespace {
 
 using test::box;
 using test::moved;
+using tf::detail::boolean::manifold_surface;
+using tf::detail::boolean::split_nonmanifold;
 
 tf::mesh union_of(const std::vector<tf::mesh>& meshes) {
-    const tf::solid_result made =
+    const tf::boolean_result made =
         tf::boolean(std::vector<tf::mesh_view>(meshes.begin(), meshes.end()),
                     tf::boolean_expression::union_of(meshes.size()));
-    REQUIRE(made.certified);
-    return made.surface;
+    REQUIRE(made.certificate);
+    return tf::join_equal_points(made.mesh);  // as it was before it became a manifold
 }
 
 /// After a look at whether it is the same surface.
-tf::separated_fans separated(const tf::mesh& solid) {
-    const tf::separated_fans result = tf::separate_fans(solid);
+manifold_surface separated(const tf::mesh& solid) {
+    const manifold_surface result = split_nonmanifold(tf::mesh(solid));
     const tf::mesh& now = result.surface;
-    CHECK(result.point_of.size() == now.points.size());
-    CHECK(now.points.size() == solid.points.size() + result.doubled_points);
+    CHECK(now.points.size() == solid.points.size() + result.vertex_of_added.size());
     CHECK(now.faces.size() == solid.faces.size());
     for (std::size_t f = 0; f < now.faces.size(); ++f)
         for (std::size_t i = 0; i < 3; ++i) {
-            CHECK(result.point_of[now.faces[f][i]] == solid.faces[f][i]);
+            const std::uint32_t v = now.faces[f][i];
+            const bool is_added = v >= solid.points.size();
+            CHECK((is_added ? result.vertex_of_added[v - solid.points.size()] : v) ==
+                  solid.faces[f][i]);
             CHECK(now.points[now.faces[f][i]] == solid.points[solid.faces[f][i]]);
         }
     const auto topology = tf::count_topology(now.points.size(), now.faces);
@@ -66,75 +70,73 @@ constexpr std::uint32_t cube_at(std::uint32_t x, std::uint32_t y, std::uint32_t 
 
 }  // namespace
 
-TEST_CASE("separate fans: a manifold stays as it is") {
+TEST_CASE("split_nonmanifold: a manifold stays as it is") {
     CHECK(separated({}).surface == tf::mesh{});
     for (const tf::mesh& solid : {box(1, 2, 3), test::ball(2, 1.0)}) {
-        const tf::separated_fans result = separated(solid);
+        const manifold_surface result = separated(solid);
         CHECK(result.surface == solid);
-        CHECK(result.doubled_points == 0);
+        CHECK(result.vertex_of_added.size() == 0);
     }
 }
 
-TEST_CASE("separate fans: boxes that touch in a corner or an edge come apart") {
-    const tf::separated_fans corner =
+TEST_CASE("split_nonmanifold: boxes that touch in a corner or an edge come apart") {
+    const manifold_surface corner =
         separated(union_of({box(1, 1, 1), moved(box(1, 1, 1), {1, 1, 1})}));
-    CHECK(corner.doubled_points == 1);
-    const tf::separated_fans edge =
+    CHECK(corner.vertex_of_added.size() == 1);
+    const manifold_surface edge =
         separated(union_of({box(1, 1, 1), moved(box(1, 1, 1), {1, 1, 0})}));
-    CHECK(edge.doubled_points == 2);
+    CHECK(edge.vertex_of_added.size() == 2);
     CHECK(edge.shared_edges == 0);
     const auto topology = tf::count_topology(edge.surface.points.size(), edge.surface.faces);
     CHECK(topology.closed);
     CHECK(topology.components_by_point == 2);
     // Along a part of an edge: only the corners that are in it.
-    CHECK(separated(union_of({box(1, 1, 4), moved(box(1, 1, 2), {1, 1, 1})})).doubled_points == 2);
+    CHECK(separated(union_of({box(1, 1, 4), moved(box(1, 1, 2), {1, 1, 1})}))
+              .vertex_of_added.size() == 2);
 }
 
-TEST_CASE("separate fans: hollow spaces that touch within a solid come apart") {
+TEST_CASE("split_nonmanifold: hollow spaces that touch within a solid come apart") {
     const tf::mesh block = box(4, 3, 3);
     const std::vector<tf::mesh> hollow{moved(box(1, 1, 1), {1, 1, 1}),
                                        moved(box(1, 0.5, 0.5), {2, 1.5, 0.5})};
     std::vector<tf::mesh_view> views{block};
     views.insert(views.end(), hollow.begin(), hollow.end());
-    const tf::solid_result made = tf::boolean(views, tf::boolean_expression::difference_of(3));
-    REQUIRE(made.certified);
-    CHECK(separated(made.surface).shared_edges == 0);
+    const tf::boolean_result made = tf::boolean(views, tf::boolean_expression::difference_of(3));
+    REQUIRE(made.certificate);
+    CHECK(separated(tf::join_equal_points(made.mesh)).shared_edges == 0);
 }
 
 TEST_CASE(
-    "separate fans: an edge whose ends are held together above and below goes the other way") {
+    "split_nonmanifold: an edge whose ends are held together above and below goes the other way") {
     // Two cubes that touch in an edge, with a whole layer above them and one below: the solid's
     // wedges are linked at both ends, space's are not.
     std::uint32_t bits = cube_at(0, 0, 1) | cube_at(1, 1, 1);
     for (const std::uint32_t z : {0U, 2U})
         for (const std::uint32_t x : {0U, 1U})
             for (const std::uint32_t y : {0U, 1U}) bits |= cube_at(x, y, z);
-    const tf::separated_fans result = separated(cubes_of(bits));
+    const manifold_surface result = separated(cubes_of(bits));
     CHECK(result.shared_edges == 0);
-    CHECK(result.doubled_points == 2);
+    CHECK(result.vertex_of_added.size() == 2);
 }
 
-TEST_CASE("separate fans: any heap of cubes, touching as they may, becomes a manifold") {
+TEST_CASE("split_nonmanifold: any heap of cubes, touching as they may, becomes a manifold") {
     test::random source(41);
     for (int round = 0; round < 60; ++round) {
         CAPTURE(round);
         const auto bits = static_cast<std::uint32_t>(source.below(std::size_t{1} << 27));
         const tf::mesh heap = cubes_of(bits);
-        const tf::separated_fans result = separated(heap);
+        const manifold_surface result = separated(heap);
         CHECK(result.shared_edges <= 2);
         CHECK(tf::signed_volume(result.surface) == tf::signed_volume(heap));
         CHECK(tf::join_equal_points(result.surface).points.size() == heap.points.size());
     }
 }
 
-TEST_CASE("separate fans: the same on any number of threads, and corners are points") {
+TEST_CASE("split_nonmanifold: the same on any number of threads") {
     const tf::mesh heap = cubes_of(0x5a3c96b);
-    const tf::separated_fans expected = tf::separate_fans(heap);
+    const manifold_surface expected = split_nonmanifold(tf::mesh(heap));
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK(tf::separate_fans(heap).surface == expected.surface);
+        CHECK(split_nonmanifold(tf::mesh(heap)).surface == expected.surface);
     }
-    tf::mesh bad = box(1, 1, 1);
-    bad.faces[3][1] = 8;
-    CHECK_THROWS_AS(static_cast<void>(tf::separate_fans(bad)), std::invalid_argument);
 }

@@ -5,7 +5,7 @@
 #include <libmesh/repair/few_of_pairs.hpp>
 #include <treeform/mesh/equal_points.hpp>
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/resolve.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/topology.hpp>
 #include <treeform/tf.hpp>
@@ -27,7 +27,7 @@
 
 namespace {
 
-using mode = tf::repair_mode;
+using mode = tf::resolve_mode;
 
 tf::mesh two_balls() {
     return test::together(test::ball(3, 1.0), test::moved(test::ball(3, 1.0), {0.7, 0.3, 0.1}));
@@ -46,7 +46,7 @@ double area_of(const tf::mesh& mesh) {
 
 /// How many of some random points are inside of `solid` and not where `mesh` winds around them as
 /// the rule says, or the other way round.
-std::size_t wrong_points(const tf::mesh& mesh, tf::inside_rule rule, const tf::mesh& solid,
+std::size_t wrong_points(const tf::mesh& mesh, tf::fill_rule rule, const tf::mesh& solid,
                          std::size_t count) {
     test::random source(3);
     const tf::tree<3> tree = tf::face_tree(mesh), solid_tree = tf::face_tree(solid);
@@ -56,9 +56,9 @@ std::size_t wrong_points(const tf::mesh& mesh, tf::inside_rule rule, const tf::m
         const tf::point3 p{source.in(-1.2, 2.0), source.in(-1.2, 1.6), source.in(-1.2, 1.4)};
         const auto was = before.locate(p);
         const auto is = after.locate(p);
-        const bool inside = rule == tf::inside_rule::odd        ? was.winding % 2 != 0
-                            : rule == tf::inside_rule::positive ? was.winding > 0
-                                                                : was.winding != 0;
+        const bool inside = rule == tf::fill_rule::odd        ? was.winding % 2 != 0
+                            : rule == tf::fill_rule::positive ? was.winding > 0
+                                                              : was.winding != 0;
         wrong += is.winding != (inside ? 1 : 0);
     }
     return wrong;
@@ -68,19 +68,22 @@ std::size_t wrong_points(const tf::mesh& mesh, tf::inside_rule rule, const tf::m
 
 TEST_CASE("repair: the outer surface of two balls bounds what either held") {
     const tf::mesh mesh = two_balls();
-    for (const tf::inside_rule rule :
-         {tf::inside_rule::nonzero, tf::inside_rule::odd, tf::inside_rule::positive})
+    for (const tf::fill_rule rule :
+         {tf::fill_rule::nonzero, tf::fill_rule::odd, tf::fill_rule::positive})
         for (const bool to_float : {false, true}) {
             CAPTURE(static_cast<int>(rule));
             CAPTURE(to_float);
-            const auto result = tf::repair(mesh, {.inside = rule, .to_float = to_float});
-            CHECK(result.certified);
-            CHECK(result.meeting.empty());
-            CHECK(tf::self_intersections(result.surface).pairs.empty());
-            CHECK(!tf::find_open_edge(result.surface));
-            CHECK(result.max_move < (to_float ? 1e-6 : 1e-15));
-            CHECK(result.lost_components == 0);
-            if (!to_float) CHECK(wrong_points(mesh, rule, result.surface, 2000) == 0);
+            const auto result = tf::resolve_self_intersections(
+                mesh, mode::outer,
+                {.inside = rule,
+                 .precision = to_float ? tf::precision::float32 : tf::precision::float64});
+            CHECK(result.certificate);
+            CHECK(result.certificate.meeting.empty());
+            CHECK(tf::self_intersections(result.mesh).pairs.empty());
+            CHECK(!tf::find_open_edge(result.mesh));
+            CHECK(result.certificate.max_displacement < (to_float ? 1e-6 : 1e-15));
+            CHECK(result.vanished_components == 0);
+            if (!to_float) CHECK(wrong_points(mesh, rule, result.mesh, 2000) == 0);
         }
 }
 
@@ -90,63 +93,63 @@ TEST_CASE("repair: faces that meet nothing come out bit for bit and in order") {
     for (const tf::face_pair& pair : tf::self_intersections(mesh).pairs)
         meets[pair.a] = meets[pair.b] = 1;
     for (const mode m : {mode::split, mode::outer}) {
-        const auto result = tf::repair(mesh, {.mode = m});
-        REQUIRE(result.face_of.size() == result.surface.faces.size());
-        CHECK(std::is_sorted(result.face_of.begin(), result.face_of.end()));
+        const auto result = tf::resolve_self_intersections(mesh, m);
+        REQUIRE(result.face_source.size() == result.mesh.faces.size());
+        CHECK(std::is_sorted(result.face_source.begin(), result.face_source.end()));
         std::size_t same = 0;
-        for (std::size_t f = 0; f < result.face_of.size(); ++f) {
-            const std::uint32_t old = result.face_of[f];
+        for (std::size_t f = 0; f < result.face_source.size(); ++f) {
+            const std::uint32_t old = result.face_source[f];
             if (meets[old] != 0) continue;
             ++same;
             for (std::size_t k = 0; k < 3; ++k)
-                CHECK(result.surface.points[result.surface.faces[f][k]] ==
+                CHECK(result.mesh.points[result.mesh.faces[f][k]] ==
                       mesh.points[mesh.faces[old][k]]);
         }
         CHECK(same > 0);
         if (m == mode::split) CHECK(same == static_cast<std::size_t>(std::ranges::count(meets, 0)));
-        for (std::size_t p = 0; p < result.point_of.size(); ++p)
-            if (result.point_of[p] != tf::repaired_mesh::none)
-                CHECK(result.surface.points[p] == mesh.points[result.point_of[p]]);
+        for (std::size_t p = 0; p < result.vertex_source.size(); ++p)
+            if (result.vertex_source[p] != tf::resolve_result::none)
+                CHECK(result.mesh.points[p] == mesh.points[result.vertex_source[p]]);
     }
 }
 
 TEST_CASE("repair: splitting keeps every face") {
     test::random source(4);
     for (const tf::mesh& mesh : {two_balls(), test::random_soup(source, 60, 0.4)}) {
-        const auto result = tf::repair(mesh, {.mode = mode::split});
-        CHECK(result.certified);
-        CHECK(tf::self_intersections(result.surface).pairs.empty());
-        CHECK(area_of(result.surface) == doctest::Approx(area_of(mesh)).epsilon(1e-12));
-        CHECK(result.removed == 0);
-        CHECK(result.filled == 0);
+        const auto result = tf::resolve_self_intersections(mesh, mode::split);
+        CHECK(result.certificate);
+        CHECK(tf::self_intersections(result.mesh).pairs.empty());
+        CHECK(area_of(result.mesh) == doctest::Approx(area_of(mesh)).epsilon(1e-12));
+        CHECK(result.statistics.removed == 0);
+        CHECK(result.statistics.filled == 0);
     }
 }
 
 TEST_CASE("repair: a surface with a border bounds nothing, and it is said where it ends") {
     tf::mesh mesh = two_balls();
     mesh.faces.erase(mesh.faces.begin() + 5);
-    const auto result = tf::repair(mesh);
-    CHECK(!result.certified);
-    CHECK(result.surface.faces.empty());
-    CHECK(result.open_count == 3);
-    REQUIRE(result.open.size() == 3);
-    CHECK(tf::repair(mesh, {.mode = mode::split}).certified);
+    const auto result = tf::resolve_self_intersections(mesh);
+    CHECK(!result.certificate);
+    CHECK(result.mesh.faces.empty());
+    CHECK(result.certificate.open_count == 3);
+    REQUIRE(result.certificate.open.size() == 3);
+    CHECK(tf::resolve_self_intersections(mesh, mode::split).certificate);
 }
 
 TEST_CASE("repair: a spike through the other side is removed and its holes are closed") {
     tf::mesh mesh = test::ball(4, 1.0);
     mesh.points[4] = {0.03, 0.02, -1.5};  // the top pulled down through the bottom
     REQUIRE(!tf::self_intersections(mesh).pairs.empty());
-    const auto result = tf::repair(mesh, {.mode = mode::remove});
-    CHECK(result.certified);
-    CHECK(result.removed > 0);
-    CHECK(result.filled > 0);
-    CHECK(tf::self_intersections(result.surface).pairs.empty());
-    const auto counts = tf::count_topology(result.surface.points.size(), result.surface.faces);
+    const auto result = tf::resolve_self_intersections(mesh, mode::remove);
+    CHECK(result.certificate);
+    CHECK(result.statistics.removed > 0);
+    CHECK(result.statistics.filled > 0);
+    CHECK(tf::self_intersections(result.mesh).pairs.empty());
+    const auto counts = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
     CHECK(counts.closed);
     CHECK(counts.misoriented_edges == 0);
-    CHECK(result.face_of.size() == result.surface.faces.size());
-    CHECK(result.max_move == 0.0);
+    CHECK(result.face_source.size() == result.mesh.faces.size());
+    CHECK(result.certificate.max_displacement == 0.0);
 }
 
 TEST_CASE("repair: removing faces leaves a border where there was one") {
@@ -155,10 +158,10 @@ TEST_CASE("repair: removing faces leaves a border where there was one") {
     mesh.points[220] = {5.5, 5.5, 0.0};  // folds over its neighbours
     const auto before = tf::count_topology(mesh.points.size(), mesh.faces);
     REQUIRE(!tf::self_intersections(mesh).pairs.empty());
-    const auto result = tf::repair(mesh, {.mode = mode::remove});
-    CHECK(result.certified);
-    CHECK(tf::self_intersections(result.surface).pairs.empty());
-    const auto after = tf::count_topology(result.surface.points.size(), result.surface.faces);
+    const auto result = tf::resolve_self_intersections(mesh, mode::remove);
+    CHECK(result.certificate);
+    CHECK(tf::self_intersections(result.mesh).pairs.empty());
+    const auto after = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
     CHECK(after.boundary_edges == before.boundary_edges);
     CHECK(after.components_by_edge == 1);
 }
@@ -168,13 +171,13 @@ TEST_CASE("repair: a notch in the border is filled up to where the border was") 
     mesh.points[10] = {10.0, 3.5, 0.0};  // of the border, over three rows of faces
     const auto before = tf::count_topology(mesh.points.size(), mesh.faces);
     REQUIRE(!tf::self_intersections(mesh).pairs.empty());
-    const auto result = tf::repair(mesh, {.mode = mode::remove});
-    CHECK(result.certified);
-    CHECK(tf::self_intersections(result.surface).pairs.empty());
-    const auto after = tf::count_topology(result.surface.points.size(), result.surface.faces);
+    const auto result = tf::resolve_self_intersections(mesh, mode::remove);
+    CHECK(result.certificate);
+    CHECK(tf::self_intersections(result.mesh).pairs.empty());
+    const auto after = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
     CHECK(after.components_by_edge == 1);
-    CHECK(after.boundary_edges <= before.boundary_edges + result.left_open);
-    CHECK(result.removed < 20);
+    CHECK(after.boundary_edges <= before.boundary_edges + result.statistics.left_open);
+    CHECK(result.statistics.removed < 20);
 }
 
 TEST_CASE("repair: where what is deleted goes around a border, no face is left by itself there") {
@@ -192,14 +195,14 @@ TEST_CASE("repair: where what is deleted goes around a border, no face is left b
         tube.faces.push_back({i, next + around, i + around});
     }
     REQUIRE(!tf::self_intersections(tube).pairs.empty());
-    const auto result = tf::repair(tube, {.mode = mode::remove});
-    CHECK(result.certified);
-    CHECK(result.left_open > 0);
-    CHECK(result.removed < 4 * around);  // less than all at the ring
-    const auto component = tf::face_components(result.surface.points.size(), result.surface.faces);
+    const auto result = tf::resolve_self_intersections(tube, mode::remove);
+    CHECK(result.certificate);
+    CHECK(result.statistics.left_open > 0);
+    CHECK(result.statistics.removed < 4 * around);  // less than all at the ring
+    const auto component = tf::face_components(result.mesh.points.size(), result.mesh.faces);
     std::set<std::uint32_t> all(component.begin(), component.end()), with_given;
     for (std::size_t f = 0; f < component.size(); ++f)
-        if (result.face_of[f] != tf::repaired_mesh::none) with_given.insert(component[f]);
+        if (result.face_source[f] != tf::resolve_result::none) with_given.insert(component[f]);
     CHECK(with_given == all);
 }
 
@@ -211,50 +214,50 @@ TEST_CASE("repair: of two open sheets that pass through each other, one is cut o
     for (const tf::face_pair& pair : tf::self_intersections(mesh).pairs)
         meets[pair.a] = meets[pair.b] = 1;
     REQUIRE(std::ranges::count(meets, 1) > 0);
-    const auto result = tf::repair(mesh, {.mode = mode::remove});
-    CHECK(result.certified);
-    CHECK(tf::self_intersections(result.surface).pairs.empty());
-    CHECK(result.lost_components == 0);
-    CHECK(result.left_open > 0);
+    const auto result = tf::resolve_self_intersections(mesh, mode::remove);
+    CHECK(result.certificate);
+    CHECK(tf::self_intersections(result.mesh).pairs.empty());
+    CHECK(result.vanished_components == 0);
+    CHECK(result.statistics.left_open > 0);
     for (std::uint32_t f = 0; f < meets.size(); ++f)  // nothing else is touched
-        if (meets[f] == 0) CHECK(std::ranges::count(result.face_of, f) == 1);
-    CHECK(result.removed < static_cast<std::uint64_t>(std::ranges::count(meets, 1)));
+        if (meets[f] == 0) CHECK(std::ranges::count(result.face_source, f) == 1);
+    CHECK(result.statistics.removed < static_cast<std::uint64_t>(std::ranges::count(meets, 1)));
 }
 
 TEST_CASE("repair: a closed part that an open sheet passes through stays as it is") {
     const tf::mesh ball = test::ball(3, 6.0);
     const tf::mesh mesh = test::together(ball, test::moved(test::grid(20), {-10.1, -9.8, 0.3}));
-    const auto result = tf::repair(mesh, {.mode = mode::remove});
-    CHECK(result.certified);
-    CHECK(tf::self_intersections(result.surface).pairs.empty());
-    CHECK(result.lost_components == 0);
+    const auto result = tf::resolve_self_intersections(mesh, mode::remove);
+    CHECK(result.certificate);
+    CHECK(tf::self_intersections(result.mesh).pairs.empty());
+    CHECK(result.vanished_components == 0);
     for (std::uint32_t f = 0; f < ball.faces.size(); ++f)
-        CHECK(std::ranges::count(result.face_of, f) == 1);
+        CHECK(std::ranges::count(result.face_source, f) == 1);
 }
 
 TEST_CASE("repair: removing leaves no edge of a closed part open") {
     const tf::mesh mesh = test::together(two_balls(), test::moved(test::grid(3), {5, 5, 5}));
-    const auto result = tf::repair(mesh, {.mode = mode::remove});
-    CHECK(result.certified);
-    CHECK(result.left_open == 0);
-    const auto counts = tf::count_topology(result.surface.points.size(), result.surface.faces);
+    const auto result = tf::resolve_self_intersections(mesh, mode::remove);
+    CHECK(result.certificate);
+    CHECK(result.statistics.left_open == 0);
+    const auto counts = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
     CHECK(counts.boundary_edges == 12);  // of the sheet far away
 }
 
 TEST_CASE("repair: of faces on each other one is left, and of a face and its back none") {
     tf::mesh twice = test::grid(4);
     twice.faces.push_back(twice.faces[12]);
-    const auto result = tf::repair(twice, {.mode = mode::remove});
-    CHECK(result.certified);
-    CHECK(result.surface.faces.size() == test::grid(4).faces.size());
-    CHECK(result.left_open == 0);
+    const auto result = tf::resolve_self_intersections(twice, mode::remove);
+    CHECK(result.certificate);
+    CHECK(result.mesh.faces.size() == test::grid(4).faces.size());
+    CHECK(result.statistics.left_open == 0);
     tf::mesh flap = test::ball(1, 1.0);
     flap.points.push_back({3, 3, 3});
     flap.faces.push_back({0, 6, 18});
     flap.faces.push_back({0, 18, 6});
-    const auto without = tf::repair(flap, {.mode = mode::remove});
-    CHECK(without.certified);
-    CHECK(without.surface == test::ball(1, 1.0));
+    const auto without = tf::resolve_self_intersections(flap, mode::remove);
+    CHECK(without.certificate);
+    CHECK(without.mesh == test::ball(1, 1.0));
 }
 
 TEST_CASE("repair: of a sheet with a back, or a solid twice, one copy is left") {
@@ -264,11 +267,11 @@ TEST_CASE("repair: of a sheet with a back, or a solid twice, one copy is left") 
         for (const tf::mesh& other : {one, test::inside_out(one)}) {
             tf::mesh both = one;
             both.faces.insert(both.faces.end(), other.faces.begin(), other.faces.end());
-            const auto result = tf::repair(both, {.mode = mode::remove});
-            CHECK(result.certified);
-            CHECK(result.surface == one);
-            CHECK(result.removed == one.faces.size());
-            CHECK(result.left_open == (closed || other == one ? 0 : 16));
+            const auto result = tf::resolve_self_intersections(both, mode::remove);
+            CHECK(result.certificate);
+            CHECK(result.mesh == one);
+            CHECK(result.statistics.removed == one.faces.size());
+            CHECK(result.statistics.left_open == (closed || other == one ? 0 : 16));
         }
     }
 }
@@ -283,13 +286,12 @@ TEST_CASE("repair: the copy that is left runs the same way round everywhere, in 
                 for (const tf::face& f : copies.faces)
                     for (std::size_t k = 0; k <= source.below(2); ++k) both.faces.push_back(f);
             const tf::mesh mesh = test::shuffled(source, both).mesh;
-            const auto result = tf::repair(mesh, {.mode = mode::remove});
-            CHECK(result.certified);
-            CHECK(result.surface.faces.size() == one.faces.size());
-            CHECK(result.face_of.front() == 0);  // whose way it is
-            CHECK(result.left_open == (closed ? 0 : 16));
-            const auto counts =
-                tf::count_topology(result.surface.points.size(), result.surface.faces);
+            const auto result = tf::resolve_self_intersections(mesh, mode::remove);
+            CHECK(result.certificate);
+            CHECK(result.mesh.faces.size() == one.faces.size());
+            CHECK(result.face_source.front() == 0);  // whose way it is
+            CHECK(result.statistics.left_open == (closed ? 0 : 16));
+            const auto counts = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
             CHECK(counts.misoriented_edges == 0);
             CHECK(counts.boundary_edges == (closed ? 0 : 16));
         }
@@ -300,10 +302,10 @@ TEST_CASE("repair: a sheet whose back ends before it does not vanish") {
     const auto count = both.faces.size();
     for (const tf::face& f : test::inside_out(test::grid(4)).faces) both.faces.push_back(f);
     both.faces.pop_back();
-    const auto result = tf::repair(both, {.mode = mode::remove});
-    CHECK(result.certified);
-    CHECK(result.surface.faces.size() == count);
-    CHECK(result.lost_components == 0);
+    const auto result = tf::resolve_self_intersections(both, mode::remove);
+    CHECK(result.certificate);
+    CHECK(result.mesh.faces.size() == count);
+    CHECK(result.vanished_components == 0);
 }
 
 TEST_CASE("repair: of random sheets, what is removed never leaves faces that meet") {
@@ -316,14 +318,15 @@ TEST_CASE("repair: of random sheets, what is removed never leaves faces that mee
                                   ? tf::join_equal_points(test::lattice_soup(source, 30, 20, 3))
                                   : test::fan(source, 30);
         for (const bool touching : {false, true}) {
-            const auto result = tf::repair(mesh, {.mode = mode::remove, .touching = touching});
-            if (!result.certified) continue;
+            const auto result =
+                tf::resolve_self_intersections(mesh, mode::remove, {.touching = touching});
+            if (!result.certificate) continue;
             ++certified;
-            for (const tf::face_pair& pair : tf::self_intersections(result.surface).pairs) {
+            for (const tf::face_pair& pair : tf::self_intersections(result.mesh).pairs) {
                 CHECK(!touching);
                 CHECK(pair.kind == tf::pair_kind::touching);
-                CHECK(result.face_of[pair.a] != tf::repaired_mesh::none);
-                CHECK(result.face_of[pair.b] != tf::repaired_mesh::none);
+                CHECK(result.face_source[pair.a] != tf::resolve_result::none);
+                CHECK(result.face_source[pair.b] != tf::resolve_result::none);
             }
         }
     }
@@ -337,11 +340,11 @@ TEST_CASE("repair: faces that only touch are deleted on request") {
     const auto found = tf::self_intersections(mesh);
     REQUIRE(!found.pairs.empty());
     for (const tf::face_pair& pair : found.pairs) REQUIRE(pair.kind == tf::pair_kind::touching);
-    CHECK(tf::repair(mesh, {.mode = mode::remove}).surface == mesh);
-    const auto result = tf::repair(mesh, {.mode = mode::remove, .touching = true});
-    CHECK(result.certified);
-    CHECK(result.removed > 0);
-    CHECK(tf::self_intersections(result.surface).pairs.empty());
+    CHECK(tf::resolve_self_intersections(mesh, mode::remove).mesh == mesh);
+    const auto result = tf::resolve_self_intersections(mesh, mode::remove, {.touching = true});
+    CHECK(result.certificate);
+    CHECK(result.statistics.removed > 0);
+    CHECK(tf::self_intersections(result.mesh).pairs.empty());
 }
 
 TEST_CASE("repair: of each pair one face is chosen, that in the most pairs first") {
@@ -375,10 +378,10 @@ TEST_CASE("repair: of each pair one face is chosen, that in the most pairs first
 TEST_CASE("repair: a component that is nothing but faces that meet is counted as lost") {
     const tf::mesh mesh = test::together(
         test::ball(2, 1.0), {{{5, 0, 0}, {6, 0, 0}, {5, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}});
-    const auto result = tf::repair(mesh, {.mode = mode::outer});
-    CHECK(result.certified);
-    CHECK(result.lost_components == 1);
-    CHECK(result.removed == 2);
+    const auto result = tf::resolve_self_intersections(mesh, mode::outer);
+    CHECK(result.certificate);
+    CHECK(result.vanished_components == 1);
+    CHECK(result.statistics.removed == 2);
 }
 
 TEST_CASE("repair: a point that no face has may be anything, and changes nothing") {
@@ -388,11 +391,15 @@ TEST_CASE("repair: a point that no face has may be anything, and changes nothing
             for (const bool to_float : {false, true}) {
                 tf::mesh more = ball;
                 more.points.push_back({x, 0.0, 0.0});
-                const auto result = tf::repair(more, {.mode = m, .to_float = to_float});
-                const auto expected = tf::repair(ball, {.mode = m, .to_float = to_float});
-                CHECK(result.certified);
-                CHECK(result.surface == expected.surface);
-                CHECK(result.max_move == expected.max_move);
+                const auto result = tf::resolve_self_intersections(
+                    more, m,
+                    {.precision = to_float ? tf::precision::float32 : tf::precision::float64});
+                const auto expected = tf::resolve_self_intersections(
+                    ball, m,
+                    {.precision = to_float ? tf::precision::float32 : tf::precision::float64});
+                CHECK(result.certificate);
+                CHECK(result.mesh == expected.mesh);
+                CHECK(result.certificate.max_displacement == expected.certificate.max_displacement);
             }
 }
 
@@ -401,24 +408,30 @@ TEST_CASE("repair: what cannot be meant is refused") {
         for (const bool to_float : {false, true}) {
             tf::mesh mesh = test::box(1, 1, 1);
             mesh.points[3].x = std::numeric_limits<double>::quiet_NaN();
-            CHECK_THROWS_AS(static_cast<void>(tf::repair(mesh, {.mode = m, .to_float = to_float})),
-                            std::invalid_argument);
+            CHECK_THROWS_AS(
+                static_cast<void>(tf::resolve_self_intersections(
+                    mesh, m,
+                    {.precision = to_float ? tf::precision::float32 : tf::precision::float64})),
+                std::invalid_argument);
             mesh.points[3].x = 1e300;  // beyond the range of float
             mesh.faces[5][1] = 8;
-            CHECK_THROWS_AS(static_cast<void>(tf::repair(mesh, {.mode = m, .to_float = to_float})),
-                            std::invalid_argument);
+            CHECK_THROWS_AS(
+                static_cast<void>(tf::resolve_self_intersections(
+                    mesh, m,
+                    {.precision = to_float ? tf::precision::float32 : tf::precision::float64})),
+                std::invalid_argument);
         }
 }
 
 TEST_CASE("repair: what is removed and filled does not depend on the unit") {
     tf::mesh mesh = test::ball(4, 1.0);
     mesh.points[4] = {0.03, 0.02, -1.5};
-    const auto expected = tf::repair(mesh, {.mode = mode::remove});
-    REQUIRE(expected.certified);
+    const auto expected = tf::resolve_self_intersections(mesh, mode::remove);
+    REQUIRE(expected.certificate);
     for (const double size : {0x1p520, 0x1p1020, 0x1p-520, 0x1p-960}) {
-        const auto result = tf::repair(test::scaled(mesh, size), {.mode = mode::remove});
-        CHECK(result.certified);
-        CHECK(result.surface.faces == expected.surface.faces);
+        const auto result = tf::resolve_self_intersections(test::scaled(mesh, size), mode::remove);
+        CHECK(result.certificate);
+        CHECK(result.mesh.faces == expected.mesh.faces);
     }
 }
 
@@ -428,20 +441,21 @@ TEST_CASE("repair: progress never goes back, and can stop it in any round") {
         double last = 0.0;
         std::size_t calls = 0;
         bool forward = true;
-        const auto whole = tf::repair(mesh, {.mode = m, .progress = [&](double done) {
-                                                 forward = forward && done >= last && done <= 1.0;
-                                                 last = done;
-                                                 ++calls;
-                                                 return true;
-                                             }});
-        CHECK(whole.certified);
+        const auto whole =
+            tf::resolve_self_intersections(mesh, m, {.progress = [&](double done) {
+                                               forward = forward && done >= last && done <= 1.0;
+                                               last = done;
+                                               ++calls;
+                                               return true;
+                                           }});
+        CHECK(whole.certificate);
         CHECK(forward);
         for (std::size_t limit = 0; limit < calls; limit += 1 + calls / 20) {
             std::size_t left = limit;
-            const auto stopped = tf::repair(
-                mesh, {.mode = m, .progress = [&](double) { return left > 0 && left-- > 0; }});
-            CHECK(stopped.cancelled);
-            CHECK(!stopped.certified);
+            const auto stopped = tf::resolve_self_intersections(
+                mesh, m, {.progress = [&](double) { return left > 0 && left-- > 0; }});
+            CHECK(stopped.certificate.status == tf::status::cancelled);
+            CHECK(!stopped.certificate);
         }
     }
 }
@@ -449,14 +463,14 @@ TEST_CASE("repair: progress never goes back, and can stop it in any round") {
 TEST_CASE("repair: nothing to repair, nothing changed; on any number of threads") {
     const tf::mesh ball = test::ball(2, 1.0);
     for (const mode m : {mode::split, mode::outer, mode::remove}) {
-        CHECK(tf::repair(ball, {.mode = m}).surface == ball);
-        CHECK(tf::repair({}, {.mode = m}).certified);
-        const auto all = tf::repair(two_balls(), {.mode = m});
+        CHECK(tf::resolve_self_intersections(ball, m).mesh == ball);
+        CHECK(tf::resolve_self_intersections({}, m).certificate);
+        const auto all = tf::resolve_self_intersections(two_balls(), m);
         for (const unsigned threads : {1U, 2U, 8U}) {
             const tf::thread_scope scope(threads);
-            const auto again = tf::repair(two_balls(), {.mode = m});
-            CHECK(again.surface == all.surface);
-            CHECK(again.face_of == all.face_of);
+            const auto again = tf::resolve_self_intersections(two_balls(), m);
+            CHECK(again.mesh == all.mesh);
+            CHECK(again.face_source == all.face_source);
         }
     }
 }

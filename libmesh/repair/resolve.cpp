@@ -1,0 +1,76 @@
+#include <libmesh/repair/remove_faces.hpp>
+#include <treeform/mesh/resolve.hpp>
+#include <treeform/mesh/topology.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace treeform {
+namespace {
+
+resolve_result from(boolean_result&& made) {
+    resolve_result result;
+    result.mesh = std::move(made.mesh);
+    for (const operand_element& e : made.face_source) result.face_source.push_back(e.index);
+    for (const operand_element& e : made.vertex_source) result.vertex_source.push_back(e.index);
+    result.certificate = std::move(made.certificate);
+    result.statistics.covered = made.statistics.covered;
+    result.statistics.exact_faces = made.statistics.exact_faces;
+    result.statistics.split_vertices = made.statistics.split_vertices;
+    return result;
+}
+
+void count_losses(mesh_view mesh, resolve_result& result) {
+    const std::vector<std::uint32_t> component = face_components(mesh.points.size(), mesh.faces);
+    std::uint32_t components = 0;
+    for (const std::uint32_t c : component) components = std::max(components, c + 1);
+    std::vector<char> is_left(mesh.faces.size()), has_face(components);
+    for (const std::uint32_t f : result.face_source) {
+        if (f == resolve_result::none) {
+            ++result.statistics.filled;
+            continue;
+        }
+        is_left[f] = 1;
+        has_face[component[f]] = 1;
+    }
+    const auto gone = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
+    result.statistics.removed = gone - std::min(gone, result.statistics.covered);
+    result.vanished_components = static_cast<std::uint64_t>(std::ranges::count(has_face, 0));
+    if (result.certificate && result.mesh.faces.empty() && !mesh.faces.empty())
+        result.certificate.status = status::vanished;
+}
+
+resolve_result by_mode(mesh_view mesh, resolve_mode mode, const resolve_options& options) {
+    if (mode == resolve_mode::remove) return detail::repair::remove_faces(mesh, options);
+    const boolean_options as_boolean{.inside = options.inside,
+                                     .precision = options.precision,
+                                     .rounding_steps = options.rounding_steps,
+                                     .progress = options.progress};
+    return mode == resolve_mode::split
+               ? from(split({&mesh, 1}, as_boolean))
+               : from(boolean({&mesh, 1}, boolean_expression::union_of(1), as_boolean));
+}
+
+}  // namespace
+
+resolve_result resolve_self_intersections(mesh_view mesh, resolve_mode mode,
+                                          const resolve_options& options) {
+    resolve_result result = by_mode(mesh, mode, options);
+    const bool is_there = result.certificate.status != status::cancelled &&
+                          result.certificate.status != status::open_input;
+    if (is_there) count_losses(mesh, result);
+    return result;
+}
+
+const mesh& resolve_result::value() const& {
+    if (!certificate) throw not_certified_error(certificate);
+    return mesh;
+}
+
+treeform::mesh resolve_result::value() && {
+    if (!certificate) throw not_certified_error(std::move(certificate));
+    return std::move(mesh);
+}
+
+}  // namespace treeform
