@@ -86,7 +86,7 @@ void repair_in_all_ways(const tf::mesh& mesh, const std::string& file,
             if (!std::isfinite(result.certificate.max_displacement))
                 continue;  // beyond the range of float
             look_at(result, mode == tf::resolve_mode::outer, to_float);
-            tally.count(static_cast<bool>(result.certificate),
+            tally.count(result.certificate,
                         what + ", " + std::to_string(result.certificate.meeting_count));
         }
 }
@@ -121,7 +121,7 @@ void combine_pairs(const std::filesystem::path& folder, test::certified_tally& a
                     {.precision = to_float ? tf::precision::float32 : tf::precision::float64});
                 if (result.certificate.open_count > 0) break;  // bounds nothing, and is told so
                 look_at(result, true, to_float);
-                tally.count(static_cast<bool>(result.certificate),
+                tally.count(result.certificate,
                             what + ", " + std::to_string(result.certificate.meeting_count));
             }
     }

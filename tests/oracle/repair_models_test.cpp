@@ -76,7 +76,10 @@ TEST_CASE("models: the outer surface of whatever passes through itself") {
         ++asked;
         const auto result = tf::resolve_self_intersections(mesh);
         CHECK(result.certificate.open_count == 0);
-        certified += result.certificate ? 1 : 0;
+        // Faces that cancel each other out bound nothing: that is known for certain, too.
+        const bool nothing = result.certificate.status == tf::status::vanished;
+        certified += result.certificate || nothing ? 1 : 0;
+        if (nothing) continue;
         if (!result.certificate) {
             MESSAGE(file << " not certified: " << result.certificate.meeting_count
                          << " pairs remain");

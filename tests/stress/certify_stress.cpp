@@ -86,7 +86,7 @@ void check_case(const test::solid_case& made, const std::string& name,
             if (too_large) continue;
             look_at(result, to_float);
             if (result.certificate) compare_volume(result, volumes[k], area);
-            tally.count(static_cast<bool>(result.certificate),
+            tally.count(result.certificate,
                         what + ", " + std::to_string(result.certificate.meeting_count));
         }
 }
@@ -136,7 +136,7 @@ TEST_CASE("chains of a hundred unions, each fed the last result, stay certified"
                     two, {"a+b", 2},
                     {.precision = to_float ? tf::precision::float32 : tf::precision::float64});
                 look_at(result, to_float);
-                tally.count(static_cast<bool>(result.certificate),
+                tally.count(result.certificate,
                             what + ", " + std::to_string(result.certificate.meeting_count));
                 if (!result.certificate) break;
                 so_far = std::move(result.mesh);

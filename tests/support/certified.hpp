@@ -3,6 +3,7 @@
 /// What is looked at again in surfaces that were rounded, and how often they were certified.
 
 #include <libmesh/base/nearest_float.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -58,7 +59,9 @@ class certified_tally {
   public:
     explicit certified_tally(std::string name) : name_(std::move(name)) {}
 
-    void count(bool certified, const std::string& what) {
+    /// A result of which nothing is left is known for certain, too.
+    void count(const tf::certificate& known, const std::string& what) {
+        const bool certified = known || known.status == tf::status::vanished;
         const auto now = std::chrono::steady_clock::now();
         slowest_ = std::max(slowest_, std::chrono::duration<double>(now - last_).count());
         last_ = now;
