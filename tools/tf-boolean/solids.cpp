@@ -3,9 +3,8 @@
 #include "tools/common/arrangeable.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/matrix_file.hpp"
-#include "tools/common/texture_files.hpp"
-#include "tools/common/turned_normals.hpp"
 #include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/validate.hpp>
 #include <treeform/mesh/volume.hpp>
 #include <treeform/tf.hpp>
@@ -67,7 +66,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     if (!matrix_file.empty()) {
         const tf::transform<3> matrix = read_matrix(matrix_file);
         for (tf::point3& p : s.file.mesh.points) p = matrix(p);
-        turn_normals(s.file, matrix);
+        tf::transform_normals(s.file, matrix);
         about["matrix"] = matrix_file.string();
     }
     keep_usable(work, s);
@@ -103,7 +102,7 @@ void settle_textures(job& work, std::vector<solid>& solids) {
         files.push_back(&s.file);
         names.push_back(name_of_input(s.path));
     }
-    for (const tf::io_warning& w : unite_textures(files, names)) work.warn(w.code, w.text);
+    for (const tf::io_warning& w : tf::unite_textures(files, names)) work.warn(w.code, w.text);
 }
 
 }  // namespace
@@ -136,8 +135,8 @@ std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids) {
     return views;
 }
 
-std::vector<property_source> sources_of(const std::vector<solid>& solids) {
-    std::vector<property_source> sources;
+std::vector<tf::carry_source> sources_of(const std::vector<solid>& solids) {
+    std::vector<tf::carry_source> sources;
     for (const solid& s : solids) sources.push_back(s.source());
     return sources;
 }
