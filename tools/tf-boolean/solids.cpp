@@ -3,14 +3,13 @@
 #include "tools/common/arrangeable.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/matrix_file.hpp"
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/carry.hpp>
-#include <treeform/mesh/validate.hpp>
 #include <treeform/mesh/volume.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace tools {
@@ -20,24 +19,10 @@ json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
 /// Leaves out the faces that cannot be computed with.
 void keep_usable(job& work, solid& s) {
-    const tf::mesh_defects defects = tf::find_defects(s.file.mesh);
-    std::vector<std::uint32_t> unusable;
-    std::merge(defects.nonfinite_faces.begin(), defects.nonfinite_faces.end(),
-               defects.out_of_range_faces.begin(), defects.out_of_range_faces.end(),
-               std::back_inserter(unusable));
-    s.non_finite = unusable.size();
-    if (unusable.empty()) return;
-    std::vector<tf::face> usable;
-    auto next = unusable.begin();
-    for (std::uint32_t f = 0; f < s.file.mesh.faces.size(); ++f) {
-        if (next != unusable.end() && *next == f) {
-            ++next;
-            continue;
-        }
-        usable.push_back(s.file.mesh.faces[f]);
-        s.triangle_of_face.push_back(f);
-    }
-    s.file.mesh.faces = std::move(usable);
+    const std::size_t before = s.file.mesh.faces.size();
+    s.triangle_of_face = tf::drop_unusable_faces(s.file.mesh);
+    s.non_finite = before - s.file.mesh.faces.size();
+    if (s.non_finite == 0) return;
     work.warn("non-finite", name_of_input(s.path) + ": " + counted(s.non_finite, "face", "faces") +
                                 " with a NaN or infinite coordinate left out");
 }
