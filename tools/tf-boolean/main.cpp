@@ -109,7 +109,7 @@ std::vector<std::uint32_t> groups_of(const tools::job& work, const boolean_setti
                                      const std::vector<tools::solid>& solids) {
     if (!s.simplify) return {};
     const bool of_properties = !s.no_attributes && tools::wants_mesh(work.options);
-    return tools::groups_of_faces(tools::sources_of(solids), of_properties, s.source_given);
+    return tf::face_groups(tools::sources_of(solids), of_properties, s.source_given);
 }
 
 tf::boolean_result ask(tools::job& work, const boolean_settings& s,

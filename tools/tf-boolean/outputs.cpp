@@ -1,14 +1,14 @@
 #include "tools/tf-boolean/outputs.hpp"
 
-#include "tools/common/carried_materials.hpp"
-#include "tools/common/carried_properties.hpp"
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/curve_file.hpp"
+#include "tools/common/material_words.hpp"
 #include "tools/common/output_file.hpp"
 #include "tools/tf-boolean/words.hpp"
 #include <libmesh/base/finite.hpp>
 #include <libmesh/round/rounding_harm.hpp>
+#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/equal_points.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/topology.hpp>
@@ -151,8 +151,8 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     file.stored_as = to_single ? tf::precision::float32 : tf::precision::float64;
     const written_form form = form_of(o);
     if (!settings.no_attributes)
-        carry_properties(file, sources_of(solids),
-                         {result.face_source, result.vertex_source, result.face_of_cut_vertex});
+        tf::carry(file, sources_of(solids),
+                  {result.face_source, result.vertex_source, result.face_of_cut_vertex});
     if (!settings.no_attributes && form.format == "obj")
         warn_of_ambiguous_materials(work, files_of(solids));
     if (holds_sources(form.format)) add_sources(file, settings, solids, result);

@@ -3,15 +3,13 @@
 #include "tools/common/arrangeable.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/matrix_file.hpp"
-#include "tools/common/texture_files.hpp"
-#include "tools/common/turned_normals.hpp"
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/validate.hpp>
+#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/volume.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace tools {
@@ -21,24 +19,10 @@ json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
 /// Leaves out the faces that cannot be computed with.
 void keep_usable(job& work, solid& s) {
-    const tf::mesh_defects defects = tf::find_defects(s.file.mesh);
-    std::vector<std::uint32_t> unusable;
-    std::merge(defects.nonfinite_faces.begin(), defects.nonfinite_faces.end(),
-               defects.out_of_range_faces.begin(), defects.out_of_range_faces.end(),
-               std::back_inserter(unusable));
-    s.non_finite = unusable.size();
-    if (unusable.empty()) return;
-    std::vector<tf::face> usable;
-    auto next = unusable.begin();
-    for (std::uint32_t f = 0; f < s.file.mesh.faces.size(); ++f) {
-        if (next != unusable.end() && *next == f) {
-            ++next;
-            continue;
-        }
-        usable.push_back(s.file.mesh.faces[f]);
-        s.triangle_of_face.push_back(f);
-    }
-    s.file.mesh.faces = std::move(usable);
+    const std::size_t before = s.file.mesh.faces.size();
+    s.triangle_of_face = tf::drop_unusable_faces(s.file.mesh);
+    s.non_finite = before - s.file.mesh.faces.size();
+    if (s.non_finite == 0) return;
     work.warn("non-finite", name_of_input(s.path) + ": " + counted(s.non_finite, "face", "faces") +
                                 " with a NaN or infinite coordinate left out");
 }
@@ -67,7 +51,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     if (!matrix_file.empty()) {
         const tf::transform<3> matrix = read_matrix(matrix_file);
         for (tf::point3& p : s.file.mesh.points) p = matrix(p);
-        turn_normals(s.file, matrix);
+        tf::transform_normals(s.file, matrix);
         about["matrix"] = matrix_file.string();
     }
     keep_usable(work, s);
@@ -103,7 +87,7 @@ void settle_textures(job& work, std::vector<solid>& solids) {
         files.push_back(&s.file);
         names.push_back(name_of_input(s.path));
     }
-    for (const tf::io_warning& w : unite_textures(files, names)) work.warn(w.code, w.text);
+    for (const tf::io_warning& w : tf::unite_textures(files, names)) work.warn(w.code, w.text);
 }
 
 }  // namespace
@@ -136,8 +120,8 @@ std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids) {
     return views;
 }
 
-std::vector<property_source> sources_of(const std::vector<solid>& solids) {
-    std::vector<property_source> sources;
+std::vector<tf::carry_source> sources_of(const std::vector<solid>& solids) {
+    std::vector<tf::carry_source> sources;
     for (const solid& s : solids) sources.push_back(s.source());
     return sources;
 }

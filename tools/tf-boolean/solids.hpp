@@ -2,10 +2,10 @@
 /// \file
 /// The operands: files read, moved, and looked at.
 
-#include "tools/common/carried_properties.hpp"
 #include "tools/common/run.hpp"
 #include "tools/tf-boolean/settings.hpp"
 #include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
 
@@ -23,7 +23,7 @@ struct solid {
     std::uint64_t triangles = 0;                    ///< in the file
     std::uint64_t non_finite = 0;                   ///< triangles left out
 
-    [[nodiscard]] property_source source() const { return {&file, &triangle_of_face}; }
+    [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
     /// The number in the file.
     [[nodiscard]] std::uint32_t stored_face(std::uint32_t face) const {
         return source().stored_face(face);
@@ -36,7 +36,7 @@ struct solid {
 [[nodiscard]] std::vector<solid> read_solids(job& work, const boolean_settings& settings);
 
 [[nodiscard]] std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids);
-[[nodiscard]] std::vector<property_source> sources_of(const std::vector<solid>& solids);
+[[nodiscard]] std::vector<tf::carry_source> sources_of(const std::vector<solid>& solids);
 
 /// Length of the diagonal of the box of all solids.
 [[nodiscard]] double diagonal_of(const std::vector<solid>& solids);

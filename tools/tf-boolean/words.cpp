@@ -1,7 +1,7 @@
 #include "tools/tf-boolean/words.hpp"
 
-#include "tools/common/carried_properties.hpp"
 #include "tools/common/console.hpp"
+#include <treeform/mesh/carry.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -65,9 +65,9 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
                                      " of more than two faces, where the result touches itself");
     if (!settings.splits() && !output["closed"].get<bool>())
         work.warn("open", "the result is a part of an open surface, and open itself");
-    if (settings.simplify && !settings.no_attributes && points_have_properties(sources_of(solids)))
+    if (settings.simplify && !settings.no_attributes && tf::has_vertex_values(sources_of(solids)))
         work.warn("simplified", "points that are left out take their properties with them");
-    if (!settings.no_attributes && leaves_out_properties(sources_of(solids)))
+    if (!settings.no_attributes && tf::has_values_left_out(sources_of(solids)))
         work.warn("attributes", "lists and properties of other elements are not carried over");
 }
 

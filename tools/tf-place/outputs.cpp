@@ -1,14 +1,13 @@
 #include "tools/tf-place/outputs.hpp"
 
-#include "tools/common/carried_materials.hpp"
 #include "tools/common/console.hpp"
+#include "tools/common/material_words.hpp"
 #include "tools/common/output_file.hpp"
-#include "tools/common/texture_files.hpp"
-#include "tools/common/turned_normals.hpp"
 #include "tools/common/written_form.hpp"
 #include "tools/tf-place/marks.hpp"
 #include "tools/tf-place/rounding.hpp"
 #include "tools/tf-place/words.hpp"
+#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/io_error.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
@@ -125,7 +124,7 @@ tf::mesh_file described(const body& b) {
                       .parts = all.parts,
                       .material_files = all.material_files,
                       .texture_files = all.texture_files};
-    if (const tf::column* numbers = texture_numbers(*b.file))
+    if (const tf::column* numbers = tf::texture_numbers(*b.file))
         one.attributes.elements = {{"face", one.stored_faces, {*numbers}}};
     return one;
 }
@@ -141,7 +140,7 @@ std::vector<tf::mesh_file> described(job& work, const std::vector<const body*>& 
     }
     std::vector<tf::mesh_file*> files;
     for (tf::mesh_file& one : all) files.push_back(&one);
-    for (const tf::io_warning& w : unite_textures(files, names)) work.warn(w.code, w.text);
+    for (const tf::io_warning& w : tf::unite_textures(files, names)) work.warn(w.code, w.text);
     if (format == "obj")
         warn_of_ambiguous_materials(work,
                                     std::vector<const tf::mesh_file*>(files.begin(), files.end()));
@@ -150,7 +149,7 @@ std::vector<tf::mesh_file> described(job& work, const std::vector<const body*>& 
 
 /// Gives the faces of `scene` that come next, `faces` in number, the numbers of `one`.
 void append_texture_numbers(tf::mesh_file& scene, const tf::mesh_file& one, std::size_t faces) {
-    const tf::column* const more = texture_numbers(one);
+    const tf::column* const more = tf::texture_numbers(one);
     if (more == nullptr || scene.attributes.texture_files.empty()) return;
     tf::element& rows = tf::obtain_element(scene.attributes, "face", 0);
     rows.rows += faces;
@@ -396,7 +395,7 @@ void write_result(job& work, body& moving, const placement& p, const surrounding
     std::optional<all_classes> classes;
     if (has_classes(settings, form.format)) classes = classify_faces(moving, among, p);
     take_places(moving, p.points, p.matrix, to_single);
-    turn_normals(*moving.file, all_moves);
+    tf::transform_normals(*moving.file, all_moves);
     std::vector<const body*> bodies{&moving};
     for (const body& part : among.all())
         if (part.file != bodies.back()->file) bodies.push_back(&part);

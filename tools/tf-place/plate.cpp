@@ -2,11 +2,11 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
-#include "tools/common/turned_normals.hpp"
 #include "tools/tf-place/move.hpp"
 #include "tools/tf-place/outputs.hpp"
 #include "tools/tf-place/rounding.hpp"
 #include <treeform/mesh/arrange.hpp>
+#include <treeform/mesh/carry.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -99,7 +99,7 @@ exit_status arrange_all(job& work, const place_settings& settings) {
                 roundings.push_back(
                     look_at_rounding(work, bodies[i], at.matrix, at.points, to_single));
             take_places(bodies[i], at.points, at.matrix, to_single);
-            turn_normals(*bodies[i].file, matrices[i]);
+            tf::transform_normals(*bodies[i].file, matrices[i]);
         }
         matrix_lines += matrix_text(matrices[i]);
     }

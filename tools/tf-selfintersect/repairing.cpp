@@ -1,12 +1,12 @@
 #include "tools/tf-selfintersect/repairing.hpp"
 
 #include "tools/common/arrangeable.hpp"
-#include "tools/common/carried_properties.hpp"
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
 #include "tools/tf-selfintersect/words.hpp"
 #include <libmesh/round/rounding_harm.hpp>
 #include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/topology.hpp>
 #include <treeform/mesh/volume.hpp>
 #include <treeform/tf.hpp>
@@ -193,14 +193,14 @@ void write_repaired(job& work, const tf::mesh_file& input, const findings& resul
     file.mesh = std::move(repaired.mesh);
     file.stored_faces = file.mesh.faces.size();
     file.stored_as = to_single ? tf::precision::float32 : tf::precision::float64;
-    const property_source whole{&input, &result.triangle_of_face};
+    const tf::carry_source whole{&input, result.triangle_of_face};
     std::optional<tf::mesh_file> searched;
     if (input.mesh.points.size() != result.mesh.points.size())
         searched = with_searched_points(input, result);
-    const property_source source{searched ? &*searched : &input, &result.triangle_of_face};
-    carry_properties(file, {&source, 1},
-                     {of_input(repaired.face_source), of_input(repaired.vertex_source)});
-    if ((searched && points_have_properties({&whole, 1})) || leaves_out_properties({&whole, 1}))
+    const tf::carry_source source{searched ? &*searched : &input, result.triangle_of_face};
+    tf::carry(file, {&source, 1},
+              {of_input(repaired.face_source), of_input(repaired.vertex_source)});
+    if ((searched && tf::has_vertex_values({&whole, 1})) || tf::has_values_left_out({&whole, 1}))
         work.warn("attributes", "not all properties of the input are carried over");
     add_source_faces(file, result, repaired.face_source);
     const tf::write_result written = write_certified(work, file, form, output);

@@ -1,6 +1,6 @@
 #include "tools/tf-weld/in_memory.hpp"
 
-#include "tools/common/carried_materials.hpp"
+#include "tools/common/material_words.hpp"
 #include "tools/tf-weld/join_files.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/polygons.hpp"

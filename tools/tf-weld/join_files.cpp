@@ -1,7 +1,7 @@
 #include "tools/tf-weld/join_files.hpp"
 
 #include "tools/common/exit_status.hpp"
-#include "tools/common/texture_files.hpp"
+#include <treeform/mesh/carry.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -128,7 +128,7 @@ class joiner {
     void unite_textures() {
         std::vector<tf::mesh_file*> files;
         for (tf::mesh_file& file : files_) files.push_back(&file);
-        for (const tf::io_warning& w : tools::unite_textures(files, names_)) warn(w.code, w.text);
+        for (const tf::io_warning& w : tf::unite_textures(files, names_)) warn(w.code, w.text);
         all_.attributes.texture_files = files_.front().attributes.texture_files;
     }
 

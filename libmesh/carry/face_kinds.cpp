@@ -1,20 +1,18 @@
-#include "tools/common/face_kinds.hpp"
-
-#include "tools/common/carried_materials.hpp"
-#include <treeform/tf.hpp>
+#include <libmesh/carry/face_kinds.hpp>
+#include <libmesh/carry/materials.hpp>
 
 #include <cmath>
 #include <limits>
 
-namespace tools {
+namespace treeform::detail::carry {
 namespace {
 
 /// None, one value, or the number of the face.
 template <class Row>
-void append_kind(const std::vector<Row>& rows, const std::vector<tf::face>& of_corner,
+void append_kind(const std::vector<Row>& rows, const std::vector<face>& of_corner,
                  std::uint32_t input, std::uint32_t triangle, std::vector<double>& values) {
-    constexpr std::uint32_t none = tf::corner_values::none;
-    const tf::face numbers = of_corner.empty() ? tf::face{none, none, none} : of_corner[triangle];
+    constexpr std::uint32_t none = corner_values::none;
+    const face numbers = of_corner.empty() ? face{none, none, none} : of_corner[triangle];
     const bool one = numbers[0] == numbers[1] && numbers[1] == numbers[2];
     if (one && numbers[0] == none) {
         values.insert(values.end(), {0.0, 0.0, 0.0, 0.0});
@@ -32,12 +30,12 @@ void append_kind(const std::vector<Row>& rows, const std::vector<tf::face>& of_c
 
 }  // namespace
 
-face_kinds::face_kinds(std::span<const property_source> inputs) : inputs_(inputs) {
-    for (const property_source& input : inputs) {
-        const tf::attributes& all = input.file->attributes;
+face_kinds::face_kinds(std::span<const carry_source> inputs) : inputs_(inputs) {
+    for (const carry_source& input : inputs) {
+        const attributes& all = input.file->attributes;
         has_corner_values_ = has_corner_values_ || !all.corners.texture_of_corner.empty() ||
                              !all.corners.normal_of_corner.empty();
-        for (const tf::part& p : all.parts)
+        for (const part& p : all.parts)
             if (!p.material.empty())
                 materials_.try_emplace(p.material, static_cast<double>(materials_.size() + 1));
     }
@@ -46,13 +44,13 @@ face_kinds::face_kinds(std::span<const property_source> inputs) : inputs_(inputs
 void face_kinds::append(std::uint32_t input, std::uint32_t face,
                         std::vector<double>& values) const {
     if (empty()) return;
-    const property_source& source = inputs_[input];
+    const carry_source& source = inputs_[input];
     const auto material = materials_.find(material_of(source, face));
     values.push_back(material == materials_.end() ? 0.0 : material->second);
-    const tf::corner_values& corners = source.file->attributes.corners;
+    const corner_values& corners = source.file->attributes.corners;
     const std::uint32_t triangle = source.triangle(face);
     append_kind(corners.texture, corners.texture_of_corner, input, triangle, values);
     append_kind(corners.normals, corners.normal_of_corner, input, triangle, values);
 }
 
-}  // namespace tools
+}  // namespace treeform::detail::carry

@@ -1,11 +1,9 @@
-#include "tools/common/carried_properties.hpp"
-
-#include "tools/common/carried_corners.hpp"
-#include "tools/common/carried_materials.hpp"
-#include "tools/common/face_kinds.hpp"
-#include "tools/common/face_shares.hpp"
+#include <libmesh/carry/corners.hpp>
+#include <libmesh/carry/face_kinds.hpp>
+#include <libmesh/carry/face_shares.hpp>
+#include <libmesh/carry/materials.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/tf.hpp>
+#include <treeform/mesh/carry.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,38 +16,36 @@
 #include <string>
 #include <type_traits>
 
-namespace tools {
+namespace treeform::detail::carry {
 namespace {
 
 bool is_normal(const std::string& name) { return name == "nx" || name == "ny" || name == "nz"; }
 
 /// Whether points have all three coordinates of a normal; they are carried together.
-bool has_normals(const tf::element& e) {
-    return e.name == "vertex" && tf::find_column(e, "nx") != nullptr &&
-           tf::find_column(e, "ny") != nullptr && tf::find_column(e, "nz") != nullptr;
+bool has_normals(const element& e) {
+    return e.name == "vertex" && find_column(e, "nx") != nullptr &&
+           find_column(e, "ny") != nullptr && find_column(e, "nz") != nullptr;
 }
 
-bool can_be_carried(const tf::column& c) {
-    return c.role == tf::column_role::data && !c.list_length;
-}
+bool can_be_carried(const column& c) { return c.role == column_role::data && !c.list_length; }
 
-bool is_single_value(const tf::element& e, const tf::column& c) {
+bool is_single_value(const element& e, const column& c) {
     return can_be_carried(c) && !(has_normals(e) && is_normal(c.name));
 }
 
 /// A property by its name, and where each input has it.
 struct property {
     std::string name;
-    tf::scalar_type type;
-    std::vector<const tf::column*> of_input;  ///< null where it has none
+    scalar_type type;
+    std::vector<const column*> of_input;  ///< null where it has none
 };
 
-std::vector<property> properties_of(std::span<const property_source> inputs, const char* element) {
+std::vector<property> properties_of(std::span<const carry_source> inputs, const char* name) {
     std::vector<property> all;
     for (std::size_t k = 0; k < inputs.size(); ++k) {
-        const tf::element* e = tf::find_element(inputs[k].file->attributes, element);
+        const element* e = find_element(inputs[k].file->attributes, name);
         if (e == nullptr) continue;
-        for (const tf::column& c : e->columns) {
+        for (const column& c : e->columns) {
             if (!is_single_value(*e, c)) continue;
             auto at = std::find_if(all.begin(), all.end(),
                                    [&](const property& p) { return p.name == c.name; });
@@ -58,7 +54,7 @@ std::vector<property> properties_of(std::span<const property_source> inputs, con
                 all.back().of_input.resize(inputs.size(), nullptr);
                 at = all.end() - 1;
             }
-            if (at->type != c.type) at->type = tf::scalar_type::float64;
+            if (at->type != c.type) at->type = scalar_type::float64;
             at->of_input[k] = &c;
         }
     }
@@ -77,42 +73,42 @@ T nearest(double value) {
 
 /// `value_of(row)` for each row, in a column like `p`.
 template <class ValueOf>
-tf::column make_values(const property& p, std::size_t rows, ValueOf value_of) {
-    return tf::with_type(p.type, [&](auto zero) {
+column make_values(const property& p, std::size_t rows, ValueOf value_of) {
+    return with_type(p.type, [&](auto zero) {
         using T = decltype(zero);
         std::vector<T> values(rows);
         for (std::size_t row = 0; row < rows; ++row) values[row] = nearest<T>(value_of(row));
-        return tf::make_column<T>(p.name, values);
+        return make_column<T>(p.name, values);
     });
 }
 
 /// The input points that a point of the result has its values from.
 struct mixture {
     std::uint32_t input = 0;
-    tf::face points{};
+    face points{};
     shares_of_corners shares{};
 };
 
 /// Between the corners of a face of an input.
-mixture mixture_at(const tf::point3& p, std::span<const property_source> inputs,
-                   const tf::operand_element& face) {
-    const tf::mesh& mesh = inputs[face.operand].file->mesh;
-    const tf::face& corners = mesh.faces[face.index];
+mixture mixture_at(const point3& p, std::span<const carry_source> inputs,
+                   const operand_element& in) {
+    const mesh& mesh = inputs[in.operand].file->mesh;
+    const face& corners = mesh.faces[in.index];
     return {
-        face.operand, corners,
+        in.operand, corners,
         shares_at(p, mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]])};
 }
 
-std::vector<mixture> mixtures_of(std::span<const property_source> inputs, const tf::mesh& surface,
-                                 const carried_to& made) {
+std::vector<mixture> mixtures_of(std::span<const carry_source> inputs, const mesh& surface,
+                                 const carried_elements& made) {
     std::vector<mixture> all(surface.points.size());
     std::vector<std::uint8_t> known(all.size(), 0);
     for (std::size_t p = 0; p < all.size(); ++p) {
-        const tf::operand_element source = made.vertex_source[p];
-        if (source != tf::operand_element{})
+        const operand_element source = made.vertex_source[p];
+        if (source != operand_element{})
             all[p] = {source.operand, {source.index, source.index, source.index}};
         else if (!made.face_of_cut_vertex.empty() &&
-                 made.face_of_cut_vertex[p] != tf::operand_element{})
+                 made.face_of_cut_vertex[p] != operand_element{})
             all[p] = mixture_at(surface.points[p], inputs, made.face_of_cut_vertex[p]);
         else
             continue;
@@ -124,7 +120,7 @@ std::vector<mixture> mixtures_of(std::span<const property_source> inputs, const 
             // do. Else the first, for what a corner is given does not hang on the last digits.
             constexpr double enough = 1e-9;
             if (known[p] != 0 && all[p].shares.outside <= enough) continue;
-            if (made.face_source[f] == tf::operand_element{}) continue;
+            if (made.face_source[f] == operand_element{}) continue;
             const mixture m = mixture_at(surface.points[p], inputs, made.face_source[f]);
             if (known[p] == 0 || m.shares.outside < all[p].shares.outside) all[p] = m;
             known[p] = 1;
@@ -133,41 +129,39 @@ std::vector<mixture> mixtures_of(std::span<const property_source> inputs, const 
 }
 
 double value_of(const property& p, const mixture& m) {
-    const tf::column* values = p.of_input[m.input];
+    const column* values = p.of_input[m.input];
     if (values == nullptr) return std::numeric_limits<double>::quiet_NaN();
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
-        if (m.shares.of[k] > 0.0) sum += m.shares.of[k] * tf::number_at(*values, m.points[k]);
+        if (m.shares.of[k] > 0.0) sum += m.shares.of[k] * number_at(*values, m.points[k]);
     return sum;
 }
 
 /// The normal of a point where face `f` of the surface has it.
-tf::point3 carried_normal(std::span<const property_source> inputs, const tf::mesh& surface,
-                          const carried_to& made, const mixture& m, std::uint32_t f) {
-    const tf::element* points = tf::find_element(inputs[m.input].file->attributes, "vertex");
-    const tf::point3 flat = normal_of(surface, surface.faces[f]);
+point3 carried_normal(std::span<const carry_source> inputs, const mesh& surface,
+                      const carried_elements& made, const mixture& m, std::uint32_t f) {
+    const element* points = find_element(inputs[m.input].file->attributes, "vertex");
+    const point3 flat = normal_of(surface, surface.faces[f]);
     if (points == nullptr || !has_normals(*points)) return with_length_one(flat);
-    tf::point3 normal{};
+    point3 normal{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const tf::column& c = *tf::find_column(*points, std::array{"nx", "ny", "nz"}[axis]);
+        const column& c = *find_column(*points, std::array{"nx", "ny", "nz"}[axis]);
         for (std::size_t k = 0; k < 3; ++k)
-            if (m.shares.of[k] > 0.0)
-                normal[axis] += m.shares.of[k] * tf::number_at(c, m.points[k]);
+            if (m.shares.of[k] > 0.0) normal[axis] += m.shares.of[k] * number_at(c, m.points[k]);
     }
     if (m.shares.of[0] < 1.0) normal = with_length_one(normal);
-    const tf::operand_element source = made.face_source[f];
+    const operand_element source = made.face_source[f];
     if (source.operand != m.input) return normal;
-    const tf::mesh& mesh = inputs[m.input].file->mesh;
+    const mesh& mesh = inputs[m.input].file->mesh;
     const bool turned = is_turned(flat, normal_of(mesh, mesh.faces[source.index]));
-    return turned ? tf::point3{-normal.x, -normal.y, -normal.z} : normal;
+    return turned ? point3{-normal.x, -normal.y, -normal.z} : normal;
 }
 
 /// A point's normal is seen from the lowest of its faces that come from the same input as the
 /// point, or else from the lowest.
-void carry_normals(tf::element& rows, std::span<const property_source> inputs,
-                   const tf::mesh& surface, const carried_to& made,
-                   const std::vector<mixture>& mixtures) {
-    constexpr auto none = tf::operand_element::none;
+void carry_normals(element& rows, std::span<const carry_source> inputs, const mesh& surface,
+                   const carried_elements& made, const std::vector<mixture>& mixtures) {
+    constexpr auto none = operand_element::none;
     std::vector<std::uint32_t> seen_from(surface.points.size(), none);
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f)
         for (const std::uint32_t p : surface.faces[f]) {
@@ -178,7 +172,7 @@ void carry_normals(tf::element& rows, std::span<const property_source> inputs,
         }
     std::array<std::vector<float>, 3> values;
     for (std::uint32_t p = 0; p < seen_from.size(); ++p) {
-        tf::point3 normal{};
+        point3 normal{};
         if (seen_from[p] != none)
             normal = carried_normal(inputs, surface, made, mixtures[p], seen_from[p]);
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -186,47 +180,50 @@ void carry_normals(tf::element& rows, std::span<const property_source> inputs,
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
         rows.columns.push_back(
-            tf::make_column<float>(std::array{"nx", "ny", "nz"}[axis], values[axis]));
+            make_column<float>(std::array{"nx", "ny", "nz"}[axis], values[axis]));
 }
 
-bool any_has_normals(std::span<const property_source> inputs) {
-    return std::any_of(inputs.begin(), inputs.end(), [](const property_source& s) {
-        const tf::element* points = tf::find_element(s.file->attributes, "vertex");
+bool any_has_normals(std::span<const carry_source> inputs) {
+    return std::any_of(inputs.begin(), inputs.end(), [](const carry_source& s) {
+        const element* points = find_element(s.file->attributes, "vertex");
         return points != nullptr && has_normals(*points);
     });
 }
 
 }  // namespace
+}  // namespace treeform::detail::carry
 
-void carry_properties(tf::mesh_file& file, std::span<const property_source> inputs,
-                      const carried_to& made) {
-    const tf::mesh& surface = file.mesh;
-    if (const auto of_points = properties_of(inputs, "vertex"); points_have_properties(inputs)) {
+namespace treeform {
+
+using namespace detail::carry;  // NOLINT: their public half
+
+void carry(mesh_file& file, std::span<const carry_source> inputs, const carried_elements& made) {
+    const mesh& surface = file.mesh;
+    if (const auto of_points = properties_of(inputs, "vertex"); has_vertex_values(inputs)) {
         const std::vector<mixture> mixtures = mixtures_of(inputs, surface, made);
-        tf::element& rows = tf::obtain_element(file.attributes, "vertex", surface.points.size());
+        element& rows = obtain_element(file.attributes, "vertex", surface.points.size());
         for (const property& p : of_points)
             rows.columns.push_back(make_values(
                 p, mixtures.size(), [&](std::size_t row) { return value_of(p, mixtures[row]); }));
         if (any_has_normals(inputs)) carry_normals(rows, inputs, surface, made, mixtures);
     }
     if (const auto of_faces = properties_of(inputs, "face"); !of_faces.empty()) {
-        tf::element& rows = tf::obtain_element(file.attributes, "face", surface.faces.size());
+        element& rows = obtain_element(file.attributes, "face", surface.faces.size());
         for (const property& p : of_faces)
             rows.columns.push_back(make_values(p, surface.faces.size(), [&](std::size_t row) {
                 const auto [operand, index] = made.face_source[row];
-                const tf::column* values =
-                    operand == tf::operand_element::none ? nullptr : p.of_input[operand];
-                return values == nullptr
-                           ? std::numeric_limits<double>::quiet_NaN()
-                           : tf::number_at(*values, inputs[operand].stored_face(index));
+                const column* values =
+                    operand == operand_element::none ? nullptr : p.of_input[operand];
+                return values == nullptr ? std::numeric_limits<double>::quiet_NaN()
+                                         : number_at(*values, inputs[operand].stored_face(index));
             }));
     }
     carry_corners(file, inputs, made);
     carry_materials(file, inputs, made);
 }
 
-std::vector<std::uint32_t> groups_of_faces(std::span<const property_source> inputs, bool by_values,
-                                           bool by_input) {
+std::vector<std::uint32_t> face_groups(std::span<const carry_source> inputs, bool by_values,
+                                       bool by_input) {
     std::vector<property> properties;
     if (by_values) properties = properties_of(inputs, "face");
     const face_kinds kinds(by_values ? inputs : inputs.first(0));
@@ -238,9 +235,9 @@ std::vector<std::uint32_t> groups_of_faces(std::span<const property_source> inpu
         for (std::uint32_t f = 0; f < inputs[k].file->mesh.faces.size(); ++f) {
             std::vector<double> values{by_input ? static_cast<double>(k) : 0.0};
             for (const property& p : properties) {
-                const tf::column* column = p.of_input[k];
+                const column* column = p.of_input[k];
                 const double value =
-                    column ? tf::number_at(*column, inputs[k].stored_face(f)) : nothing;
+                    column ? number_at(*column, inputs[k].stored_face(f)) : nothing;
                 values.push_back(std::isnan(value) ? nothing : value);
             }
             kinds.append(k, f, values);
@@ -250,18 +247,18 @@ std::vector<std::uint32_t> groups_of_faces(std::span<const property_source> inpu
     return groups;
 }
 
-bool points_have_properties(std::span<const property_source> inputs) {
+bool has_vertex_values(std::span<const carry_source> inputs) {
     return any_has_normals(inputs) || !properties_of(inputs, "vertex").empty();
 }
 
-bool leaves_out_properties(std::span<const property_source> inputs) {
-    for (const property_source& input : inputs)
-        for (const tf::element& e : input.file->attributes.elements)
-            for (const tf::column& c : e.columns)
-                if (c.role == tf::column_role::data &&
+bool has_values_left_out(std::span<const carry_source> inputs) {
+    for (const carry_source& input : inputs)
+        for (const element& e : input.file->attributes.elements)
+            for (const column& c : e.columns)
+                if (c.role == column_role::data &&
                     ((e.name != "vertex" && e.name != "face") || !can_be_carried(c)))
                     return true;
     return false;
 }
 
-}  // namespace tools
+}  // namespace treeform

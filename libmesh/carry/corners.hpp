@@ -2,10 +2,9 @@
 /// \file
 /// Texture coordinates and normals of the inputs' corners, for the corners of what is made of them.
 
-#include "tools/common/carried_properties.hpp"
-#include <treeform/tf.hpp>
+#include <treeform/mesh/carry.hpp>
 
-namespace tools {
+namespace treeform::detail::carry {
 
 /// Gives `file` the values that corners of the inputs have.
 ///
@@ -17,7 +16,7 @@ namespace tools {
 /// Rows of an input stand once in the result, in the order of their first use, so that what shares
 /// one still does. Faces from one face of an input share what lies between at a point that they
 /// share. Where a PLY had texture coordinates as double, they are double in one that is written.
-void carry_corners(tf::mesh_file& file, std::span<const property_source> inputs,
-                   const carried_to& made);
+void carry_corners(mesh_file& file, std::span<const carry_source> inputs,
+                   const carried_elements& made);
 
-}  // namespace tools
+}  // namespace treeform::detail::carry

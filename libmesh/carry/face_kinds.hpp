@@ -2,19 +2,19 @@
 /// \file
 /// Which faces of the inputs look alike.
 
-#include "tools/common/carried_properties.hpp"
+#include <treeform/mesh/carry.hpp>
 
 #include <map>
 #include <string>
 
-namespace tools {
+namespace treeform::detail::carry {
 
 /// Materials, and what corners have. Faces whose corners have one and the same value are alike
 /// where these are; one whose corners differ is like no other.
 class face_kinds {
   public:
     /// `inputs` must outlive this.
-    explicit face_kinds(std::span<const property_source> inputs);
+    explicit face_kinds(std::span<const carry_source> inputs);
 
     /// Whether there is nothing by which faces could differ.
     [[nodiscard]] bool empty() const { return materials_.empty() && !has_corner_values_; }
@@ -23,9 +23,9 @@ class face_kinds {
     void append(std::uint32_t input, std::uint32_t face, std::vector<double>& values) const;
 
   private:
-    std::span<const property_source> inputs_;
+    std::span<const carry_source> inputs_;
     std::map<std::string, double> materials_{};  ///< numbers from 1
     bool has_corner_values_ = false;
 };
 
-}  // namespace tools
+}  // namespace treeform::detail::carry

@@ -1,8 +1,6 @@
-#include "tools/common/carried_corners.hpp"
-
-#include "tools/common/face_shares.hpp"
+#include <libmesh/carry/corners.hpp>
+#include <libmesh/carry/face_shares.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/tf.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,10 +9,10 @@
 #include <type_traits>
 #include <utility>
 
-namespace tools {
+namespace treeform::detail::carry {
 namespace {
 
-constexpr std::uint32_t none = tf::corner_values::none;
+constexpr std::uint32_t none = corner_values::none;
 
 using texture_point = std::array<double, 3>;
 
@@ -22,25 +20,25 @@ using texture_point = std::array<double, 3>;
 template <class Row>
 struct row_source {
     const std::vector<Row>& rows;
-    const std::vector<tf::face>& of_corner;
+    const std::vector<face>& of_corner;
 };
 
 template <class Row>
-row_source<Row> source_of(const property_source& input) {
-    const tf::corner_values& corners = input.file->attributes.corners;
-    if constexpr (std::is_same_v<Row, tf::point3>)
+row_source<Row> source_of(const carry_source& input) {
+    const corner_values& corners = input.file->attributes.corners;
+    if constexpr (std::is_same_v<Row, point3>)
         return {corners.normals, corners.normal_of_corner};
     else
         return {corners.texture, corners.texture_of_corner};
 }
 
 texture_point seen(const texture_point& row, bool) { return row; }
-tf::point3 seen(const tf::point3& n, bool turned) {
-    return turned ? tf::point3{0.0 - n.x, 0.0 - n.y, 0.0 - n.z} : n;  // no -0
+point3 seen(const point3& n, bool turned) {
+    return turned ? point3{0.0 - n.x, 0.0 - n.y, 0.0 - n.z} : n;  // no -0
 }
 
 texture_point between(const texture_point& sum) { return sum; }
-tf::point3 between(const tf::point3& sum) { return with_length_one(sum); }
+point3 between(const point3& sum) { return with_length_one(sum); }
 
 /// Where a corner of the result is in the face of an input that it comes from.
 struct place_in_face {
@@ -50,7 +48,7 @@ struct place_in_face {
 
 /// The same for both faces at the edge from corner `i` to corner `j`, so that they still share what
 /// is in between.
-std::array<double, 3> shares_along_edge(const tf::point3& p, const std::array<tf::point3, 3>& at,
+std::array<double, 3> shares_along_edge(const point3& p, const std::array<point3, 3>& at,
                                         std::size_t i, std::size_t j) {
     if (std::tie(at[j].x, at[j].y, at[j].z) < std::tie(at[i].x, at[i].y, at[i].z)) std::swap(i, j);
     std::array<double, 3> shares{};
@@ -59,8 +57,8 @@ std::array<double, 3> shares_along_edge(const tf::point3& p, const std::array<tf
     return shares;
 }
 
-place_in_face place_of(const tf::point3& p, const tf::mesh& mesh, const tf::face& corners) {
-    std::array<tf::point3, 3> at;
+place_in_face place_of(const point3& p, const mesh& mesh, const face& corners) {
+    std::array<point3, 3> at;
     for (std::size_t k = 0; k < 3; ++k) {
         at[k] = mesh.points[corners[k]];
         if (at[k] == p) return {.corner = k};
@@ -75,19 +73,19 @@ place_in_face place_of(const tf::point3& p, const tf::mesh& mesh, const tf::face
 }
 
 /// A point as it was before it was rounded, where it is one of an input.
-const tf::point3& place_before(std::span<const property_source> inputs, const tf::mesh& surface,
-                               const carried_to& made, std::uint32_t p) {
-    const tf::operand_element source = made.vertex_source[p];
-    return source == tf::operand_element{} ? surface.points[p]
-                                           : inputs[source.operand].file->mesh.points[source.index];
+const point3& place_before(std::span<const carry_source> inputs, const mesh& surface,
+                           const carried_elements& made, std::uint32_t p) {
+    const operand_element source = made.vertex_source[p];
+    return source == operand_element{} ? surface.points[p]
+                                       : inputs[source.operand].file->mesh.points[source.index];
 }
 
 /// Values of one kind on their way to the result.
 template <class Row>
 class row_carrier {
   public:
-    row_carrier(std::span<const property_source> inputs, std::size_t points) : made_(points) {
-        for (const property_source& input : inputs) {
+    row_carrier(std::span<const carry_source> inputs, std::size_t points) : made_(points) {
+        for (const carry_source& input : inputs) {
             sources_.push_back(source_of<Row>(input));
             copies_.push_back({});
             for (auto& copies : copies_.back()) copies.assign(sources_.back().rows.size(), none);
@@ -95,27 +93,27 @@ class row_carrier {
     }
 
     /// What the corners of the input's triangle have.
-    [[nodiscard]] tf::face numbers_of(std::uint32_t input, std::uint32_t triangle) const {
-        const std::vector<tf::face>& all = sources_[input].of_corner;
-        return all.empty() ? tf::face{none, none, none} : all[triangle];
+    [[nodiscard]] face numbers_of(std::uint32_t input, std::uint32_t triangle) const {
+        const std::vector<face>& all = sources_[input].of_corner;
+        return all.empty() ? face{none, none, none} : all[triangle];
     }
 
     /// The number in the result of what stands at a place of that face.
-    [[nodiscard]] std::uint32_t carry(std::uint32_t p, tf::operand_element face, bool turned,
-                                      const tf::face& numbers, const place_in_face& place) {
-        if (place.corner < 3) return copy(face.operand, turned, numbers[place.corner]);
+    [[nodiscard]] std::uint32_t carry(std::uint32_t p, operand_element source, bool turned,
+                                      const face& numbers, const place_in_face& place) {
+        if (place.corner < 3) return copy(source.operand, turned, numbers[place.corner]);
         for (std::size_t k = 0; k < 3; ++k)
-            if (place.shares[k] == 1.0) return copy(face.operand, turned, numbers[k]);
+            if (place.shares[k] == 1.0) return copy(source.operand, turned, numbers[k]);
         if (numbers[0] == numbers[1] && numbers[1] == numbers[2])
-            return copy(face.operand, turned, numbers[0]);
+            return copy(source.operand, turned, numbers[0]);
         Row sum{};
         for (std::size_t k = 0; k < 3; ++k) {
             if (!(place.shares[k] > 0.0)) continue;
             if (numbers[k] == none) return none;
-            const Row& row = sources_[face.operand].rows[numbers[k]];
+            const Row& row = sources_[source.operand].rows[numbers[k]];
             for (std::size_t i = 0; i < 3; ++i) sum[i] += place.shares[k] * row[i];
         }
-        return add(p, face, turned, seen(between(sum), turned));
+        return add(p, source, turned, seen(between(sum), turned));
     }
 
     [[nodiscard]] std::vector<Row>& rows() { return rows_; }
@@ -123,20 +121,20 @@ class row_carrier {
   private:
     /// The last row that was made at a point, and for which face.
     struct made_row {
-        tf::operand_element face{};
+        operand_element face{};
         bool turned = false;
         std::uint32_t number = none;
     };
 
     [[nodiscard]] std::uint32_t copy(std::uint32_t input, bool turned, std::uint32_t number) {
         if (number == none) return none;
-        constexpr bool can_turn = std::is_same_v<Row, tf::point3>;
+        constexpr bool can_turn = std::is_same_v<Row, point3>;
         std::uint32_t& there = copies_[input][can_turn && turned ? 1 : 0][number];
         if (there == none) there = append(seen(sources_[input].rows[number], turned));
         return there;
     }
 
-    [[nodiscard]] std::uint32_t add(std::uint32_t p, tf::operand_element face, bool turned,
+    [[nodiscard]] std::uint32_t add(std::uint32_t p, operand_element face, bool turned,
                                     const Row& row) {
         made_row& last = made_[p];
         const bool known = last.number != none && ((last.face == face && last.turned == turned) ||
@@ -159,22 +157,22 @@ class row_carrier {
 
 /// [F] the numbers of the corners of the result; empty where no input has such values.
 template <class Row>
-std::vector<tf::face> carried(std::span<const property_source> inputs, const tf::mesh& surface,
-                              const carried_to& made, std::vector<Row>& rows) {
-    const bool any = std::any_of(inputs.begin(), inputs.end(), [](const property_source& input) {
+std::vector<face> carried(std::span<const carry_source> inputs, const mesh& surface,
+                          const carried_elements& made, std::vector<Row>& rows) {
+    const bool any = std::any_of(inputs.begin(), inputs.end(), [](const carry_source& input) {
         return !source_of<Row>(input).of_corner.empty();
     });
     if (!any) return {};
     row_carrier<Row> carrier(inputs, surface.points.size());
-    std::vector<tf::face> all(surface.faces.size(), {none, none, none});
+    std::vector<face> all(surface.faces.size(), {none, none, none});
     for (std::size_t f = 0; f < all.size(); ++f) {
-        const tf::operand_element source = made.face_source[f];
-        if (source == tf::operand_element{}) continue;
-        const property_source& input = inputs[source.operand];
-        const tf::face numbers = carrier.numbers_of(source.operand, input.triangle(source.index));
-        if (numbers == tf::face{none, none, none}) continue;
-        const tf::mesh& mesh = input.file->mesh;
-        const tf::face& corners = mesh.faces[source.index];
+        const operand_element source = made.face_source[f];
+        if (source == operand_element{}) continue;
+        const carry_source& input = inputs[source.operand];
+        const face numbers = carrier.numbers_of(source.operand, input.triangle(source.index));
+        if (numbers == face{none, none, none}) continue;
+        const mesh& mesh = input.file->mesh;
+        const face& corners = mesh.faces[source.index];
         const bool turned =
             is_turned(normal_of(surface, surface.faces[f]), normal_of(mesh, corners));
         for (std::size_t k = 0; k < 3; ++k) {
@@ -184,33 +182,31 @@ std::vector<tf::face> carried(std::span<const property_source> inputs, const tf:
         }
     }
     rows = std::move(carrier.rows());
-    return rows.empty() ? std::vector<tf::face>{} : all;
+    return rows.empty() ? std::vector<face>{} : all;
 }
 
 /// The list of a PLY that texture coordinates are to be written to, so that doubles stay doubles;
 /// null where floats will do.
-const tf::column* double_list(std::span<const property_source> inputs) {
-    for (const property_source& input : inputs)
-        if (const tf::element* faces = tf::find_element(input.file->attributes, "face"))
-            for (const tf::column& c : faces->columns)
-                if (c.role == tf::column_role::texture && c.type == tf::scalar_type::float64)
-                    return &c;
+const column* double_list(std::span<const carry_source> inputs) {
+    for (const carry_source& input : inputs)
+        if (const element* faces = find_element(input.file->attributes, "face"))
+            for (const column& c : faces->columns)
+                if (c.role == column_role::texture && c.type == scalar_type::float64) return &c;
     return nullptr;
 }
 
 }  // namespace
 
-void carry_corners(tf::mesh_file& file, std::span<const property_source> inputs,
-                   const carried_to& made) {
-    tf::corner_values& corners = file.attributes.corners;
+void carry_corners(mesh_file& file, std::span<const carry_source> inputs,
+                   const carried_elements& made) {
+    corner_values& corners = file.attributes.corners;
     corners.texture_of_corner = carried(inputs, file.mesh, made, corners.texture);
-    if (const tf::column* list = double_list(inputs); list && !corners.texture_of_corner.empty())
-        tf::obtain_element(file.attributes, "face", file.mesh.faces.size())
-            .columns.push_back(*list);
+    if (const column* list = double_list(inputs); list && !corners.texture_of_corner.empty())
+        obtain_element(file.attributes, "face", file.mesh.faces.size()).columns.push_back(*list);
     corners.normal_of_corner = carried(inputs, file.mesh, made, corners.normals);
-    corners.has_w = std::any_of(inputs.begin(), inputs.end(), [](const property_source& input) {
+    corners.has_w = std::any_of(inputs.begin(), inputs.end(), [](const carry_source& input) {
         return input.file->attributes.corners.has_w;
     });
 }
 
-}  // namespace tools
+}  // namespace treeform::detail::carry
