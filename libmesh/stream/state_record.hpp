@@ -3,6 +3,7 @@
 /// What is to be known after an interruption, as bytes that tell whether they are whole.
 
 #include <treeform/mesh/point.hpp>
+#include <treeform/tree/export.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +14,7 @@
 namespace treeform::detail::stream {
 
 /// Numbers, points and texts, one after the other, each in a multiple of eight bytes.
-class state_writer {
+class TREEFORM_API state_writer {
   public:
     void number(std::uint64_t n);
     void real(double x);
@@ -28,7 +29,7 @@ class state_writer {
 };
 
 /// Gives back what was put in, in the same order.
-class state_reader {
+class TREEFORM_API state_reader {
   public:
     explicit state_reader(std::string bytes);
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace treeform::detail::weld {
+namespace treeform::detail::stream {
 
 /// Puts neighboring triangles of one polygon together that still are a fan, and leaves those that
 /// are not, or that would repeat a corner which `unlike_corners` forbids, as faces of their own.
@@ -17,4 +17,4 @@ namespace treeform::detail::weld {
 /// \pre `polygon` is [F], ascending; "face" has a row a triangle
 void rejoin_polygons(mesh_file& file, std::span<const std::uint32_t> polygon, bool unlike_corners);
 
-}  // namespace treeform::detail::weld
+}  // namespace treeform::detail::stream

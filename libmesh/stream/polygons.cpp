@@ -1,10 +1,10 @@
-#include <libmesh/weld/polygons.hpp>
+#include <libmesh/stream/polygons.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <vector>
 
-namespace treeform::detail::weld {
+namespace treeform::detail::stream {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -70,4 +70,4 @@ void rejoin_polygons(mesh_file& file, std::span<const std::uint32_t> polygon, bo
     rejoiner(file, polygon, unlike_corners).run();
 }
 
-}  // namespace treeform::detail::weld
+}  // namespace treeform::detail::stream

@@ -1,6 +1,6 @@
 #include <libmesh/base/nearest_float.hpp>
+#include <libmesh/stream/polygons.hpp>
 #include <libmesh/weld/group_points.hpp>
-#include <libmesh/weld/polygons.hpp>
 #include <treeform/mesh/weld.hpp>
 
 #include <cstddef>
@@ -100,7 +100,7 @@ file_weld_result weld(const mesh_file& file, const weld_options& options) {
     std::vector<std::uint32_t> polygon;
     polygon.reserve(result.face_of_new.size());
     for (const std::uint32_t f : result.face_of_new) polygon.push_back(file.stored_face[f]);
-    detail::weld::rejoin_polygons(result.file, polygon, !options.keep_degenerate);
+    detail::stream::rejoin_polygons(result.file, polygon, !options.keep_degenerate);
     return result;
 }
 
