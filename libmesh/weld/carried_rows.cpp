@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t grain = std::size_t{1} << 16;
 
 [[noreturn]] void refuse(const std::string& why) {
-    throw std::invalid_argument("treeform::weld_mesh: " + why);
+    throw std::invalid_argument("treeform::weld: " + why);
 }
 
 void check_column(const element& e, const column& c) {
@@ -71,7 +71,7 @@ void renumber_points(column& c, const std::vector<std::uint32_t>& new_of_old) {
     }
 }
 
-element carried(const element& e, const mesh_weld_result& welded) {
+element carried(const element& e, const weld_result& welded) {
     if (e.name == "vertex") return gather(e, welded.point_of_group);
     if (e.name == "face") return gather(e, welded.face_of_new);
     element other = e;
@@ -94,7 +94,7 @@ void check_rows(const attributes& properties, std::size_t point_count, std::size
     if (const auto fault = fault_of(properties.corners, face_count); !fault.empty()) refuse(fault);
 }
 
-attributes carry_rows(const attributes& properties, const mesh_weld_result& welded) {
+attributes carry_rows(const attributes& properties, const weld_result& welded) {
     attributes result{.corners = gather(properties.corners, welded.face_of_new),
                       .parts = properties.parts,
                       .material_files = properties.material_files,

@@ -3,7 +3,7 @@
 /// Attributes after points were merged and faces dropped.
 
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/weld_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 
 namespace treeform::detail::weld {
 
@@ -11,7 +11,7 @@ namespace treeform::detail::weld {
 ///         are not one a face, columns that do not fit their rows, and corners likewise
 void check_rows(const attributes& properties, std::size_t point_count, std::size_t face_count);
 
-/// What `weld_mesh` returns of `properties`, given the other parts of its result but means.
-[[nodiscard]] attributes carry_rows(const attributes& properties, const mesh_weld_result& welded);
+/// What `weld` returns of `properties`, given the other parts of its result but means.
+[[nodiscard]] attributes carry_rows(const attributes& properties, const weld_result& welded);
 
 }  // namespace treeform::detail::weld

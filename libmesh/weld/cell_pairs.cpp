@@ -80,12 +80,87 @@ sorted_places sort_by_cube(const near_pairs_task& task, const lattice& steps, co
     return sorted;
 }
 
+/// What one thread does: looks from the records of some buckets at those near them.
+class cell_scan {
+  public:
+    cell_scan(const near_pairs_task& task, const lattice& steps, const key_bits& bits,
+              const cubes& grid, const sorted_places& sorted,
+              std::span<const std::uint32_t> first_of_key)
+        : steps_(steps),
+          bits_(bits),
+          grid_(grid),
+          sorted_(sorted),
+          first_of_key_(first_of_key),
+          found_(task) {}
+
+    /// Returns false where there is no more to do, or too much.
+    bool scan(std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end && more_; ++b) {
+            const std::span<const place_record> bucket = sorted_.bucket(b);
+            own_ += bucket.size();
+            for (std::size_t i = 0; i < bucket.size() && more_; ++i) look_from(bucket[i]);
+            if (taken_ > patience * own_) more_ = false;
+        }
+        return more_ && found_.flush();
+    }
+
+    static constexpr std::size_t chunk = 16384;
+
+  private:
+    static constexpr std::size_t patience = 1024;  // comparisons a point; a hit costs as 32
+    static constexpr std::size_t per_hit = 32;
+
+    /// Cubes within reach; each pair of cubes is looked at from the lower one.
+    void look_from(const place_record& a) {
+        const std::uint32_t x = grid_.cell(a.x), y = grid_.cell(a.y), z = grid_.cell(a.z);
+        const std::uint32_t key = grid_.key(x, y, z);
+        meet(a, &a + 1, end_of_key(key));
+        const std::int32_t r = grid_.reach();
+        for (std::uint32_t cx = x; cx <= grid_.cell(a.x + r); ++cx)
+            for (std::uint32_t cy = cx == x ? y : grid_.cell(a.y - r); cy <= grid_.cell(a.y + r);
+                 ++cy)
+                for (std::uint32_t cz = cx == x && cy == y ? z + 1 : grid_.cell(a.z - r);
+                     cz <= grid_.cell(a.z + r); ++cz)
+                    if (const std::uint32_t k = grid_.key(cx, cy, cz); k != key)
+                        meet(a, sorted_.records.data() + first_of_key_[k], end_of_key(k));
+    }
+
+    void meet(const place_record& a, const place_record* b, const place_record* last) {
+        taken_ += static_cast<std::size_t>(last - b);
+        for (; b != last && more_ && taken_ <= patience * own_; ++b)
+            if (near(a, *b)) {
+                taken_ += per_hit;
+                more_ = found_.add(a.id, b->id, steps_.compare(a, *b));
+            }
+    }
+
+    [[nodiscard]] bool near(const place_record& a, const place_record& b) const {
+        return std::abs(a.x - b.x) <= grid_.reach() && std::abs(a.y - b.y) <= grid_.reach() &&
+               std::abs(a.z - b.z) <= grid_.reach();
+    }
+
+    /// A bucket's last key ends where the bucket does.
+    [[nodiscard]] const place_record* end_of_key(std::uint32_t k) const {
+        const std::size_t b = k >> bits_.fine;
+        const std::size_t next = std::size_t{k} + 1;
+        return sorted_.records.data() +
+               (next >> bits_.fine == b ? first_of_key_[next] : sorted_.begin[b] + sorted_.size[b]);
+    }
+
+    const lattice& steps_;
+    const key_bits& bits_;
+    const cubes& grid_;
+    const sorted_places& sorted_;
+    std::span<const std::uint32_t> first_of_key_;
+    pair_collector found_;
+    std::size_t taken_ = 0;
+    std::size_t own_ = chunk;
+    bool more_ = true;
+};
+
 }  // namespace
 
 bool pairs_by_cells(const near_pairs_task& task, const lattice& steps) {
-    constexpr std::size_t chunk = 16384;
-    constexpr std::size_t patience = 1024;  // comparisons a point, of which a hit costs as 32
-    constexpr std::size_t per_hit = 32;
     const key_bits bits(task.points.size());
     const cubes grid(task.points.size(), steps, bits.all());
     buffer<std::uint32_t> first_of_key((std::size_t{1} << bits.all()) + 1);
@@ -93,58 +168,12 @@ bool pairs_by_cells(const near_pairs_task& task, const lattice& steps) {
     const std::size_t buckets = sorted.size.size();
     const std::size_t average = sorted.records.size() / buckets + 1;
     std::atomic<bool> stopped = false;
-
-    const auto near = [&](const place_record& a, const place_record& b) {
-        return std::abs(a.x - b.x) <= grid.reach() && std::abs(a.y - b.y) <= grid.reach() &&
-               std::abs(a.z - b.z) <= grid.reach();
-    };
-    for_chunks(
-        buckets, std::max<std::size_t>(1, chunk / average),
-        [&](std::size_t begin, std::size_t end, std::size_t) {
-            if (stopped.load(std::memory_order_relaxed)) return;
-            pair_collector found(task);
-            std::size_t taken = 0;
-            std::size_t own = chunk;
-            bool more = true;
-            const auto meet = [&](const place_record& a, const place_record* b,
-                                  const place_record* last) {
-                taken += static_cast<std::size_t>(last - b);
-                for (; b != last && more && taken <= patience * own; ++b)
-                    if (near(a, *b)) {
-                        taken += per_hit;
-                        more = found.add(a.id, b->id, steps.compare(a, *b));
-                    }
-            };
-            // A bucket's last key ends where the bucket does.
-            const auto end_of_key = [&](std::uint32_t k) {
-                const std::size_t b = k >> bits.fine;
-                const std::size_t next = std::size_t{k} + 1;
-                return sorted.records.data() + (next >> bits.fine == b
-                                                    ? first_of_key[next]
-                                                    : sorted.begin[b] + sorted.size[b]);
-            };
-            for (std::size_t b = begin; b < end && more; ++b) {
-                const std::span<const place_record> bucket = sorted.bucket(b);
-                own += bucket.size();
-                for (std::size_t i = 0; i < bucket.size() && more; ++i) {
-                    const place_record& a = bucket[i];
-                    const std::uint32_t x = grid.cell(a.x), y = grid.cell(a.y), z = grid.cell(a.z);
-                    const std::uint32_t key = grid.key(x, y, z);
-                    meet(a, &a + 1, end_of_key(key));
-                    // Cubes within reach; each pair of cubes is looked at from the lower one.
-                    const std::int32_t r = grid.reach();
-                    for (std::uint32_t cx = x; cx <= grid.cell(a.x + r); ++cx)
-                        for (std::uint32_t cy = cx == x ? y : grid.cell(a.y - r);
-                             cy <= grid.cell(a.y + r); ++cy)
-                            for (std::uint32_t cz = cx == x && cy == y ? z + 1 : grid.cell(a.z - r);
-                                 cz <= grid.cell(a.z + r); ++cz)
-                                if (const std::uint32_t k = grid.key(cx, cy, cz); k != key)
-                                    meet(a, sorted.records.data() + first_of_key[k], end_of_key(k));
-                }
-                if (taken > patience * own) more = false;
-            }
-            if (!more || !found.flush()) stopped.store(true, std::memory_order_relaxed);
-        });
+    for_chunks(buckets, std::max<std::size_t>(1, cell_scan::chunk / average),
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   if (stopped.load(std::memory_order_relaxed)) return;
+                   cell_scan mine(task, steps, bits, grid, sorted, first_of_key.span());
+                   if (!mine.scan(begin, end)) stopped.store(true, std::memory_order_relaxed);
+               });
     return !stopped;
 }
 

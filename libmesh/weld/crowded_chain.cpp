@@ -1,9 +1,9 @@
 #include <libmesh/base/union_find.hpp>
+#include <libmesh/weld/crowded_chain.hpp>
 #include <libmesh/weld/cube_index.hpp>
 #include <libmesh/weld/hashed_ids.hpp>
 #include <libmesh/weld/reach.hpp>
 #include <libmesh/weld/settle_in_chain.hpp>
-#include <treeform/mesh/crowded_chain.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace treeform {
+namespace treeform::detail::weld {
 namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
@@ -45,7 +45,7 @@ struct crowd {
 
 using cube = std::array<std::int64_t, 3>;
 
-std::uint64_t hash_of(const cube& c) { return detail::weld::cube_hash(c[0], c[1], c[2], 0); }
+std::uint64_t hash_of(const cube& c) { return cube_hash(c[0], c[1], c[2], 0); }
 
 cube bits_of(const point3& p) {
     return {std::bit_cast<std::int64_t>(p.x + 0.0), std::bit_cast<std::int64_t>(p.y + 0.0),
@@ -89,7 +89,7 @@ struct crowded_chain::state {
     /// Calls `meet(c)` for the crowds that may have points within the tolerance of some of `b`.
     template <class Meet>
     void visit_around(std::uint32_t b, const Meet& meet) const {
-        std::array<detail::weld::cube_axis::range, 3> ranges;
+        std::array<cube_axis::range, 3> ranges;
         for (std::size_t k = 0; k < 3; ++k) ranges[k] = axis.neighbors(crowds[b].first[k], 2);
         for (std::int64_t x = ranges[0].first; x <= ranges[0].last; ++x)
             for (std::int64_t y = ranges[1].first; y <= ranges[1].last; ++y)
@@ -162,7 +162,7 @@ struct crowded_chain::state {
 
     void join_kept() {
         const point_groups groups =
-            weld_points(kept, {.tolerance = within.distance(), .rule = weld_rule::chain});
+            group_points(kept, {.tolerance = within.distance(), .rule = weld_rule::chain});
         for (std::size_t i = 0; i < kept.size(); ++i)
             sets->join(crowd_of_kept[i],
                        crowd_of_kept[groups.first_of_group[groups.group_of_point[i]]]);
@@ -176,19 +176,19 @@ struct crowded_chain::state {
     /// Crowds come by ascending numbers of their firsts, so the lowest of a set has the lowest.
     void settle(const tile_point& p, tile_result& out) {
         const crowd& lowest = crowds[sets->root(find(p.at, cube_of(p.at)))];
-        detail::weld::settle_in_chain(p, {lowest.id, lowest.first, lowest.elsewhere}, out);
+        settle_in_chain(p, {lowest.id, lowest.first, lowest.elsewhere}, out);
     }
 
-    detail::weld::reach within;
-    detail::weld::cube_axis axis;
+    reach within;
+    cube_axis axis;
     std::vector<crowd> crowds{};
-    detail::weld::hashed_ids by_cube{};
+    hashed_ids by_cube{};
     std::optional<detail::base::union_find> sets{};
     std::vector<std::size_t> open_of{};  ///< crowds near crowd b: `open` from open_of[b] on
     std::vector<std::uint32_t> open{};
     std::vector<point3> kept{};
     std::vector<std::uint32_t> crowd_of_kept{};
-    detail::weld::hashed_ids kept_by_place{};
+    hashed_ids kept_by_place{};
     bool joined = false;  ///< `kept` has been
 };
 
@@ -219,4 +219,4 @@ void crowded_chain::settle(std::span<const tile_point> points, tile_result& out)
     for (const tile_point& p : points) state_->settle(p, out);
 }
 
-}  // namespace treeform
+}  // namespace treeform::detail::weld

@@ -64,8 +64,8 @@ class cube_axis {
 };
 
 [[nodiscard]] inline std::uint64_t cube_hash(std::int64_t x, std::int64_t y, std::int64_t z,
-                                             std::uint32_t kind) {
-    std::uint64_t h = kind;
+                                             std::uint32_t label) {
+    std::uint64_t h = label;
     for (const std::int64_t i : {x, y, z}) {
         h = (h + static_cast<std::uint64_t>(i)) * 0x9e3779b97f4a7c15;
         h ^= h >> 32;

@@ -2,7 +2,7 @@
 /// \file
 /// The rules where points may have any number of others within the tolerance: pairs are not listed.
 
-#include <treeform/mesh/weld_points.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -11,7 +11,8 @@ namespace treeform::detail::weld {
 
 /// The kept point that each point belongs to by `weld_rule::first`; empty when progress stopped it.
 ///
-/// \cost O(V) expected, as long as `agree` is nearly always true: at most some 40 points further
+/// \cost O(V) expected, as long as `may_merge` is nearly always true: at most some 40 points
+/// further
 ///       apart than the tolerance fit a cube twice as wide
 [[nodiscard]] std::vector<std::uint32_t> dense_leaders(points_view points,
                                                        const weld_options& options);

@@ -21,7 +21,7 @@ namespace {
 constexpr double cubes_per_tolerance = 1.7321 * (1.0 + 0x1p-10);
 
 struct member {
-    std::uint64_t hash;  ///< of its cube and kind
+    std::uint64_t hash;  ///< of its cube and label
     std::uint32_t id;
 };
 
@@ -58,8 +58,8 @@ class chain_finder {
     }
 
   private:
-    [[nodiscard]] std::uint32_t kind_of(std::uint32_t i) const {
-        return options_->kind.empty() ? 0 : options_->kind[i];
+    [[nodiscard]] std::uint32_t label_of(std::uint32_t i) const {
+        return options_->label.empty() ? 0 : options_->label[i];
     }
     [[nodiscard]] cube cube_of(std::uint32_t i) const {
         const point3& p = points_[i];
@@ -77,7 +77,7 @@ class chain_finder {
                 if (!base::is_finite(points_[i])) return false;
                 m.id = static_cast<std::uint32_t>(i);
                 const auto [x, y, z] = cube_of(m.id);
-                m.hash = cube_hash(x, y, z, kind_of(m.id));
+                m.hash = cube_hash(x, y, z, label_of(m.id));
                 return true;
             },
             key);
@@ -100,8 +100,8 @@ class chain_finder {
             blocks_.insert(blocks_.end(), part.begin(), part.end());
     }
 
-    /// Joins what matches among the members of one cube: all of them but for `agree`, and for
-    /// points of two cubes of one hash, which become blocks of their own.
+    /// Joins what matches among the members of one cube: all of them unless `may_merge` says no,
+    /// and for points of two cubes of one hash, which become blocks of their own.
     void add_blocks(std::span<member> members, std::size_t place, std::vector<block>& blocks) {
         std::vector<std::vector<member>> apart;
         std::size_t together = 1;
@@ -128,10 +128,10 @@ class chain_finder {
             }
         apart.push_back({m});
     }
-    /// Where only distance matters, one look is enough; what it overlooks, neighbours find.
+    /// Where only distance matters, one look is enough; what it overlooks, neighbors find.
     bool joins(const member& m, std::span<const member> set) {
         if (cube_of(m.id) != cube_of(set[0].id)) return false;  // of one hash only
-        if (!options_->agree) set = set.first(1);
+        if (!options_->may_merge) set = set.first(1);
         for (const member& other : set)
             if (match_(m.id, other.id)) {
                 sets_.join(m.id, other.id);
@@ -153,11 +153,11 @@ class chain_finder {
             for (std::int64_t y = ranges[1].first; y <= ranges[1].last; ++y)
                 for (std::int64_t z = ranges[2].first; z <= ranges[2].last; ++z) {
                     if (cube(x, y, z) <= own) continue;
-                    hashes[count] = cube_hash(x, y, z, kind_of(first));
+                    hashes[count] = cube_hash(x, y, z, label_of(first));
                     by_hash_.prefetch(hashes[count++]);
                 }
         by_hash_.visit(
-            cube_hash(std::get<0>(own), std::get<1>(own), std::get<2>(own), kind_of(first)),
+            cube_hash(std::get<0>(own), std::get<1>(own), std::get<2>(own), label_of(first)),
             [&](std::uint32_t c) {
                 if (c > b) join_if_linked(b, c);
             });
@@ -176,7 +176,7 @@ class chain_finder {
         };
         const std::uint32_t i = members_.records[blocks_[b].begin].id;
         const std::uint32_t j = members_.records[blocks_[c].begin].id;
-        if (kind_of(i) != kind_of(j) || sets_.root(i) == sets_.root(j)) return;
+        if (label_of(i) != label_of(j) || sets_.root(i) == sets_.root(j)) return;
         if (!match_(i, j)) {
             std::vector<std::uint32_t> of_b = ids(blocks_[b]);
             std::vector<std::uint32_t> of_c = ids(blocks_[c]);

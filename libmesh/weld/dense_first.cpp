@@ -2,20 +2,15 @@
 #include <libmesh/weld/dense.hpp>
 #include <libmesh/weld/hashed_ids.hpp>
 #include <libmesh/weld/lattice.hpp>
+#include <libmesh/weld/nearest_kept.hpp>
 #include <libmesh/weld/reach.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace treeform::detail::weld {
-namespace {
-
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-
-}  // namespace
 
 std::vector<std::uint32_t> dense_leaders(points_view points, const weld_options& options) {
     constexpr std::size_t per_call = std::size_t{1} << 16;
@@ -23,8 +18,8 @@ std::vector<std::uint32_t> dense_leaders(points_view points, const weld_options&
     const cube_axis axis(2.0 * options.tolerance);
     const double reach_in_cubes = 0.5;
     const reach within(options.tolerance);
-    const auto kind_of = [&](std::uint32_t i) {
-        return options.kind.empty() ? 0U : options.kind[i];
+    const auto label_of = [&](std::uint32_t i) {
+        return options.label.empty() ? 0U : options.label[i];
     };
     std::vector<std::uint32_t> leader_of(points.size());
     hashed_ids kept;
@@ -42,21 +37,20 @@ std::vector<std::uint32_t> dense_leaders(points_view points, const weld_options&
         for (std::int64_t x = ranges[0].first; x <= ranges[0].last; ++x)
             for (std::int64_t y = ranges[1].first; y <= ranges[1].last; ++y)
                 for (std::int64_t z = ranges[2].first; z <= ranges[2].last; ++z) {
-                    hashes[count] = cube_hash(x, y, z, kind_of(i));
+                    hashes[count] = cube_hash(x, y, z, label_of(i));
                     kept.prefetch(hashes[count++]);
                 }
-        std::uint32_t best = nobody;
+        nearest_kept best(p);
         const auto consider = [&](std::uint32_t other) {
-            if (kind_of(i) != kind_of(other) || !within.holds(p, points[other])) return;
-            if (options.agree && !options.agree(i, other)) return;
-            const int order = best == nobody ? -1 : reach::compare(p, points[other], points[best]);
-            if (order < 0 || (order == 0 && other < best)) best = other;
+            if (label_of(i) != label_of(other) || !within.holds(p, points[other])) return;
+            if (!options.may_merge || options.may_merge(i, other))
+                best.consider(other, points[other]);
         };
         for (std::size_t k = 0; k < count; ++k) kept.visit(hashes[k], consider);
-        if (best == nobody)
-            kept.add(cube_hash(axis.index(p.x), axis.index(p.y), axis.index(p.z), kind_of(i)), i);
+        if (best.any())
+            leader_of[i] = static_cast<std::uint32_t>(best.id());
         else
-            leader_of[i] = best;
+            kept.add(cube_hash(axis.index(p.x), axis.index(p.y), axis.index(p.z), label_of(i)), i);
     }
     return leader_of;
 }

@@ -10,11 +10,11 @@
 
 namespace treeform::detail::weld {
 
-/// [V] The lowest-numbered point with the coordinates (-0 equals +0) and the kind of each; a point
-/// with a NaN coordinate equals nothing. `kind` is [V] or empty.
+/// [V] The lowest-numbered point with the coordinates (-0 equals +0) and the label of each; a point
+/// with a NaN coordinate equals nothing. `label` is [V] or empty.
 ///
 /// \cost as `find_equal_points`
 [[nodiscard]] std::vector<std::uint32_t> equal_firsts(points_view points,
-                                                      std::span<const std::uint32_t> kind);
+                                                      std::span<const std::uint32_t> label);
 
 }  // namespace treeform::detail::weld

@@ -88,8 +88,8 @@ class buckets {
 /// equal points need little memory.
 class distinct_points {
   public:
-    distinct_points(points_view points, std::span<const std::uint32_t> kind)
-        : points_(points), kind_(kind) {}
+    distinct_points(points_view points, std::span<const std::uint32_t> label)
+        : points_(points), label_(label) {}
 
     void clear() {
         slots_.assign(std::min<std::size_t>(slots_.size(), largest_kept), empty);
@@ -107,7 +107,7 @@ class distinct_points {
                 return e.point;
             }
             if (slot.hash == e.hash && same(points_[slot.point], points_[e.point]) &&
-                (kind_.empty() || kind_[slot.point] == kind_[e.point]))
+                (label_.empty() || label_[slot.point] == label_[e.point]))
                 return slot.point;
         }
     }
@@ -131,19 +131,19 @@ class distinct_points {
     }
 
     points_view points_;
-    std::span<const std::uint32_t> kind_;
+    std::span<const std::uint32_t> label_;
     std::vector<entry> slots_;
     std::size_t used_ = 0;
 };
 
 /// Puts the first point like it in the place of each point's hash.
-void find_firsts(points_view points, std::span<const std::uint32_t> kind,
+void find_firsts(points_view points, std::span<const std::uint32_t> label,
                  std::vector<std::uint32_t>& hash_then_first) {
     constexpr std::size_t ahead = 16;     // entries whose memory is under way
     constexpr std::size_t per_chunk = 4;  // buckets that share a table
     const buckets parts(hash_then_first);
     for_chunks(parts.count(), per_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-        distinct_points distinct(points, kind);
+        distinct_points distinct(points, label);
         for (std::size_t b = begin; b < end; ++b) {
             const std::span<const entry> bucket = parts[b];
             distinct.clear();
@@ -163,13 +163,13 @@ void find_firsts(points_view points, std::span<const std::uint32_t> kind,
 }  // namespace
 
 std::vector<std::uint32_t> detail::weld::equal_firsts(points_view points,
-                                                      std::span<const std::uint32_t> kind) {
+                                                      std::span<const std::uint32_t> label) {
     std::vector<std::uint32_t> hash_then_first(points.size());
     for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
-            hash_then_first[i] = hash_of(points[i], kind.empty() ? 0 : kind[i]);
+            hash_then_first[i] = hash_of(points[i], label.empty() ? 0 : label[i]);
     });
-    find_firsts(points, kind, hash_then_first);
+    find_firsts(points, label, hash_then_first);
     return hash_then_first;
 }
 

@@ -1,5 +1,6 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/weld/kept_values.hpp>
+#include <libmesh/weld/property_groups.hpp>
 #include <libmesh/weld/vertex_values.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 14;
 
-/// The mean of value(i) over several i, rounded as the header of `weld_mesh` says; NaN when one of
+/// The mean of value(i) over several i, rounded as the header of `weld` says; NaN when one of
 /// them is not finite. Where a sum of differences is beyond the doubles it is taken of values
 /// scaled by 2^-64: 2^32 differences of less than 2^961 each. What this drops of small values is
 /// nothing beside such differences.
@@ -63,14 +64,13 @@ void take_column_means(const column& from, const group_members& members, column&
 }  // namespace
 
 std::vector<std::uint32_t> kept_points(points_view points, const attributes& properties,
-                                       const mesh_weld_options& options,
-                                       const point_groups& groups) {
+                                       const weld_options& options, const point_groups& groups) {
     std::vector<std::uint32_t> kept = groups.first_of_group;
     const std::vector<std::uint32_t>& group_of = groups.group_of_point;
     if (options.keep == weld_keep::last)
         for (std::uint32_t i = 0; i < group_of.size(); ++i) kept[group_of[i]] = i;
     if (options.keep != weld_keep::lowest && options.keep != weld_keep::highest) return kept;
-    const vertex_values values(points, properties, options.keep_by);
+    const vertex_values values(points, properties, column_to_keep_by(properties, options));
     const bool lowest = options.keep == weld_keep::lowest;
     for (std::uint32_t i = 0; i < group_of.size(); ++i) {
         std::uint32_t& best = kept[group_of[i]];

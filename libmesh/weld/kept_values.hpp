@@ -2,7 +2,7 @@
 /// \file
 /// What is kept of each group: a point, a place, a row of properties.
 
-#include <treeform/mesh/weld_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace treeform::detail::weld {
 /// \throws std::invalid_argument when `options.keep_by` is asked for and no property
 [[nodiscard]] std::vector<std::uint32_t> kept_points(points_view points,
                                                      const attributes& properties,
-                                                     const mesh_weld_options& options,
+                                                     const weld_options& options,
                                                      const point_groups& groups);
 
 /// The points of each group.

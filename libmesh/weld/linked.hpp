@@ -3,14 +3,14 @@
 /// Whether two sets of points come within the tolerance of each other.
 
 #include <libmesh/weld/reach.hpp>
-#include <treeform/mesh/weld_points.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <cstdint>
 #include <span>
 
 namespace treeform::detail::weld {
 
-/// Whether two points of one kind may be put together.
+/// Whether two points of one label may be joined.
 class matcher {
   public:
     /// \pre both outlive it
@@ -19,13 +19,14 @@ class matcher {
 
     /// \pre both points are finite
     [[nodiscard]] bool operator()(std::uint32_t i, std::uint32_t j) const {
-        return (options_->kind.empty() || options_->kind[i] == options_->kind[j]) &&
-               within_.holds(points_[i], points_[j]) && (!options_->agree || options_->agree(i, j));
+        return (options_->label.empty() || options_->label[i] == options_->label[j]) &&
+               within_.holds(points_[i], points_[j]) &&
+               (!options_->may_merge || options_->may_merge(i, j));
     }
     [[nodiscard]] bool near(const point3& a, const point3& b) const { return within_.holds(a, b); }
     [[nodiscard]] const point3& point(std::uint32_t i) const { return points_[i]; }
-    /// Whether all points of one kind within the tolerance match.
-    [[nodiscard]] bool by_distance() const { return !options_->agree; }
+    /// Whether all points of one label within the tolerance match.
+    [[nodiscard]] bool by_distance() const { return !options_->may_merge; }
 
   private:
     points_view points_;
@@ -33,7 +34,7 @@ class matcher {
     reach within_;
 };
 
-/// Whether some point of `a` matches one of `b`, which is of the same kind. Both are reordered.
+/// Whether some point of `a` matches one of `b`, which is of the same label. Both are reordered.
 ///
 /// \cost O(|a| + |b|) where the answer is plain from their boxes or from a few near points;
 ///       halves of halves where two surfaces run along each other at the tolerance

@@ -271,7 +271,7 @@ point_groups of_parts(const point_groups& given, const point_groups& parts) {
     return result;
 }
 
-/// `parts`, put together as `of_part` says.
+/// `parts`, joined as `of_part` says.
 point_groups put_together(point_groups parts, const point_groups& of_part) {
     for (std::uint32_t& n : parts.group_of_point) n = of_part.group_of_point[n];
     numbers first;
@@ -293,8 +293,7 @@ std::uint64_t count_split(const point_groups& given, const point_groups& parts) 
 
 manifold_groups split_to_manifold(mesh_view mesh, const point_groups& given, int rounds) {
     if (mesh.faces.size() > nobody / 3)
-        throw std::invalid_argument(
-            "treeform::weld_mesh: more than 2^32 / 3 faces with keep_manifold");
+        throw std::invalid_argument("treeform::weld: more than 2^32 / 3 faces with keep_manifold");
     const bool equal = all_equal(mesh.points, given);
     point_groups parts =
         equal ? splitter(mesh.faces, given).run(rounds)

@@ -3,7 +3,7 @@
 /// Groups of points split so that merging them keeps a surface a surface.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/weld_points.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <cstdint>
 
@@ -14,7 +14,7 @@ struct manifold_groups {
     std::uint64_t split_up = 0;  ///< groups given that were not left whole
 };
 
-/// Splits groups as `weld_mesh` says under `keep_manifold`: first those of equal coordinates, then
+/// Splits groups as `weld` says under `keep_manifold`: first those of equal coordinates, then
 /// those of what has come of these, so that a group that must stay apart does not tear its faces
 /// from each other. After `rounds` rounds of splitting, all groups of a component of the welded
 /// mesh that still has a fault are split into single points.

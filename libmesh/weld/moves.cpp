@@ -60,8 +60,8 @@ bool is_flipped(const plane_points& before, const plane_points& after) {
 
 }  // namespace
 
-double largest_move(points_view points, std::span<const std::uint32_t> group_of_point,
-                    points_view places) {
+double max_displacement(points_view points, std::span<const std::uint32_t> group_of_point,
+                        points_view places) {
     std::vector<move> furthest(chunk_count(points.size(), grain));
     for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t i = begin; i < end; ++i) {

@@ -11,8 +11,9 @@ namespace treeform::detail::weld {
 
 /// The least double that is no less than the distance of any point from the place of its group;
 /// infinity beyond the doubles. Points that are at their place bit for bit need not be finite.
-[[nodiscard]] double largest_move(points_view points, std::span<const std::uint32_t> group_of_point,
-                                  points_view places);
+[[nodiscard]] double max_displacement(points_view points,
+                                      std::span<const std::uint32_t> group_of_point,
+                                      points_view places);
 
 /// Faces of `after` whose normal points away from the one they had, decided exactly; face i was
 /// `before.faces[face_of_new[i]]`. Faces without area on either side, and those with a corner that

@@ -22,8 +22,8 @@ namespace treeform::detail::weld {
 struct near_pairs_task {
     points_view points;
     double tolerance;
-    std::span<const std::uint32_t> kind;  ///< [V] or empty: only pairs of a kind
-    /// Equal points of a kind may be named once and be in no pair from then on.
+    std::span<const std::uint32_t> label;  ///< [V] or empty: only pairs of a label
+    /// Equal points of a label may be named once and be in no pair from then on.
     bool collapse;
     function_ref<void(std::uint32_t first, std::uint32_t copy)> copies;  ///< first < copy
     /// Pairs within the tolerance, exactly, in any order; some of them twice. False stops it all.
@@ -47,7 +47,7 @@ class pair_collector {
     /// Returns false when there is no more to do, here and in all other threads that ask.
     bool add(std::uint32_t a, std::uint32_t b, lattice::verdict known) {
         if (known == lattice::verdict::beyond) return true;
-        if (!task_.kind.empty() && task_.kind[a] != task_.kind[b]) return true;
+        if (!task_.label.empty() && task_.label[a] != task_.label[b]) return true;
         if (known == lattice::verdict::unsure && !within_.holds(task_.points[a], task_.points[b]))
             return true;
         block_[size_++] = {a, b};
@@ -72,8 +72,8 @@ class pair_collector {
 }
 
 /// Takes out of `bucket` the points that equal an earlier one beside them, and returns how many are
-/// left. `together(a, b)` says whether two records are the same but for their point, and such stand
-/// in ascending order of their points.
+/// left. `together(a, b)` says whether two records are the same except for their point, and such
+/// stand in ascending order of their points.
 template <class Record, class Together>
 std::size_t collapse_equal(const near_pairs_task& task, std::span<Record> bucket,
                            const Together& together) {
@@ -92,7 +92,7 @@ std::size_t collapse_equal(const near_pairs_task& task, std::span<Record> bucket
             first = kept;
         } else if (const std::uint32_t a = bucket[first].id, b = record.id;
                    equal(task.points[a], task.points[b]) &&
-                   (task.kind.empty() || task.kind[a] == task.kind[b])) {
+                   (task.label.empty() || task.label[a] == task.label[b])) {
             task.copies(a, b);
             continue;
         }

@@ -18,8 +18,8 @@ namespace treeform::detail::weld {
 
 /// A product by an odd number carries low bits up, the shift carries high ones down: coordinates
 /// that were floats differ in their high bits only. Each step is a bijection of what came before.
-[[nodiscard]] inline std::uint32_t hash_of(const point3& p, std::uint32_t kind = 0) {
-    std::uint64_t h = 0x243f6a8885a308d3 + kind;
+[[nodiscard]] inline std::uint32_t hash_of(const point3& p, std::uint32_t label = 0) {
+    std::uint64_t h = 0x243f6a8885a308d3 + label;
     for (const double x : {p.x, p.y, p.z}) {
         h = (h + bits_of(x)) * 0x9e3779b97f4a7c15;
         h ^= h >> 32;

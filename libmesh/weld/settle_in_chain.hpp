@@ -2,7 +2,7 @@
 /// \file
 /// What a tile says of a point with the rule chain.
 
-#include <treeform/mesh/tile_weld.hpp>
+#include <libmesh/weld/tile_weld.hpp>
 
 #include <cstdint>
 

@@ -2,7 +2,7 @@
 /// \file
 /// The rules by lists of pairs, for points most of which have few others within the tolerance.
 
-#include <treeform/mesh/weld_points.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <cstdint>
 #include <vector>

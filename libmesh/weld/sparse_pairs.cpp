@@ -1,5 +1,6 @@
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/weld/near_pairs.hpp>
+#include <libmesh/weld/nearest_kept.hpp>
 #include <libmesh/weld/sort_by_key.hpp>
 #include <libmesh/weld/sparse.hpp>
 
@@ -7,14 +8,12 @@
 #include <atomic>
 #include <bit>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <optional>
 
 namespace treeform::detail::weld {
 namespace {
 
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t grain = std::size_t{1} << 16;
 
 /// Pairs by the search asked for. The other ways help where a window or a cell holds too many.
@@ -30,7 +29,7 @@ bool find_pairs(const near_pairs_task& task, neighbor_search search) {
                                              : pairs_by_cells(task, *steps);
 }
 
-/// A pair of points, lower one last: sorted, the earlier neighbours of each point stand together.
+/// A pair of points, lower one last: sorted, the earlier neighbors of each point stand together.
 struct earlier_neighbor {
     std::uint32_t point;
     std::uint32_t earlier;
@@ -86,17 +85,15 @@ void decide(points_view points, std::span<const earlier_neighbor> neighbors, boo
     for (std::size_t i = 0; i < neighbors.size();) {
         const std::uint32_t point = neighbors[i].point;
         const std::size_t begin = i;
-        std::uint32_t best = nobody;
+        nearest_kept best(points[point]);
         for (; i < neighbors.size() && neighbors[i].point == point; ++i) {
             if (i + ahead < neighbors.size())
                 __builtin_prefetch(&leader_of[neighbors[i + ahead].earlier]);
             const std::uint32_t other = neighbors[i].earlier;
-            if (leader_of[other] != other) continue;
-            if (best == nobody || reach::compare(points[point], points[other], points[best]) < 0)
-                best = other;
+            if (leader_of[other] == other) best.consider(other, points[other]);
         }
-        if (best != nobody) {
-            leader_of[point] = best;
+        if (best.any()) {
+            leader_of[point] = static_cast<std::uint32_t>(best.id());
         } else if (copies) {
             for (std::size_t k = begin; k < i; ++k) {
                 const std::uint32_t dropped = neighbors[k].earlier;
@@ -129,17 +126,17 @@ void place_copies(points_view points, later_leaders& later, std::vector<std::uin
     });
 }
 
-/// Passes on the pairs that agree; without `agree`, all as they are.
+/// Passes on the pairs that agree; without `may_merge`, all as they are.
 class agreeing {
   public:
     explicit agreeing(const weld_options& options) : options_(&options) {}
 
     template <class Sink>
     bool operator()(std::span<const id_pair> pairs, const Sink& sink) const {
-        if (!options_->agree) return sink(pairs);
+        if (!options_->may_merge) return sink(pairs);
         std::vector<id_pair> agreed;
         for (const id_pair& pair : pairs)
-            if (options_->agree(pair.first, pair.second)) agreed.push_back(pair);
+            if (options_->may_merge(pair.first, pair.second)) agreed.push_back(pair);
         return sink(std::span<const id_pair>(agreed));
     }
 
@@ -162,8 +159,8 @@ std::vector<std::uint32_t> sparse_leaders(points_view points, const weld_options
     const auto add_pairs = [&](std::span<const id_pair> found) {
         return agree(found, [&](std::span<const id_pair> agreed) { return pairs.add(agreed); });
     };
-    const near_pairs_task task{points,         options.tolerance, options.kind,
-                               !options.agree, add_copy,          add_pairs};
+    const near_pairs_task task{points,   options.tolerance, options.label, !options.may_merge,
+                               add_copy, add_pairs};
     if (!find_pairs(task, options.search)) return {};
     if (options.progress && !options.progress(0.7)) return {};
 
@@ -186,8 +183,8 @@ std::vector<std::uint32_t> sparse_chains(points_view points, const weld_options&
             return count.fetch_add(found.size(), std::memory_order_relaxed) < most;
         });
     };
-    const near_pairs_task task{points,         options.tolerance, options.kind,
-                               !options.agree, add_copy,          add_pairs};
+    const near_pairs_task task{points,   options.tolerance, options.label, !options.may_merge,
+                               add_copy, add_pairs};
     if (!find_pairs(task, options.search)) return {};
     std::vector<std::uint32_t> root_of(points.size());
     for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -1,54 +1,20 @@
 #include <libmesh/weld/moves.hpp>
 #include <libmesh/weld/near_cells.hpp>
+#include <libmesh/weld/nearest_kept.hpp>
 #include <libmesh/weld/reach.hpp>
 #include <libmesh/weld/settle_in_chain.hpp>
+#include <libmesh/weld/tile_weld.hpp>
+#include <libmesh/weld/tolerance.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/tile_weld.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
-#include <string>
 #include <unordered_map>
 
-namespace treeform {
+namespace treeform::detail::weld {
 namespace {
-
-void check_tolerance(const char* where, double tolerance) {
-    if (!(tolerance >= 0.0) || !std::isfinite(tolerance))
-        throw std::invalid_argument(std::string("treeform::") + where +
-                                    ": the tolerance must be finite and not negative");
-}
-
-/// The nearest of the points met, the lowest of equally near ones.
-class nearest {
-  public:
-    explicit nearest(const point3& p) : p_(p) {}
-
-    [[nodiscard]] bool any() const { return any_; }
-    [[nodiscard]] std::uint64_t id() const { return id_; }
-    [[nodiscard]] const point3& at() const { return at_; }
-
-    void consider(std::uint64_t id, const point3& at) {
-        if (any_ && !precedes(id, at)) return;
-        any_ = true;
-        id_ = id;
-        at_ = at;
-    }
-    /// Whether that point is nearer than the one found. \pre any()
-    [[nodiscard]] bool precedes(std::uint64_t id, const point3& at) const {
-        const int order = detail::weld::reach::compare(p_, at, at_);
-        return order < 0 || (order == 0 && id < id_);
-    }
-
-  private:
-    point3 p_;
-    point3 at_{};
-    std::uint64_t id_ = 0;
-    bool any_ = false;
-};
 
 /// A point that is remembered. An open one that `stands` does so for all open points within a
 /// fourth of the tolerance.
@@ -72,7 +38,7 @@ class first_in_tile {
         : within_(tolerance),
           // Where 1.26 tolerances leave the doubles, open points stand for equal ones only.
           within_fourth_(tolerance < largest ? 0.25 * tolerance : 0.0),
-          within_more_(tolerance < largest ? detail::weld::cube_map::reach * tolerance : tolerance),
+          within_more_(tolerance < largest ? cube_map::reach * tolerance : tolerance),
           cells_(tolerance) {}
 
     void reserve(std::size_t points) { cells_.reserve(points); }
@@ -107,15 +73,15 @@ class first_in_tile {
     }
 
     struct neighbors {
-        nearest kept;
-        nearest open;            ///< of those that stand for themselves
+        nearest_kept kept;
+        nearest_kept open;       ///< of those that stand for themselves
         double standing_square;  ///< of the distance of the nearest other one, rounded
         bool some_open;
         remembered* covering;
     };
 
     neighbors look(const point3& p) {
-        neighbors found{nearest(p), nearest(p), infinity, false, nullptr};
+        neighbors found{nearest_kept(p), nearest_kept(p), infinity, false, nullptr};
         cells_.visit(p, [&](remembered& q) {
             if (!q.open()) {
                 if (within_.holds(p, q.at)) found.kept.consider(q.id(), q.at);
@@ -124,8 +90,8 @@ class first_in_tile {
             if (!(q.stands() ? within_more_ : within_).holds(p, q.at)) return;
             found.some_open = true;
             if (q.stands())
-                found.standing_square = std::min(found.standing_square,
-                                                 detail::weld::rounded_squared_distance(p, q.at));
+                found.standing_square =
+                    std::min(found.standing_square, rounded_squared_distance(p, q.at));
             else
                 found.open.consider(q.id(), q.at);
             if (within_fourth_.holds(p, q.at)) found.covering = &q;
@@ -134,7 +100,7 @@ class first_in_tile {
     }
 
     void drop(const tile_point& p, const neighbors& around, tile_result& out) {
-        const nearest& kept = around.kept;
+        const nearest_kept& kept = around.kept;
         if (!open_may_precede(p.at, around)) {
             out.dropped.push_back({p.id(), kept.id()});
             out.move.consider(p.at, kept.at());
@@ -152,7 +118,7 @@ class first_in_tile {
         if (around.open.any() && around.kept.precedes(around.open.id(), around.open.at()))
             return true;
         if (!(around.standing_square < infinity)) return around.standing_square != infinity;
-        const double kept = detail::weld::rounded_squared_distance(p, around.kept.at());
+        const double kept = rounded_squared_distance(p, around.kept.at());
         const double least = around.standing_square;
         // The roots of sums in this range are off by less than a part in 2^48.
         if (!(least > 0x1p-900 && kept > 0x1p-900 && kept < 0x1p1000)) return true;
@@ -168,10 +134,10 @@ class first_in_tile {
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    detail::weld::reach within_;
-    detail::weld::reach within_fourth_;
-    detail::weld::reach within_more_;
-    detail::weld::near_cells<remembered> cells_;
+    reach within_;
+    reach within_fourth_;
+    reach within_more_;
+    near_cells<remembered> cells_;
 };
 
 /// The rule chain inside a tile.
@@ -199,16 +165,15 @@ class chain_in_tile {
         for (; next_ < end; ++next_) {
             const std::uint32_t group = groups_.group_of_point[next_];
             const std::uint32_t lowest = groups_.first_of_group[group];
-            detail::weld::settle_in_chain({tags_[next_], points_[next_]},
-                                          {tags_[lowest] >> 2, points_[lowest], elsewhere_[group]},
-                                          out);
+            settle_in_chain({tags_[next_], points_[next_]},
+                            {tags_[lowest] >> 2, points_[lowest], elsewhere_[group]}, out);
         }
         return next_ < tags_.size();
     }
 
   private:
     void group() {
-        groups_ = weld_points(points_, {.tolerance = tolerance_, .rule = weld_rule::chain});
+        groups_ = group_points(points_, {.tolerance = tolerance_, .rule = weld_rule::chain});
         elsewhere_.assign(groups_.first_of_group.size(), false);
         for (std::size_t i = 0; i < tags_.size(); ++i)
             if (tile_point{tags_[i], {}}.role() != tile_role::own)
@@ -266,82 +231,21 @@ class sparse_sets {
     std::unordered_map<std::uint64_t, std::uint64_t> above_{};
 };
 
-point3 direction_for(points_view sample) {
-    constexpr double big = std::numeric_limits<double>::infinity();
-    std::array<double, 3> low{big, big, big};
-    std::array<double, 3> high{-big, -big, -big};
-    for (const point3& p : sample)
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], 0.5 * p[k]);
-            high[k] = std::max(high[k], 0.5 * p[k]);
-        }
-    std::size_t longest = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (high[k] - low[k] > high[longest] - low[longest]) longest = k;
-    // Mostly along the cloud, and perpendicular to no plane that people build. Less than a fourth
-    // long, so that nothing overflows.
-    point3 direction;
-    direction[longest] = 0.25 * 0.90;
-    direction[(longest + 1) % 3] = 0.25 * 0.34;
-    direction[(longest + 2) % 3] = 0.25 * 0.27;
-    return direction;
-}
-
 }  // namespace
-
-tile_slabs::tile_slabs(points_view sample, double tolerance, std::size_t count)
-    : direction_(direction_for(sample)), tolerance_(tolerance) {
-    check_tolerance("tile_slabs", tolerance);
-    if (count == 0) throw std::invalid_argument("treeform::tile_slabs: no slab at all");
-    std::vector<double> places;
-    places.reserve(sample.size());
-    for (const point3& p : sample) places.push_back(along(p));
-    std::sort(places.begin(), places.end());
-    for (std::size_t i = 1; i < count && !places.empty(); ++i) {
-        const double share = static_cast<double>(i) / static_cast<double>(count);
-        const double cut =
-            places[static_cast<std::size_t>(share * static_cast<double>(places.size()))];
-        if (cuts_.empty() || cuts_.back() < cut) cuts_.push_back(cut);
-    }
-}
-
-double tile_slabs::along(const point3& p) const {
-    return direction_.x * p.x + direction_.y * p.y + direction_.z * p.z;
-}
-
-tile_slabs::place tile_slabs::find(const point3& p) const {
-    // The places of two points within the tolerance differ by at most a fourth of it. Each is off
-    // by at most 2^-51 of the sum of its terms' sizes (and a few denormals), and the sums of the
-    // two differ by less than the tolerance.
-    const double at = along(p);
-    const double sizes =
-        direction_.x * std::abs(p.x) + direction_.y * std::abs(p.y) + direction_.z * std::abs(p.z);
-    const double margin = 0.25 * tolerance_ + 0x1p-48 * (sizes + 0.25 * tolerance_) + 0x1p-1000;
-    const auto slab = [&](double s) {
-        return static_cast<std::uint32_t>(std::upper_bound(cuts_.begin(), cuts_.end(), s) -
-                                          cuts_.begin());
-    };
-    const std::uint32_t own = slab(at);
-    const bool alone = (own == 0 || cuts_[own - 1] < at - margin) &&
-                       (own == cuts_.size() || at + margin < cuts_[own]);
-    if (alone) return {own, own, own};
-    return {own, slab(at - margin), slab(at + margin)};
-}
 
 void longest_move::consider(const point3& from, const point3& to) {
     if (from == to) return;
-    const detail::weld::order known =
-        detail::weld::compare_rounded(detail::weld::rounded_squared_distance(from, to),
-                                      detail::weld::rounded_squared_distance(from_, to_));
-    if (known == detail::weld::order::less) return;
-    if (known == detail::weld::order::unsure && compare_distance(from, to, from_, to_) <= 0) return;
+    const order known =
+        compare_rounded(rounded_squared_distance(from, to), rounded_squared_distance(from_, to_));
+    if (known == order::less) return;
+    if (known == order::unsure && compare_distance(from, to, from_, to_) <= 0) return;
     from_ = from;
     to_ = to;
 }
 
 double longest_move::length() const {
     const std::array<std::uint32_t, 1> only{0};
-    return detail::weld::largest_move({&from_, 1}, only, {&to_, 1});
+    return max_displacement({&from_, 1}, only, {&to_, 1});
 }
 
 struct tile_weld::state {
@@ -376,7 +280,7 @@ struct border_weld::state {
     explicit state(double tolerance) : within(tolerance), kept(tolerance) {}
 
     void settle(const border_point& p, std::vector<tile_drop>& out) {
-        nearest found(p.at);
+        nearest_kept found(p.at);
         if (p.kind() == border_kind::leaning) found.consider(p.leader, p.leader_at);
         if (p.kind() != border_kind::kept)
             kept.visit(p.at, [&](const remembered& q) {
@@ -396,8 +300,8 @@ struct border_weld::state {
         last_link = p;
     }
 
-    detail::weld::reach within;
-    detail::weld::near_cells<remembered> kept;
+    reach within;
+    near_cells<remembered> kept;
     longest_move move{};
     std::optional<border_point> last_link{};
     sparse_sets sets{};
@@ -442,4 +346,4 @@ void chain_moves::add(const tile_member& member) {
         move_.consider(member.at, lowest_);
 }
 
-}  // namespace treeform
+}  // namespace treeform::detail::weld

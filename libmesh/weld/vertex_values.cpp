@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t grain = std::size_t{1} << 16;
 
 [[noreturn]] void refuse(const std::string& why) {
-    throw std::invalid_argument("treeform::weld_mesh: " + why);
+    throw std::invalid_argument("treeform::weld: " + why);
 }
 
 template <class T, class Value>

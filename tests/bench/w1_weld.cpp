@@ -70,7 +70,7 @@ contest equal_points_of_soup(std::size_t points, unsigned percent) {
         contest.contestants.push_back({"treeform", threads, [=] {
                                            return make_job([soup = given()] {
                                                return join_groups(*soup,
-                                                                  weld_points(soup->points, {}));
+                                                                  group_points(soup->points, {}));
                                            });
                                        }});
     contest.contestants.push_back(

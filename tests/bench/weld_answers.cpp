@@ -65,7 +65,7 @@ job weld_job(const shared_cloud& cloud, double tolerance,
 }
 
 weld_answer weld_by_treeform(const std::vector<point3>& points, const weld_options& options) {
-    point_groups groups = weld_points(points, options);
+    point_groups groups = group_points(points, options);
     for (std::uint32_t& group : groups.group_of_point) group = groups.first_of_group[group];
     return std::move(groups.group_of_point);
 }

@@ -4,7 +4,7 @@
 
 #include "bench/near_pairs.hpp"
 #include "bench/workload.hpp"
-#include <treeform/mesh/weld_points.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -177,7 +177,7 @@ class Large(WeldTest):
         self.run_tool("in.ply", "-t", "0.02", "-o", "memory.ply", status=0)
         folder = "out.ply.tf-weld-tiles/"
         for name, harm in (("0.drops", "cut"), ("0.border", "flip"), ("0.done", "cut"),
-                           ("3.points", "cut"), ("plan.json", "cut")):
+                           ("3.points", "cut"), ("plan", "cut")):
             command = ["in.ply", "-t", "0.02", "-o", "out.ply", "--tile-points", 250, "-j1", "-f"]
             self.assertEqual(self.run_tool(*command, "--stop-at", 3).status, -signal.SIGKILL)
             data = bytearray(self.read_bytes(folder + name))

@@ -2,7 +2,7 @@
 /// Welding of small clouds against the rules as they read, by every search.
 
 #include "bytes.hpp"
-#include <treeform/mesh/weld_points.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <support/brute_weld.hpp>
@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto expected = options.rule == tf::weld_rule::first
                               ? tf::test::brute_leaders(points, linked)
                               : tf::test::brute_chains(points, linked);
-    const tf::point_groups found = tf::weld_points(points, options);
+    const tf::point_groups found = tf::group_points(points, options);
     require(found.group_of_point.size() == points.size(), "a group for each point");
     for (std::size_t i = 0; i < points.size(); ++i)
         require(found.first_of_group[found.group_of_point[i]] == expected[i], "the group's first");

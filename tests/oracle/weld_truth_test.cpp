@@ -4,7 +4,7 @@
 
 #include <libmesh/base/nearest_float.hpp>
 #include <treeform/mesh/read.hpp>
-#include <treeform/mesh/weld_points.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -41,7 +41,7 @@ std::vector<tf::point3> finite_points(const std::vector<tf::point3>& stored, boo
 
 /// Distinct points of the largest group.
 std::int64_t largest_group(const std::vector<tf::point3>& points, const tf::point_groups& groups) {
-    const tf::point_groups equal = tf::weld_points(points, {});
+    const tf::point_groups equal = tf::group_points(points, {});
     std::vector<std::int64_t> size(groups.first_of_group.size(), 0);
     for (const std::uint32_t first : equal.first_of_group) ++size[groups.group_of_point[first]];
     return size.empty() ? 0 : *std::max_element(size.begin(), size.end());
@@ -68,7 +68,7 @@ TEST_CASE("truth: chains are as many as an exact kernel found, by every search")
                 CAPTURE(static_cast<int>(search));
                 const double tolerance =
                     column.tolerance == nullptr ? 0.0 : row.real(column.tolerance);
-                const tf::point_groups groups = tf::weld_points(
+                const tf::point_groups groups = tf::group_points(
                     points,
                     {.tolerance = tolerance, .rule = tf::weld_rule::chain, .search = search});
                 CHECK(static_cast<std::int64_t>(groups.first_of_group.size()) ==

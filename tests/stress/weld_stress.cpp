@@ -3,7 +3,7 @@
 ///
 /// Points a cloud: 20000, or 10 times $TREEFORM_STRESS_COUNT.
 
-#include <treeform/mesh/weld_points.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -34,7 +34,7 @@ std::size_t points_a_cloud() {
 }
 
 std::vector<std::uint32_t> leaders(const cloud& points, const tf::weld_options& options) {
-    const tf::point_groups groups = tf::weld_points(points, options);
+    const tf::point_groups groups = tf::group_points(points, options);
     std::vector<std::uint32_t> leader;
     for (const std::uint32_t g : groups.group_of_point) leader.push_back(groups.first_of_group[g]);
     return leader;
@@ -62,7 +62,7 @@ void check(const std::function<point3(std::size_t)>& make, std::vector<double> t
 
 }  // namespace
 
-TEST_CASE("weld_points: twenty thousand random points give what all pairs give") {
+TEST_CASE("group_points: twenty thousand random points give what all pairs give") {
     test::random random(1);
     check(
         [&](std::size_t) {
@@ -71,7 +71,7 @@ TEST_CASE("weld_points: twenty thousand random points give what all pairs give")
         {0.005, 0.02, 0.03});
 }
 
-TEST_CASE("weld_points: twenty thousand points of a grid give what all pairs give") {
+TEST_CASE("group_points: twenty thousand points of a grid give what all pairs give") {
     test::random random(2);
     const auto step = [&] { return 0.1 * static_cast<double>(random.below(32)); };
     check(
@@ -81,7 +81,7 @@ TEST_CASE("weld_points: twenty thousand points of a grid give what all pairs giv
         {0.0, 0.1, 0.1 * std::sqrt(2.0)});
 }
 
-TEST_CASE("weld_points: twenty thousand points in clusters give what all pairs give") {
+TEST_CASE("group_points: twenty thousand points in clusters give what all pairs give") {
     test::random random(3);
     cloud middles;
     for (int i = 0; i < 50; ++i) middles.push_back({random.unit(), random.unit(), random.unit()});
@@ -95,14 +95,14 @@ TEST_CASE("weld_points: twenty thousand points in clusters give what all pairs g
         {0.0005, 0.003, 0.05});
 }
 
-TEST_CASE("weld_points: twenty thousand points in heaps of equal ones give what all pairs give") {
+TEST_CASE("group_points: twenty thousand points in heaps of equal ones give what all pairs give") {
     test::random random(4);
     cloud places;
     for (int i = 0; i < 300; ++i) places.push_back({random.unit(), random.unit(), random.unit()});
     check([&](std::size_t) { return places[random.below(places.size())]; }, {0.0, 0.02, 0.1});
 }
 
-TEST_CASE("weld_points: twenty thousand points along a thread give what all pairs give") {
+TEST_CASE("group_points: twenty thousand points along a thread give what all pairs give") {
     test::random random(5);
     const std::size_t count = points_a_cloud();
     check(

@@ -5,7 +5,7 @@
 #include <treeform/mesh/select_faces.hpp>
 #include <treeform/mesh/topology.hpp>
 #include <treeform/mesh/validate.hpp>
-#include <treeform/mesh/weld_points.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ void join_corners(job& work, findings& result, const search_settings& settings, 
     if (!(length > 0.0)) return;
     const std::size_t before = result.mesh.points.size();
     result.mesh =
-        tf::join_groups(result.mesh, tf::weld_points(result.mesh.points, {.tolerance = length}));
+        tf::join_groups(result.mesh, tf::group_points(result.mesh.points, {.tolerance = length}));
     result.corners_joined = before - result.mesh.points.size();
 }
 
@@ -169,7 +169,7 @@ std::optional<near_points> nearly_equal_points(const findings& result) {
     near.within = 1e-6 * tf::diagonal(*result.box);
     const auto distinct = tf::find_equal_points(result.mesh.points).first_of_new.size();
     const auto apart =
-        tf::weld_points(result.mesh.points, {.tolerance = near.within}).first_of_group.size();
+        tf::group_points(result.mesh.points, {.tolerance = near.within}).first_of_group.size();
     near.count = distinct - apart;
     return near;
 }

@@ -1,13 +1,13 @@
 #include "tools/tf-weld/in_memory.hpp"
 
 #include "tools/common/material_words.hpp"
-#include "tools/tf-weld/join_files.hpp"
 #include "tools/tf-weld/outputs.hpp"
-#include "tools/tf-weld/polygons.hpp"
 #include "tools/tf-weld/welding.hpp"
 #include "tools/tf-weld/words.hpp"
+#include <treeform/mesh/join.hpp>
 #include <treeform/tf.hpp>
 
+#include <stdexcept>
 #include <utility>
 
 namespace tools {
@@ -19,6 +19,26 @@ void warn_of_materials(job& work, const std::vector<tf::mesh_file>& files) {
     std::vector<const tf::mesh_file*> all;
     for (const tf::mesh_file& file : files) all.push_back(&file);
     warn_of_ambiguous_materials(work, all);
+}
+
+/// What the library says, without the name of its function.
+std::string in_plain_words(const std::exception& error) {
+    const std::string text = error.what();
+    return text.substr(text.find(": ") + 2);
+}
+
+tf::mesh_file join(std::vector<tf::mesh_file> files, const std::vector<std::string>& names) {
+    if (files.size() == 1) return std::move(files.front());
+    try {
+        tf::mesh_file all = tf::join(std::move(files), names);
+        for (tf::io_warning& w : all.warnings)
+            if (w.code == "left-out") w.text += " by --join";
+        return all;
+    } catch (const std::length_error& error) {
+        throw failure(bad_input, "size", in_plain_words(error));
+    } catch (const std::invalid_argument& error) {
+        throw failure(bad_input, "property", in_plain_words(error));
+    }
 }
 
 tf::mesh_file read_all(job& work) {
@@ -39,8 +59,7 @@ tf::mesh_file read_all(job& work) {
     for (const char* key : {"format", "sha256"})
         work.entry[key] = files.size() == 1 ? first[key] : json(nullptr);
     warn_of_materials(work, files);
-    tf::mesh_file all =
-        files.size() == 1 ? std::move(files.front()) : join_files(std::move(files), names);
+    tf::mesh_file all = join(std::move(files), names);
     work.entry["precision_in"] = all.stored_as == tf::precision::float32 ? "float" : "double";
     for (const tf::io_warning& w : all.warnings) work.warn(w.code, w.text);
     return all;
@@ -52,26 +71,6 @@ void label(job& work, tf::mesh_file& file, const welding& w, const std::string& 
     if (tf::set_column(vertices,
                        tf::make_column<std::uint32_t>(name, w.result.groups.group_of_point)))
         work.warn("replaced", "property " + name + " was there before; its values are replaced");
-}
-
-/// `file`, now with the points and faces that were kept.
-void take_result(tf::mesh_file& file, welding& w) {
-    file.mesh = std::move(w.result.mesh);
-    file.attributes = std::move(w.result.attributes);
-    file.indexed = true;
-}
-
-void restore_polygons(tf::mesh_file& file, const welding& w, bool welded,
-                      const weld_settings& settings) {
-    file.stored_faces = file.mesh.faces.size();
-    if (w.polygon_of_triangle.empty()) return;
-    std::vector<std::uint32_t> polygon = w.polygon_of_triangle;
-    if (welded) {
-        polygon.clear();
-        for (const std::uint32_t f : w.result.face_of_new)
-            polygon.push_back(w.polygon_of_triangle[f]);
-    }
-    rejoin_polygons(file, polygon, welded && !settings.keep_degenerate);
 }
 
 }  // namespace
@@ -104,8 +103,7 @@ exit_status weld_in_memory(job& work, const weld_request& request, const std::st
     if (labelled)
         label(work, file, w, asked.label);
     else
-        take_result(file, w);
-    restore_polygons(file, w, !labelled, request.settings);
+        file = std::move(w.result.file);
     work.entry["polygons"] = {{"in", w.polygons}, {"out", file.stored_faces}};
     if (path && !o.dry_run) write_result(work, outputs, file, w, request, *path);
     if (map) map->commit();

@@ -31,16 +31,17 @@ void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
                  "kept one is within DIST\n"
                  "chain: everything linked by steps of DIST is one",
                  "first"},
-                [&s](std::string_view text) { s.rule = tools::parse_rule(text); });
+                [&s](std::string_view text) { s.options.rule = tools::parse_rule(text); });
     line.option({"--same", "P[=TOL],...",
                  "merge only if property P agrees too (within TOL),\n"
                  "e.g. --same classification,nx=0.01"},
-                [&s](std::string_view text) { s.same = tools::parse_same(text); });
+                [&s](std::string_view text) { s.options.same = tools::parse_same(text); });
     line.option({"--across", "P,...",
                  "mesh seams (normal, uv, colour) are kept unless\n"
                  "named here, e.g. --across normal,uv"},
-                [&s](std::string_view text) { s.across = tools::parse_across(text); });
-    line.flag(s.borders, {"--borders", "", "only vertices on open edges (stitch shells)"});
+                [&s](std::string_view text) { s.options.across = tools::parse_across(text); });
+    line.flag(s.options.only_borders,
+              {"--borders", "", "only vertices on open edges (stitch shells)"});
     line.flag(exact, {.names = "--exact"});
 }
 
@@ -61,11 +62,11 @@ void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_opt
 
 void add_meshes(command_line& line, weld_settings& s) {
     line.group("Meshes");
-    line.flag(s.keep_degenerate,
+    line.flag(s.options.keep_degenerate,
               {"--keep-degenerate", "", "keep faces that collapse", "drop and count"});
-    line.flag(s.keep_manifold, {"--keep-manifold", "",
-                                "leave a pair alone if merging it would make an edge\n"
-                                "of more than two faces or a bow-tie vertex"});
+    line.flag(s.options.keep_manifold, {"--keep-manifold", "",
+                                        "leave a pair alone if merging it would make an edge\n"
+                                        "of more than two faces or a bow-tie vertex"});
 }
 
 void add_large_clouds(command_line& line, tools::tile_settings& tiles) {
@@ -120,7 +121,7 @@ void check_label(const weld_outputs& outputs, const weld_settings& s, const comm
     if (outputs.label.empty()) return;
     if (!tools::wants_mesh(o)) refuse("--label needs -o, --output-dir or --in-place");
     if (!outputs.removed.empty()) refuse("--label drops nothing; it excludes --removed");
-    if (s.keep != tf::weld_keep::first || s.keep_degenerate)
+    if (s.options.keep != tf::weld_keep::first || s.options.keep_degenerate)
         refuse("--label drops nothing; it excludes --keep and --keep-degenerate");
     for (const char* axis : {"x", "y", "z"})
         if (outputs.label == axis) refuse("--label " + outputs.label + ": is a coordinate");
@@ -140,8 +141,8 @@ void check_request(const command_line& line, const tools::weld_request& r,
     if (!mesh && outputs.removed.empty() && (o.ascii || o.binary))
         refuse("--ascii and --binary need an output that they apply to");
     if (!outputs.removed.empty()) tools::check_points_format(outputs.removed);
-    for (const auto& condition : r.settings.same)
-        for (const auto& name : r.settings.across)
+    for (const auto& condition : r.settings.options.same)
+        for (const auto& name : r.settings.options.across)
             if (condition.property == name) refuse(name + " is named by --same and by --across");
     check_label(outputs, r.settings, o);
 }
@@ -164,7 +165,7 @@ int main(int argc, char** argv) {
     add_what_is_merged(line, r.settings, exact);
     line.group("Which one stays");
     line.option({"--keep", "WHICH", "first | last | mean | min:P | max:P", "first"},
-                [&](std::string_view text) { tools::parse_keep(text, r.settings); });
+                [&](std::string_view text) { tools::parse_keep(text, r.settings.options); });
     add_what_to_give_back(line, r.outputs, options);
     add_meshes(line, r.settings);
     add_large_clouds(line, tiles);

@@ -39,7 +39,7 @@ void warn_of_rounding(job& work, const tf::write_result& written,
     const bool rounded = written.largest_move > 0.0;
     work.warn(rounded ? "precision" : "within-tolerance",
               counted(*again, "point", "points") + " that were kept " +
-                  (request.settings.keep == tf::weld_keep::first
+                  (request.settings.options.keep == tf::weld_keep::first
                        ? "came within the tolerance of another by rounding; --precision double "
                          "keeps them apart where the format has it"
                        : "are within the tolerance of another again; only --keep first rules "
@@ -138,8 +138,8 @@ void enter_blank_report(job& work, const weld_request& request) {
     entry["box"] = nullptr;
     entry["skipped"] = {{"non_finite", nullptr}};
     entry["tolerance"] = {{"given", request.settings.tolerance.given}, {"used", nullptr}};
-    entry["rule"] = name_of(request.settings.rule);
-    entry["keep"] = keep_in_words(request.settings);
+    entry["rule"] = name_of(request.settings.options.rule);
+    entry["keep"] = keep_in_words(request.settings.options);
     entry["same"] = json::array();
     entry["displacement"] = {{"max", nullptr}};
     entry["nonmanifold_edges"] = {{"before", nullptr}, {"after", nullptr}};
@@ -150,26 +150,27 @@ void enter_blank_report(job& work, const weld_request& request) {
 
 void enter_report(job& work, const welding& w, const weld_request& request) {
     json& entry = work.entry;
-    const tf::mesh_weld_result& r = w.result;
+    const tf::weld_statistics& r = w.result.statistics;
     const bool all_kept = !request.outputs.label.empty();
     entry["points"] = {{"in", w.points},
                        {"out", all_kept ? w.points : w.distinct()},
                        {"removed", all_kept ? 0 : w.removed()},
                        {"distinct", w.distinct()},
-                       {"groups", w.groups()}};
+                       {"groups", r.groups}};
     entry["faces"] = {{"in", w.triangles},
-                      {"out", all_kept ? w.triangles : r.mesh.faces.size()},
+                      {"out", all_kept ? w.triangles : w.result.file.mesh.faces.size()},
                       {"collapsed", r.collapsed},
                       {"degenerate", r.degenerate},
                       {"flipped", r.flipped}};
     if (w.box) entry["box"] = {{"min", triple(w.box->min)}, {"max", triple(w.box->max)}};
-    entry["skipped"] = {{"non_finite", w.non_finite}};
+    entry["skipped"] = {{"non_finite", r.non_finite}};
     entry["tolerance"]["used"] = w.tolerance;
     for (const auto& c : w.conditions)
         entry["same"].push_back({{"property", c.property}, {"tolerance", c.tolerance}});
-    entry["displacement"] = {{"max", r.largest_move}};
+    entry["displacement"] = {{"max", r.max_displacement}};
     entry["nonmanifold_edges"] = {{"before", r.nonmanifold_before}, {"after", r.nonmanifold_after}};
-    entry["left_alone"] = request.settings.keep_manifold ? json(r.left_alone) : json(nullptr);
+    entry["left_alone"] =
+        request.settings.options.keep_manifold ? json(r.left_alone) : json(nullptr);
     entry["map"] = path_entry(request.outputs.map);
     entry["removed"] = work.options.dry_run ? json(nullptr) : path_entry(request.outputs.removed);
     if (all_kept) entry["label"] = request.outputs.label;
@@ -244,7 +245,8 @@ void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& weld
     enter_output(work, path, written, again);
     for (const tf::io_warning& warning : written.warnings) work.warn(warning.code, warning.text);
     warn_of_rounding(work, written, again, request);
-    if (written.largest_move > 0.0 && w.non_finite == 0) look_for_folds(work, welded.mesh);
+    if (written.largest_move > 0.0 && w.result.statistics.non_finite == 0)
+        look_for_folds(work, welded.mesh);
 }
 
 }  // namespace tools

@@ -48,22 +48,22 @@ std::vector<std::string> parse_across(std::string_view text) {
     return {parts.begin(), parts.end()};
 }
 
-void parse_keep(std::string_view text, weld_settings& settings) {
+void parse_keep(std::string_view text, tf::weld_options& options) {
     using enum tf::weld_keep;
-    settings.keep_by.clear();
+    options.keep_by.clear();
     if (text == "first" || text == "last" || text == "mean") {
-        settings.keep = text == "first" ? first : text == "last" ? last : mean;
+        options.keep = text == "first" ? first : text == "last" ? last : mean;
         return;
     }
     const bool least = text.starts_with("min:");
     if (text.size() < 5 || !(least || text.starts_with("max:")))
         refuse("--keep " + std::string(text) + ": expected first, last, mean, min:P or max:P");
-    settings.keep = least ? lowest : highest;
-    settings.keep_by = text.substr(4);
+    options.keep = least ? lowest : highest;
+    options.keep_by = text.substr(4);
 }
 
-std::string keep_in_words(const weld_settings& settings) {
-    switch (settings.keep) {
+std::string keep_in_words(const tf::weld_options& options) {
+    switch (options.keep) {
         case tf::weld_keep::first:
             return "first";
         case tf::weld_keep::last:
@@ -71,13 +71,32 @@ std::string keep_in_words(const weld_settings& settings) {
         case tf::weld_keep::mean:
             return "mean";
         case tf::weld_keep::lowest:
-            return "min:" + settings.keep_by;
+            return "min:" + options.keep_by;
         case tf::weld_keep::highest:
-            return "max:" + settings.keep_by;
+            return "max:" + options.keep_by;
     }
     return {};
 }
 
 const char* name_of(tf::weld_rule rule) { return rule == tf::weld_rule::first ? "first" : "chain"; }
+
+failure property_failure(const tf::weld_property_error& error, const tf::attributes& known) {
+    using enum tf::weld_property_error::option;
+    using enum tf::weld_property_error::fault;
+    const char* const option = error.where() == same     ? "--same "
+                               : error.where() == across ? "--across "
+                                                         : "--keep ";
+    std::string why =
+        error.what_is_wrong() == is_list ? "has lists of values" : "is more than one property";
+    if (error.what_is_wrong() == missing) {
+        std::string names;
+        if (const tf::element* const vertices = tf::find_element(known, "vertex"))
+            for (const tf::column& c : vertices->columns)
+                if (c.role == tf::column_role::data) names += (names.empty() ? "" : ", ") + c.name;
+        why = "no such property; " +
+              (names.empty() ? "the points have none but x, y, z" : "the points have " + names);
+    }
+    return {bad_input, "property", option + error.name() + ": " + why};
+}
 
 }  // namespace tools

@@ -2,8 +2,9 @@
 /// \file
 /// What a user of tf-weld asks for.
 
+#include "tools/common/exit_status.hpp"
 #include "tools/common/parse_value.hpp"
-#include <treeform/mesh/weld_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <filesystem>
@@ -13,20 +14,13 @@
 
 namespace tools {
 
-/// How points are put together.
+/// How points are joined.
 struct weld_settings {
     distance tolerance{};
-    tf::weld_rule rule = tf::weld_rule::first;
-    std::vector<tf::weld_condition> same{};  ///< as typed: properties or names of groups of them
-    std::vector<std::string> across{};       ///< as typed
-    tf::weld_keep keep = tf::weld_keep::first;
-    std::string keep_by{};
-    bool borders = false;
-    bool keep_manifold = false;
-    bool keep_degenerate = false;
+    tf::weld_options options{.keep_seams = true};  ///< except for its tolerance and progress
 };
 
-/// What is given back beside what the common options name.
+/// What is given back besides what the common options name.
 struct weld_outputs {
     std::filesystem::path map{};
     std::filesystem::path removed{};
@@ -45,10 +39,14 @@ struct weld_request {
 [[nodiscard]] std::vector<tf::weld_condition> parse_same(std::string_view text);
 [[nodiscard]] std::vector<std::string> parse_across(std::string_view text);
 /// "first", "last", "mean", "min:P", "max:P"
-void parse_keep(std::string_view text, weld_settings& settings);
+void parse_keep(std::string_view text, tf::weld_options& options);
 
 /// As typed.
-[[nodiscard]] std::string keep_in_words(const weld_settings& settings);
+[[nodiscard]] std::string keep_in_words(const tf::weld_options& options);
 [[nodiscard]] const char* name_of(tf::weld_rule rule);
+
+/// What is wrong with a property that an option names; `known` are those of the input.
+[[nodiscard]] failure property_failure(const tf::weld_property_error& error,
+                                       const tf::attributes& known);
 
 }  // namespace tools

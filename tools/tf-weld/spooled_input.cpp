@@ -1,13 +1,11 @@
 #include "tools/tf-weld/spooled_input.hpp"
 
-#include "tools/tf-weld/record_file.hpp"
-
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstddef>
-#include <span>
+#include <cstring>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -38,13 +36,16 @@ spooled_input::spooled_input(job& work, const fs::path& beside)
     remove_spooled(beside);
     keeper_.unfinished(path_);
     fs::remove(path_);
-    std::vector<std::byte> bytes(std::size_t{1} << 20);
+    std::ofstream spooled(path_, std::ios::binary);
+    std::vector<char> bytes(std::size_t{1} << 20);
     while (true) {
         keeper_.check();
         const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) throw failure(bad_input, "read", "standard input cannot be read");
-        append_to(path_, std::span(bytes).first(static_cast<std::size_t>(count)));
+        if (!spooled.write(bytes.data(), count) || (count == 0 && !spooled.flush()))
+            throw failure(bad_output, "output",
+                          path_.string() + ": cannot be written: " + std::strerror(errno));
         if (count == 0) break;
     }
     const int file = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);

@@ -6,6 +6,7 @@
 #include "tools/tf-weld/settings.hpp"
 #include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <cstdint>
@@ -15,41 +16,31 @@
 namespace tools {
 
 struct welding {
-    std::uint64_t points = 0;      ///< in the input
-    std::uint64_t polygons = 0;    ///< faces as stored
-    std::uint64_t triangles = 0;   ///< these cut into triangles; what is welded
-    std::uint64_t non_finite = 0;  ///< points
+    std::uint64_t points = 0;     ///< in the input
+    std::uint64_t polygons = 0;   ///< faces as stored
+    std::uint64_t triangles = 0;  ///< these cut into triangles; what is welded
     std::optional<tf::box3> box{};
     double tolerance = 0.0;
     std::vector<tf::weld_condition> conditions{};
-    std::vector<std::uint32_t> polygon_of_triangle{};  ///< empty: each face is one triangle
-    tf::mesh_weld_result result{};                     ///< of the input's points
+    tf::file_weld_result result{};
 
-    /// Of a cloud that was welded out of memory, and has no groups in `result`.
-    struct counts {
-        std::uint64_t distinct = 0;
-        std::uint64_t groups = 0;
-    };
-    std::optional<counts> counted{};
+    /// Of a cloud that was welded on the disk, and has no groups in `result`.
+    std::optional<std::uint64_t> counted{};
 
     [[nodiscard]] std::uint64_t distinct() const {
-        return counted ? counted->distinct : result.point_of_group.size();
+        return counted ? *counted : result.point_of_group.size();
     }
     [[nodiscard]] std::uint64_t removed() const { return points - distinct(); }
-    /// Groups of two points or more.
-    [[nodiscard]] std::uint64_t groups() const;
     [[nodiscard]] bool keeps(std::uint32_t point) const {
         return result.point_of_group[result.groups.group_of_point[point]] == point;
     }
 };
 
-/// Welds `file`, whose polygons are cut into triangles for it.
+/// Welds `file`.
 /// \throws failure (bad_input) when there are no points, or a property is not there; (stopped)
-[[nodiscard]] welding weld(job& work, tf::mesh_file& file, const weld_settings& settings);
+[[nodiscard]] welding weld(job& work, const tf::mesh_file& file, const weld_settings& settings);
 
-/// How many points of a file to be written would merge if it were welded again: those that rounding
-/// to `written_as`, or the choice of what is kept, has brought together. None where points within
-/// the tolerance are left apart on purpose, by --borders or --keep-manifold.
+/// `tf::count_still_within` for what `result` is about.
 [[nodiscard]] std::optional<std::uint64_t> still_within(job& work, const tf::mesh_file& welded,
                                                         const welding& result,
                                                         const weld_settings& settings,

@@ -15,12 +15,15 @@ std::string reach(const welding& w, const weld_settings& settings) {
 }
 
 std::string faces_in_words(const welding& w, const weld_settings& settings) {
-    const tf::mesh_weld_result& r = w.result;
+    const tf::weld_statistics& r = w.result.statistics;
     if (w.triangles == 0) return {};
-    std::string text = "; " + counted(r.mesh.faces.size(), "triangle", "triangles") + " kept";
+    std::string text =
+        "; " + counted(w.result.file.mesh.faces.size(), "triangle", "triangles") + " kept";
     if (r.collapsed > 0) text += ", " + grouped(r.collapsed) + " collapsed";
     if (r.degenerate > 0) text += ", " + grouped(r.degenerate) + " repeated a corner before";
-    return settings.keep_degenerate || r.collapsed + r.degenerate == 0 ? text : text + " (dropped)";
+    return settings.options.keep_degenerate || r.collapsed + r.degenerate == 0
+               ? text
+               : text + " (dropped)";
 }
 
 std::string names_of(const std::vector<tf::weld_condition>& conditions) {
@@ -51,9 +54,9 @@ std::string verdict(const welding& w, const weld_request& request) {
 }
 
 void warn_of_harm(job& work, const welding& w) {
-    const tf::mesh_weld_result& r = w.result;
-    if (w.non_finite > 0)
-        work.warn("non-finite", counted(w.non_finite, "point", "points") +
+    const tf::weld_statistics& r = w.result.statistics;
+    if (r.non_finite > 0)
+        work.warn("non-finite", counted(r.non_finite, "point", "points") +
                                     " with a NaN or infinite coordinate left as they are");
     if (r.nonmanifold_after > r.nonmanifold_before)
         work.warn("nonmanifold", counted(r.nonmanifold_after, "edge", "edges") +
@@ -66,9 +69,9 @@ void warn_of_harm(job& work, const welding& w) {
 
 void say_details(job& work, const welding& w) {
     if (!work.out.shows(level::info)) return;
-    const tf::mesh_weld_result& r = w.result;
-    work.out.info(work.name + ": " + counted(w.groups(), "group", "groups") +
-                  " of two points or more, largest move " + shortest(r.largest_move));
+    const tf::weld_statistics& r = w.result.statistics;
+    work.out.info(work.name + ": " + counted(r.groups, "group", "groups") +
+                  " of two points or more, largest move " + shortest(r.max_displacement));
     if (w.triangles == 0) return;
     work.out.info(work.name + ": " + counted(r.nonmanifold_after, "edge", "edges") +
                   " of more than two faces, " + grouped(r.nonmanifold_before) + " before; " +

@@ -1,0 +1,45 @@
+#pragma once
+/// \file
+/// Progress of work that several threads do, and the end of it when the caller says so.
+
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace treeform::detail::stream {
+
+/// Thrown through the work, and caught where it was called.
+struct cancelled {};
+
+class pacer {
+  public:
+    explicit pacer(std::function<bool(std::string_view, double)> progress)
+        : progress_(std::move(progress)) {}
+
+    /// \throws cancelled
+    void show(std::string_view step, double share) {
+        const std::lock_guard lock(one_at_a_time_);
+        step_ = step;
+        share_ = share;
+        ask();
+    }
+    /// \throws cancelled
+    void check() {
+        const std::lock_guard lock(one_at_a_time_);
+        ask();
+    }
+
+  private:
+    void ask() const {
+        if (progress_ && !progress_(step_, share_)) throw cancelled{};
+    }
+
+    std::function<bool(std::string_view, double)> progress_;
+    std::mutex one_at_a_time_{};
+    std::string step_{"look"};
+    double share_ = 0.0;
+};
+
+}  // namespace treeform::detail::stream

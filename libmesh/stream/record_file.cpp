@@ -1,0 +1,85 @@
+#include <libmesh/stream/record_file.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cerrno>
+
+namespace treeform::detail::stream {
+namespace {
+
+class descriptor {
+  public:
+    descriptor(const std::filesystem::path& path, int flags)
+        : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+    ~descriptor() {
+        if (fd_ >= 0) ::close(fd_);
+    }
+    descriptor(const descriptor&) = delete;
+    descriptor& operator=(const descriptor&) = delete;
+    [[nodiscard]] int get() const { return fd_; }
+
+  private:
+    int fd_;
+};
+
+using reason = weld_stream_error::reason;
+
+[[noreturn]] void fail(reason why, const std::filesystem::path& path) {
+    const char* const what = why == reason::write ? "written" : "read";
+    throw weld_stream_error(why, path,
+                            path.string() + ": cannot be " + what + ": " + std::strerror(errno));
+}
+
+}  // namespace
+
+void digest::add(std::span<const std::byte> bytes) {
+    for (std::size_t i = 0; i + 8 <= bytes.size(); i += 8) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data() + i, 8);
+        value_ = std::rotl((value_ ^ word) * 0xd1342543de82ef95, 29);
+    }
+}
+
+void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    const descriptor file(path, O_WRONLY | O_CREAT | O_APPEND);
+    if (file.get() < 0) fail(reason::write, path);
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(file.get(), bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail(reason::write, path);
+        bytes = bytes.subspan(static_cast<std::size_t>(count));
+    }
+}
+
+void sync_file(const std::filesystem::path& path) {
+    const descriptor file(path, O_WRONLY);
+    if (file.get() < 0 || ::fdatasync(file.get()) != 0) fail(reason::write, path);
+}
+
+std::size_t read_from(const std::filesystem::path& path, std::uint64_t at,
+                      std::span<std::byte> bytes) {
+    if (bytes.empty()) return 0;
+    const descriptor file(path, O_RDONLY);
+    if (file.get() < 0) fail(reason::read, path);
+    std::size_t read = 0;
+    while (read < bytes.size()) {
+        const ssize_t count = ::pread(file.get(), bytes.data() + read, bytes.size() - read,
+                                      static_cast<off_t>(at + read));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail(reason::read, path);
+        if (count == 0) break;
+        read += static_cast<std::size_t>(count);
+    }
+    return read;
+}
+
+void fail_damaged(const std::filesystem::path& path) {
+    throw weld_stream_error(
+        reason::damaged, path,
+        path.string() + ": is not what was written; remove the folder and start again");
+}
+
+}  // namespace treeform::detail::stream

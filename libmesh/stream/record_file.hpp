@@ -1,0 +1,159 @@
+#pragma once
+/// \file
+/// Files of records as they are in memory, written and read front to back, a piece at a time. None
+/// is open between two pieces, so there may be any number of them.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+/// A number for all bytes given, that any change of them changes nearly always. Not for enemies.
+class digest {
+  public:
+    /// A multiple of eight bytes.
+    void add(std::span<const std::byte> bytes);
+    [[nodiscard]] std::uint64_t value() const { return value_; }
+
+  private:
+    std::uint64_t value_ = 0x9e3779b97f4a7c15;
+};
+
+/// What tells that a file of records is whole.
+struct record_count {
+    std::uint64_t records = 0;
+    std::uint64_t digest = 0;
+};
+
+/// Appends bytes to a file, which is opened for it. \throws weld_stream_error
+void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// Puts what was written on the disk. \throws weld_stream_error
+void sync_file(const std::filesystem::path& path);
+/// Reads from byte `at` on, as many as there are. \throws weld_stream_error
+[[nodiscard]] std::size_t read_from(const std::filesystem::path& path, std::uint64_t at,
+                                    std::span<std::byte> bytes);
+[[noreturn]] void fail_damaged(const std::filesystem::path& path);
+
+template <class Record>
+requires(std::is_trivially_copyable_v<Record> && sizeof(Record) % 8 == 0) class record_writer {
+  public:
+    /// Starts the file anew. `bytes` are held back at most.
+    record_writer(std::filesystem::path path, std::size_t bytes)
+        : path_(std::move(path)), most_(bytes / sizeof(Record) + 1) {
+        std::filesystem::remove(path_);
+        append_to(path_, {});
+    }
+
+    void put(const Record& record) {
+        if (held_.empty()) held_.reserve(most_);
+        held_.push_back(record);
+        if (held_.size() == most_) flush();
+    }
+    void put(std::span<const Record> records) {
+        for (const Record& r : records) put(r);
+    }
+    /// Writes out the rest. \throws weld_stream_error
+    record_count finish() {
+        flush();
+        sync_file(path_);
+        held_ = {};
+        return {written_, digest_.value()};
+    }
+
+  private:
+    void flush() {
+        const auto bytes = std::as_bytes(std::span(held_));
+        digest_.add(bytes);
+        append_to(path_, bytes);
+        written_ += held_.size();
+        held_.clear();
+    }
+
+    std::filesystem::path path_;
+    std::size_t most_;
+    std::vector<Record> held_{};
+    std::uint64_t written_ = 0;
+    digest digest_{};
+};
+
+template <class Record>
+class record_reader {
+  public:
+    record_reader(std::filesystem::path path, record_count expected, std::size_t bytes)
+        : path_(std::move(path)), expected_(expected), most_(bytes / sizeof(Record) + 1) {}
+
+    /// The next records, no longer valid at the next call; none at the end.
+    /// \throws weld_stream_error when the file is not what was written
+    [[nodiscard]] std::span<const Record> next() {
+        const std::uint64_t left = expected_.records - read_;
+        held_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(left, most_)));
+        const auto bytes = std::as_writable_bytes(std::span(held_));
+        if (read_from(path_, read_ * sizeof(Record), bytes) != bytes.size()) fail_damaged(path_);
+        digest_.add(bytes);
+        read_ += held_.size();
+        if (read_ == expected_.records && digest_.value() != expected_.digest) fail_damaged(path_);
+        return held_;
+    }
+
+  private:
+    std::filesystem::path path_;
+    record_count expected_;
+    std::size_t most_;
+    std::vector<Record> held_{};
+    std::uint64_t read_ = 0;
+    digest digest_{};
+};
+
+/// The records of several files, each by ascending key, as one such row; of equal keys those of
+/// earlier files first.
+template <class Record, class KeyOf>
+class record_merge {
+  public:
+    record_merge(std::vector<record_reader<Record>> readers, KeyOf key_of) : key_of_(key_of) {
+        for (auto& reader : readers) rows_.push_back({std::move(reader), {}});
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            rows_[i].left = rows_[i].reader.next();
+            if (!rows_[i].left.empty()) heap_.push_back(i);
+        }
+        std::make_heap(heap_.begin(), heap_.end(), after());
+    }
+
+    [[nodiscard]] bool empty() const { return heap_.empty(); }
+    /// \pre not empty
+    [[nodiscard]] const Record& front() const { return rows_[heap_.front()].left.front(); }
+    void pop() {
+        std::pop_heap(heap_.begin(), heap_.end(), after());
+        row& first = rows_[heap_.back()];
+        first.left = first.left.subspan(1);
+        if (first.left.empty()) first.left = first.reader.next();
+        if (first.left.empty())
+            heap_.pop_back();
+        else
+            std::push_heap(heap_.begin(), heap_.end(), after());
+    }
+
+  private:
+    struct row {
+        record_reader<Record> reader;
+        std::span<const Record> left;
+    };
+    [[nodiscard]] auto after() const {
+        return [this](std::size_t a, std::size_t b) {
+            const auto key_a = key_of_(rows_[a].left.front());
+            const auto key_b = key_of_(rows_[b].left.front());
+            return key_a != key_b ? key_a > key_b : a > b;
+        };
+    }
+
+    KeyOf key_of_;
+    std::vector<row> rows_{};
+    std::vector<std::size_t> heap_{};
+};
+
+}  // namespace treeform::detail::stream

@@ -1,0 +1,89 @@
+/// \file
+/// How a cloud is cut into tiles, judged by a sample of its points.
+
+#include <libmesh/stream/tile_steps.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace treeform::detail::stream {
+
+/// Crowds take room on the disk, but not where they are welded. With the rule first they are best
+/// not cut; chains are welded crowd by crowd only where there is no other way.
+tile_slabs tile_steps::plan() const {
+    const std::vector<point3> some = uncrowded_sample();
+    const bool crowded = 4 * some.size() <= 3 * survey_.sample.size();
+    if (crowded && rule() == weld_rule::first)
+        if (const auto slabs = plan_by(some)) return *slabs;
+    if (const auto slabs = plan_by(survey_.sample)) return *slabs;
+    if (const auto slabs = plan_by(some)) return *slabs;
+    return {some, tolerance_, 1};
+}
+
+/// Small tiles stay in the caches while they are welded. Where halos are much of them, larger
+/// ones; where they are most of all, the tolerance is large and little will be kept: one tile.
+std::optional<tile_slabs> tile_steps::plan_by(const std::vector<point3>& sample) const {
+    const auto all = static_cast<double>(survey_.cloud.points);
+    const auto slabs_of = [&](double count) {
+        return tile_slabs(sample, tolerance_,
+                          static_cast<std::size_t>(std::ceil(std::max(count, 1.0))));
+    };
+    if (task_.options.points_per_tile > 0)
+        return slabs_of(all / static_cast<double>(task_.options.points_per_tile));
+    constexpr double small = 250000.0;
+    constexpr double tiles = 1024.0;
+    const double room = 0.6 * static_cast<double>(task_.options.memory / bytes_per_point());
+    struct way {
+        double most;       ///< points in a tile, about
+        double with_halo;  ///< points of all tiles, of all points
+    };
+    for (const way w : {way{std::min(0.25 * room, std::max(small, all / tiles)), 1.1},
+                        way{0.25 * room, 1.5}, way{room, 4.0}}) {
+        double sum = 0.0;
+        for (double count = all / w.most; sum <= w.with_halo * all; count = 1.25 * count + 1.0) {
+            const tile_slabs slabs = slabs_of(count);
+            const std::vector<double> size = sizes_of(slabs, survey_.sample);
+            const std::vector<double> held = sizes_of(slabs, sample);
+            sum = std::accumulate(size.begin(), size.end(), 0.0);
+            const double largest = *std::max_element(held.begin(), held.end());
+            if (sum <= w.with_halo * all && largest <= 1.25 * w.most) return slabs;
+            if (count > static_cast<double>(sample.size())) break;  // equal points
+        }
+    }
+    return std::nullopt;
+}
+
+/// Of the points of a cube whose diagonal is the tolerance, one.
+std::vector<point3> tile_steps::uncrowded_sample() const {
+    std::vector<std::pair<std::array<double, 3>, point3>> by_cube;
+    for (const point3& p : survey_.sample) {
+        std::array<double, 3> cube{p.x, p.y, p.z};
+        if (tolerance_ > 0.0)
+            for (double& c : cube) c = std::floor(c / tolerance_ * 1.74);
+        by_cube.emplace_back(cube, p);
+    }
+    const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
+    const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
+    std::stable_sort(by_cube.begin(), by_cube.end(), before);
+    by_cube.erase(std::unique(by_cube.begin(), by_cube.end(), same), by_cube.end());
+    std::vector<point3> some;
+    for (const auto& [cube, p] : by_cube) some.push_back(p);
+    return some;
+}
+
+/// Points in each slab, halo included, judged by a sample.
+std::vector<double> tile_steps::sizes_of(const tile_slabs& slabs,
+                                         const std::vector<point3>& sample) const {
+    std::vector<double> size(slabs.size(), 0.0);
+    for (const point3& p : sample) {
+        const auto place = slabs.find(p);
+        for (std::uint32_t t = place.first; t <= place.last; ++t)
+            size[t] += 1.0 / survey_.sample_share;
+    }
+    return size;
+}
+
+}  // namespace treeform::detail::stream

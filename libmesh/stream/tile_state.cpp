@@ -1,0 +1,120 @@
+/// \file
+/// What is stored of a plan and of its tiles, and taken over by a later run.
+
+#include <libmesh/stream/tile_steps.hpp>
+
+#include <system_error>
+
+namespace treeform::detail::stream {
+namespace {
+
+const char* const plan_name = "plan";
+
+void store_count(const record_count& c, state_writer& state) {
+    state.number(c.records);
+    state.number(c.digest);
+}
+
+record_count load_count(state_reader& state) {
+    const std::uint64_t records = state.number();
+    return {records, state.number()};
+}
+
+longest_move load_move(state_reader& state) {
+    const point3 from = state.point();
+    longest_move m;
+    m.consider(from, state.point());
+    return m;
+}
+
+template <class Record>
+bool is_whole(const std::filesystem::path& path, const record_count& expected) {
+    std::error_code error;
+    if (std::filesystem::file_size(path, error) != expected.records * sizeof(Record) || error)
+        return false;
+    record_reader<Record> reader(path, expected, piece);
+    try {
+        while (!reader.next().empty()) {
+        }
+    } catch (const weld_stream_error&) {
+        return false;
+    }
+    return true;
+}
+
+std::string name_of_done(std::size_t t) { return std::to_string(t) + ".done"; }
+
+}  // namespace
+
+void tile_steps::look() {
+    if (!take_over()) {
+        const bool anew = folder_.load(plan_name).has_value();
+        const std::vector<std::filesystem::path> damaged = survey_.cloud.damaged;
+        folder_.clear();
+        tiles_.clear();
+        survey_ = stream::survey(task_.input, task_.options.format, pace_);
+        survey_.cloud.started_anew = anew;
+        survey_.cloud.damaged = damaged;
+    }
+    set_tolerance();
+    if (tiles_.empty()) slabs_ = plan();
+    say_plan();
+}
+
+void tile_steps::store_plan() const {
+    state_writer state;
+    state.text(task_.identity);
+    store(survey_, state);
+    state.number(tiles_.size());
+    for (const tile& t : tiles_) {
+        store_count(t.points, state);
+        state.number(t.own);
+    }
+    folder_.store(plan_name, state);
+}
+
+bool tile_steps::take_over() {
+    auto state = folder_.load(plan_name);
+    if (!state || state->text() != task_.identity) return false;
+    survey_ = load_survey(*state);
+    for (std::uint64_t left = state->number(); left > 0 && state->whole(); --left) {
+        const record_count points = load_count(*state);
+        tiles_.push_back({.points = points, .own = state->number()});
+    }
+    if (!state->whole()) return false;
+    cloud_survey& cloud = survey_.cloud;
+    bool whole = true;
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+        take_over_tile(t);
+        cloud.finished_tiles += tiles_[t].finished ? 1 : 0;
+        std::error_code error;
+        whole =
+            whole && (tiles_[t].finished || std::filesystem::file_size(file(t, ".points"), error) ==
+                                                tiles_[t].points.records * sizeof(tile_point));
+    }
+    cloud.continued = whole;
+    return whole;
+}
+
+void tile_steps::store_tile(std::size_t t) const {
+    const tile& mine = tiles_[t];
+    state_writer state;
+    for (const record_count& c : {mine.drops, mine.border, mine.members}) store_count(c, state);
+    state.point(mine.move.from());
+    state.point(mine.move.to());
+    folder_.store(name_of_done(t), state);
+}
+
+void tile_steps::take_over_tile(std::size_t t) {
+    auto state = folder_.load(name_of_done(t));
+    if (!state) return;
+    tile& mine = tiles_[t];
+    for (record_count* c : {&mine.drops, &mine.border, &mine.members}) *c = load_count(*state);
+    mine.move = load_move(*state);
+    mine.finished = state->whole() && is_whole<tile_drop>(file(t, ".drops"), mine.drops) &&
+                    is_whole<border_point>(file(t, ".border"), mine.border) &&
+                    is_whole<tile_member>(file(t, ".members"), mine.members);
+    if (!mine.finished) survey_.cloud.damaged.push_back(file(t, ".drops"));
+}
+
+}  // namespace treeform::detail::stream

@@ -1,0 +1,132 @@
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/stream/polygons.hpp>
+#include <libmesh/weld/group_points.hpp>
+#include <treeform/mesh/weld.hpp>
+
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+namespace treeform {
+namespace {
+
+/// Corners of a soup that are equal are one vertex before anything else is asked: only then has it
+/// edges, open or not.
+mesh join_corners(const mesh& soup, const point_groups& equal) {
+    mesh joined;
+    joined.points.reserve(equal.first_of_group.size());
+    for (const std::uint32_t p : equal.first_of_group) joined.points.push_back(soup.points[p]);
+    joined.faces = soup.faces;
+    for (face& corners : joined.faces)
+        for (std::uint32_t& corner : corners) corner = equal.group_of_point[corner];
+    return joined;
+}
+
+weld_result weld_soup(const mesh_file& file, const weld_options& options) {
+    const point_groups equal = detail::weld::find_groups("weld", file.mesh.points, {});
+    weld_result welded = weld(join_corners(file.mesh, equal), file.attributes, options);
+    point_groups& groups = welded.groups;
+    if (welded.status == status::cancelled) return welded;
+    std::vector<std::uint32_t> group_of_corner(file.mesh.points.size());
+    for (std::size_t c = 0; c < group_of_corner.size(); ++c)
+        group_of_corner[c] = groups.group_of_point[equal.group_of_point[c]];
+    groups.group_of_point = std::move(group_of_corner);
+    for (auto* points : {&welded.point_of_group, &groups.first_of_group})
+        for (std::uint32_t& p : *points) p = equal.first_of_group[p];
+    welded.statistics.groups = detail::weld::count_groups_of_several(groups);
+    return welded;
+}
+
+/// What must hold of any result.
+void check_counts(const mesh_file& file, const weld_result& r, const weld_options& options) {
+    std::uint64_t kept = 0;
+    for (std::uint32_t p = 0; p < r.groups.group_of_point.size(); ++p) {
+        const std::uint32_t group = r.groups.group_of_point[p];
+        if (group >= r.point_of_group.size()) throw std::logic_error("a point belongs to no group");
+        kept += r.point_of_group[group] == p ? 1U : 0U;
+    }
+    if (r.groups.group_of_point.size() != file.mesh.points.size() ||
+        kept != r.point_of_group.size())
+        throw std::logic_error("points in are not points kept and points removed");
+    const std::uint64_t dropped =
+        options.keep_degenerate ? 0 : r.statistics.collapsed + r.statistics.degenerate;
+    if (r.mesh.faces.size() + dropped != file.mesh.faces.size() ||
+        r.face_of_new.size() != r.mesh.faces.size())
+        throw std::logic_error("faces in are not faces kept and faces dropped");
+}
+
+/// All that a file has but its points, faces, and what belongs to them.
+mesh_file head_of(const mesh_file& file) {
+    mesh_file head;
+    head.stored_as = file.stored_as;
+    head.format = file.format;
+    head.warnings = file.warnings;
+    return head;
+}
+
+weld_result weld_triangles(const mesh_file& file, const weld_options& options) {
+    // Joining a soup's corners would make the edges that `keep_manifold` is to prevent.
+    const bool soup = !file.indexed && !options.keep_manifold &&
+                      find_element(file.attributes, "vertex") == nullptr;
+    weld_result welded =
+        soup ? weld_soup(file, options) : weld(file.mesh, file.attributes, options);
+    if (welded.status != status::cancelled) check_counts(file, welded, options);
+    return welded;
+}
+
+}  // namespace
+
+file_weld_result weld(const mesh_file& file, const weld_options& options) {
+    const bool has_polygons = !file.stored_face.empty();
+    weld_result welded;
+    if (has_polygons) {
+        mesh_file triangles = file;
+        split_polygons(triangles);
+        welded = weld_triangles(triangles, options);
+    } else {
+        welded = weld_triangles(file, options);
+    }
+    file_weld_result result{head_of(file),
+                            std::move(welded.groups),
+                            std::move(welded.point_of_group),
+                            std::move(welded.face_of_new),
+                            welded.statistics,
+                            welded.status};
+    if (result.status == status::cancelled) return result;
+    result.file.mesh = std::move(welded.mesh);
+    result.file.attributes = std::move(welded.attributes);
+    result.file.stored_faces = result.file.mesh.faces.size();
+    if (!has_polygons) return result;
+    std::vector<std::uint32_t> polygon;
+    polygon.reserve(result.face_of_new.size());
+    for (const std::uint32_t f : result.face_of_new) polygon.push_back(file.stored_face[f]);
+    detail::stream::rejoin_polygons(result.file, polygon, !options.keep_degenerate);
+    return result;
+}
+
+std::optional<std::uint64_t> count_still_within(const mesh_file& welded,
+                                                const weld_options& options, precision written_as) {
+    if (options.only_borders || options.keep_manifold) return std::nullopt;
+    std::vector<point3> rounded;
+    points_view points = welded.mesh.points;
+    if (written_as == precision::float32 && !fits_single(points)) {
+        rounded.assign(points.begin(), points.end());
+        for (point3& p : rounded)
+            for (std::size_t k = 0; k < 3; ++k) p[k] = detail::base::nearest_float(p[k]);
+        points = rounded;
+    } else if (options.keep == weld_keep::first) {
+        return 0;  // kept points are as they were, and the rule leaves none within the tolerance
+    }
+    weld_options again = options;
+    again.keep = weld_keep::first;
+    again.same = weld_conditions(welded.attributes, !welded.mesh.faces.empty(), options);
+    again.keep_seams = false;
+    attributes properties;
+    if (const element* vertices = find_element(welded.attributes, "vertex"))
+        if (!again.same.empty()) properties.elements.push_back(*vertices);
+    const cloud_weld_result twice = weld(points, properties, again);
+    if (twice.status == status::cancelled) return std::nullopt;
+    return points.size() - twice.points.size();
+}
+
+}  // namespace treeform

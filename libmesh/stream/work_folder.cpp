@@ -1,0 +1,80 @@
+#include <libmesh/stream/record_file.hpp>
+#include <libmesh/stream/work_folder.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace treeform::detail::stream {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const lock_name = "lock";
+
+using reason = weld_stream_error::reason;
+
+[[noreturn]] void refuse(reason why, const fs::path& path, const std::string& text) {
+    throw weld_stream_error(why, path, path.string() + ": " + text);
+}
+
+}  // namespace
+
+work_folder::work_folder(fs::path path) : path_(std::move(path)) {
+    std::error_code error;
+    fs::create_directory(path_, error);
+    if (error) refuse(reason::folder, path_, "cannot be made: " + error.message());
+    const fs::path lock = path_ / lock_name;
+    if (!fs::exists(lock) && !fs::is_empty(path_))
+        refuse(reason::folder_foreign, path_, "holds files of others");
+    lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock_ < 0)
+        refuse(reason::folder, path_, std::string("cannot be written to: ") + std::strerror(errno));
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+        ::close(lock_);
+        refuse(reason::folder_in_use, path_, "is in use by another process");
+    }
+}
+
+work_folder::~work_folder() { ::close(lock_); }
+
+std::optional<state_reader> work_folder::load(const std::string& name) const {
+    std::ifstream in(file(name), std::ios::binary);
+    std::ostringstream bytes;
+    if (!in || !(bytes << in.rdbuf())) return std::nullopt;
+    state_reader state(bytes.str());
+    if (!state.whole()) return std::nullopt;
+    return state;
+}
+
+void work_folder::store(const std::string& name, const state_writer& state) const {
+    const fs::path whole = file(name);
+    const fs::path part = file(name + ".part");
+    fs::remove(part);
+    const std::string bytes = state.bytes();
+    append_to(part, std::as_bytes(std::span(bytes)));
+    sync_file(part);
+    std::error_code error;
+    fs::rename(part, whole, error);
+    if (error) refuse(reason::folder, whole, "cannot be written: " + error.message());
+}
+
+void work_folder::clear() const {
+    for (const auto& entry : fs::directory_iterator(path_))
+        if (entry.path().filename() != lock_name) fs::remove(entry.path());
+}
+
+void work_folder::remove() {
+    clear();
+    fs::remove(path_ / lock_name);
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+}
+
+}  // namespace treeform::detail::stream

@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// The folder in which a cloud larger than memory is welded; what is there outlives the process.
+
+#include <libmesh/stream/state_record.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace treeform::detail::stream {
+
+/// Held by one process at a time. It stays until `remove`, so that the same call can go on.
+class work_folder {
+  public:
+    /// Makes the folder, or takes over what an earlier run has left.
+    /// \throws weld_stream_error when it cannot be made, holds other files, or is in use
+    explicit work_folder(std::filesystem::path path);
+    ~work_folder();
+    work_folder(const work_folder&) = delete;
+    work_folder& operator=(const work_folder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] std::filesystem::path file(const std::string& name) const { return path_ / name; }
+
+    /// What is stored under `name`; none when it is not there or is not whole.
+    [[nodiscard]] std::optional<state_reader> load(const std::string& name) const;
+    /// Stores it: whole, or not at all. \throws weld_stream_error
+    void store(const std::string& name, const state_writer& state) const;
+
+    /// Removes all files but the lock.
+    void clear() const;
+    /// Removes the folder.
+    void remove();
+
+  private:
+    std::filesystem::path path_;
+    int lock_ = -1;
+};
+
+}  // namespace treeform::detail::stream

@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// Which of the kept points within the tolerance a dropped one belongs to.
+
+#include <libmesh/weld/reach.hpp>
+#include <treeform/mesh/point.hpp>
+
+#include <cstdint>
+
+namespace treeform::detail::weld {
+
+/// The nearest of the points met, the lowest of equally near ones: how `weld_rule::first` decides,
+/// wherever it does (over lists of pairs, over cubes, in tiles and along their borders).
+class nearest_kept {
+  public:
+    explicit nearest_kept(const point3& p) : p_(p) {}
+
+    [[nodiscard]] bool any() const { return any_; }
+    [[nodiscard]] std::uint64_t id() const { return id_; }
+    [[nodiscard]] const point3& at() const { return at_; }
+
+    void consider(std::uint64_t id, const point3& at) {
+        if (any_ && !precedes(id, at)) return;
+        any_ = true;
+        id_ = id;
+        at_ = at;
+    }
+    /// Whether that point is nearer than the one found. \pre any()
+    [[nodiscard]] bool precedes(std::uint64_t id, const point3& at) const {
+        const int order = reach::compare(p_, at, at_);
+        return order < 0 || (order == 0 && id < id_);
+    }
+
+  private:
+    point3 p_;
+    point3 at_{};
+    std::uint64_t id_ = 0;
+    bool any_ = false;
+};
+
+}  // namespace treeform::detail::weld

@@ -1,0 +1,136 @@
+#include <libmesh/weld/property_groups.hpp>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+namespace treeform {
+namespace {
+
+using option = weld_property_error::option;
+using fault = weld_property_error::fault;
+
+/// Names of columns that say one thing, in the spellings that files use.
+struct column_group {
+    std::string_view name;
+    std::array<std::string_view, 7> columns;
+};
+
+constexpr column_group groups[] = {
+    {"normal", {"nx", "ny", "nz", "normal_x", "normal_y", "normal_z"}},
+    {"uv", {"u", "v", "s", "t", "texture_u", "texture_v"}},
+    {"colour", {"red", "green", "blue", "alpha", "rgb", "rgba"}},
+    {"color", {"red", "green", "blue", "alpha", "rgb", "rgba"}},
+};
+
+const column_group* find_group(std::string_view name) {
+    const auto at = std::find_if(std::begin(groups), std::end(groups),
+                                 [&](const column_group& g) { return g.name == name; });
+    return at == std::end(groups) ? nullptr : at;
+}
+
+const column* data_column(const attributes& properties, std::string_view name) {
+    const element* vertices = find_element(properties, "vertex");
+    const column* c = vertices == nullptr ? nullptr : find_column(*vertices, name);
+    return c == nullptr || c->role != column_role::data ? nullptr : c;
+}
+
+bool is_axis(std::string_view name) { return name == "x" || name == "y" || name == "z"; }
+
+/// The columns that `name` stands for; empty when there are none.
+std::vector<std::string> columns_of(const attributes& properties, std::string_view name) {
+    if (is_axis(name) || data_column(properties, name) != nullptr) return {std::string(name)};
+    std::vector<std::string> columns;
+    if (const column_group* const group = find_group(name))
+        for (const std::string_view column : group->columns)
+            if (!column.empty() && data_column(properties, column) != nullptr)
+                columns.emplace_back(column);
+    return columns;
+}
+
+std::vector<std::string> required(const attributes& properties, option where,
+                                  const std::string& name) {
+    auto columns = columns_of(properties, name);
+    if (columns.empty()) throw weld_property_error(where, fault::missing, name);
+    for (const std::string& column : columns)
+        if (const auto* const c = data_column(properties, column); c != nullptr && c->list_length)
+            throw weld_property_error(where, fault::is_list, name);
+    return columns;
+}
+
+std::vector<weld_condition> kept_seams(const attributes& properties,
+                                       const std::vector<std::string>& across) {
+    std::vector<weld_condition> seams = seam_conditions(properties);
+    for (const std::string& name : across) {
+        const auto let_go = find_group(name) != nullptr
+                                ? columns_of(properties, name)
+                                : required(properties, option::across, name);
+        std::erase_if(seams, [&](const weld_condition& c) {
+            return std::find(let_go.begin(), let_go.end(), c.property) != let_go.end();
+        });
+    }
+    return seams;
+}
+
+std::string in_words(fault what, const std::string& name) {
+    switch (what) {
+        case fault::missing:
+            return "no vertex property '" + name + "'";
+        case fault::is_list:
+            return "the vertex property '" + name + "' is a list";
+        case fault::is_several:
+            break;
+    }
+    return "'" + name + "' is more than one vertex property";
+}
+
+}  // namespace
+
+weld_property_error::weld_property_error(option where, fault what, std::string name)
+    : std::invalid_argument("treeform::weld: " + in_words(what, name)),
+      where_(where),
+      fault_(what),
+      name_(std::move(name)) {}
+
+std::vector<weld_condition> weld_conditions(const attributes& properties, bool has_faces,
+                                            const weld_options& options) {
+    std::vector<weld_condition> conditions;
+    for (const weld_condition& asked : options.same)
+        for (std::string& column : required(properties, option::same, asked.property))
+            conditions.push_back({std::move(column), asked.tolerance});
+    if (!options.keep_seams) return conditions;
+    const auto asked = static_cast<std::ptrdiff_t>(conditions.size());
+    std::vector<weld_condition> seams = kept_seams(properties, options.across);
+    if (!has_faces) return conditions;
+    for (weld_condition& seam : seams)
+        if (std::none_of(conditions.begin(), conditions.begin() + asked,
+                         [&](const weld_condition& c) { return c.property == seam.property; }))
+            conditions.push_back(std::move(seam));
+    return conditions;
+}
+
+std::vector<weld_condition> seam_conditions(const attributes& properties) {
+    constexpr std::array<std::string_view, 13> names{
+        "nx",        "ny",        "nz",  "u",     "v",    "s",    "t",
+        "texture_u", "texture_v", "red", "green", "blue", "alpha"};
+    std::vector<weld_condition> found;
+    const element* vertices = find_element(properties, "vertex");
+    if (vertices == nullptr) return found;
+    for (const column& c : vertices->columns)
+        if (c.role == column_role::data && !c.list_length &&
+            std::find(names.begin(), names.end(), c.name) != names.end())
+            found.push_back({c.name, 0.0});
+    return found;
+}
+
+std::string detail::weld::column_to_keep_by(const attributes& properties,
+                                            const weld_options& options) {
+    const auto columns = required(properties, option::keep_by, options.keep_by);
+    if (columns.size() > 1)
+        throw weld_property_error(option::keep_by, fault::is_several, options.keep_by);
+    return columns.front();
+}
+
+}  // namespace treeform

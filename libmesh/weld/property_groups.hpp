@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// Names of vertex properties, as people say them, and the columns that they stand for.
+
+#include <treeform/mesh/weld_options.hpp>
+
+#include <string>
+
+namespace treeform::detail::weld {
+
+/// The column that `options.keep_by` stands for.
+/// \throws weld_property_error when it stands for none, for several, or for one of lists
+[[nodiscard]] std::string column_to_keep_by(const attributes& properties,
+                                            const weld_options& options);
+
+}  // namespace treeform::detail::weld

@@ -1,0 +1,233 @@
+#pragma once
+/// \file
+/// Clouds larger than memory, welded tile by tile with the groups that `group_points` finds.
+///
+/// A tile gets the points of its slab of space, its own, and those of its halo: all others within
+/// the tolerance of the slab. It sees every neighbor of its own points, but not all of those of
+/// its halo; what it says for certain is true of the whole cloud, and what hangs on its halo is
+/// left to one pass over the borders of all tiles. There are no rounds, and tiles need not know of
+/// each other: they may be done in any order, at any time, by any process.
+///
+/// Rule `first`. A tile goes through its points in their order and calls a point
+/// - dropped when an earlier kept one is within the tolerance,
+/// - kept when it is the tile's own and all earlier neighbors are dropped,
+/// - open else.
+/// By induction over the order, a point that is called kept or dropped is so in the whole cloud:
+/// the neighbors of an own point are all here, and a kept one within the tolerance suffices to drop
+/// any. A dropped own point leans on the nearest kept one; should an open one be nearer, it may
+/// change sides. To the border pass go own points that are open or lean so, and kept ones that are
+/// in the halo of another tile. It goes through these in their order and drops an open point when
+/// an earlier kept one of them is within the tolerance, keeps it else. This is the rule's answer:
+/// an earlier neighbor that is kept in the end was not called kept here, or it would have dropped
+/// the point, nor dropped. So it is open in its own tile, or kept there and in our halo; both
+/// ways it is in the border pass. For the same reason the leader of a leaning point is the one it
+/// leans on, or one that the border pass has seen before it.
+///
+/// Open points are not kept apart from open ones within a fourth of the tolerance of them: one
+/// stands for all, with a reach as much longer. More points may be called open then, none wrongly
+/// kept or dropped, and what a tile remembers is bounded by its volume, not by its points.
+///
+/// Rule `chain`. The points that are linked inside a tile are one component there. A component of
+/// the cloud is one of tiles' components that share points, and shared are points of a slab that
+/// are in the halo of another: the border pass joins what they name. How far its points are from
+/// the lowest is known to no tile before; a tile names the points of components that may be larger,
+/// each with the lowest it knows of, and `chain_moves` measures when all are brought together.
+
+#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/weld.hpp>
+#include <treeform/tree/export.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::weld {
+
+/// Space cut into slabs by planes. All points, also those of no sample, are in one slab; points
+/// within the tolerance of each other are in slabs that know of both.
+class TREEFORM_API tile_slabs {
+  public:
+    /// At most `count` slabs with about equal shares of `sample`, whose points are finite.
+    ///
+    /// \throws std::invalid_argument for a count of 0 or a tolerance that is negative or not finite
+    /// \cost O(n log n) for n points of the sample
+    tile_slabs(points_view sample, double tolerance, std::size_t count);
+
+    [[nodiscard]] std::size_t size() const { return cuts_.size() + 1; }
+
+    struct place {
+        std::uint32_t own;    ///< the slab that the point is in
+        std::uint32_t first;  ///< the slabs that it is in or in the halo of: `first` to `last`,
+        std::uint32_t last;   ///< both included
+    };
+    /// \pre `p` is finite
+    [[nodiscard]] place find(const point3& p) const;
+
+  private:
+    [[nodiscard]] double along(const point3& p) const;
+
+    point3 direction_{};
+    double tolerance_;
+    std::vector<double> cuts_{};  ///< ascending
+};
+
+/// What a point is to a tile.
+enum class tile_role : std::uint8_t {
+    own,     ///< in its slab, and in no other tile
+    shared,  ///< in its slab, and in the halo of others
+    halo
+};
+
+/// A point as a tile gets it; its number, below 2^62, is that in the whole cloud.
+struct tile_point {
+    std::uint64_t tag = 0;  ///< number * 4 + role
+    point3 at{};
+
+    [[nodiscard]] static tile_point make(std::uint64_t id, tile_role role, const point3& at) {
+        return {id << 2 | static_cast<std::uint64_t>(role), at};
+    }
+    [[nodiscard]] std::uint64_t id() const { return tag >> 2; }
+    [[nodiscard]] tile_role role() const { return static_cast<tile_role>(tag & 3); }
+};
+
+/// A point that is dropped, and the one it belongs to.
+struct tile_drop {
+    std::uint64_t id = 0;
+    std::uint64_t leader = 0;
+
+    friend bool operator==(const tile_drop&, const tile_drop&) = default;
+};
+
+enum class border_kind : std::uint8_t {
+    open,     ///< kept or dropped: the border pass says
+    leaning,  ///< dropped, for `leader` or for a nearer one
+    kept,     ///< for others to lean on
+    link      ///< rule chain: a shared point and the lowest of its component in one tile
+};
+
+/// What one tile leaves to the border pass about a point.
+struct border_point {
+    std::uint64_t tag = 0;  ///< number * 4 + kind
+    point3 at{};
+    std::uint64_t leader = 0;
+    point3 leader_at{};
+
+    [[nodiscard]] static border_point make(std::uint64_t id, border_kind kind) {
+        return {id << 2 | static_cast<std::uint64_t>(kind), {}, 0, {}};
+    }
+    [[nodiscard]] std::uint64_t id() const { return tag >> 2; }
+    [[nodiscard]] border_kind kind() const { return static_cast<border_kind>(tag & 3); }
+};
+
+/// A point of a component that is in several tiles, with the rule chain.
+struct tile_member {
+    std::uint64_t tag = 0;  ///< number of the component's lowest point * 2 + 1; * 2 when it is that
+    point3 at{};
+
+    [[nodiscard]] static tile_member make(std::uint64_t lowest, bool is_lowest, const point3& at) {
+        return {lowest << 1 | (is_lowest ? 0U : 1U), at};
+    }
+    [[nodiscard]] std::uint64_t lowest() const { return tag >> 1; }
+    [[nodiscard]] bool is_lowest() const { return (tag & 1) == 0; }
+};
+
+/// The longest way from a dropped point to its leader.
+class TREEFORM_API longest_move {
+  public:
+    /// Takes the one given when it is longer, decided exactly.
+    void consider(const point3& from, const point3& to);
+    void consider(const longest_move& other) { consider(other.from_, other.to_); }
+    [[nodiscard]] const point3& from() const { return from_; }
+    [[nodiscard]] const point3& to() const { return to_; }
+    /// The least double that is no less than the length.
+    [[nodiscard]] double length() const;
+
+  private:
+    point3 from_{};
+    point3 to_{};
+};
+
+/// What a tile says of its own points.
+struct tile_result {
+    std::vector<tile_drop> dropped{};    ///< by ascending numbers; for good with the rule first
+    std::vector<border_point> border{};  ///< by ascending numbers
+    std::vector<tile_member> members{};  ///< with the rule chain
+    /// Of `dropped`, with the rule chain except for the `members`.
+    longest_move move{};
+};
+
+/// One tile.
+class TREEFORM_API tile_weld {
+  public:
+    /// \throws std::invalid_argument for a tolerance that is negative or not finite
+    tile_weld(weld_rule rule, double tolerance);
+    ~tile_weld();
+    tile_weld(tile_weld&&) noexcept;
+    tile_weld& operator=(tile_weld&&) noexcept;
+
+    /// Memory for that many points without moving those that are there. No promise.
+    void reserve(std::size_t points);
+
+    /// Takes the next points, whose numbers ascend over all calls, and appends what they lead to.
+    /// With the rule first only points that are kept or open take memory from then on, some 60
+    /// bytes each; with the rule chain all do, some 100 each, and `crowded_chain` is for more.
+    ///
+    /// \pre all coordinates are finite
+    /// \cost O(1) a point with the rule first, expected, where those kept or open are not crowded
+    void add(std::span<const tile_point> points, tile_result& out);
+
+    /// The end of the tile, a piece of the result at a time: call it until it returns false.
+    /// \throws std::invalid_argument for the rule chain and more than 2^32 - 2 points
+    /// \cost as `group_points` with the rule chain
+    [[nodiscard]] bool finish(tile_result& out);
+
+  private:
+    struct state;
+    std::unique_ptr<state> state_;
+};
+
+/// The border pass: what the `border` of all tiles leads to.
+class TREEFORM_API border_weld {
+  public:
+    /// \throws std::invalid_argument for a tolerance that is negative or not finite
+    border_weld(weld_rule rule, double tolerance);
+    ~border_weld();
+    border_weld(border_weld&&) noexcept;
+    border_weld& operator=(border_weld&&) noexcept;
+
+    /// Takes the next points, whose numbers ascend over all calls and tiles (those of links may be
+    /// equal), and appends those that are dropped. Only kept points and linked components take
+    /// memory, some 60 and 100 bytes each.
+    void add(std::span<const border_point> points, std::vector<tile_drop>& out);
+
+    /// The end; call it once, after which the rest holds. For the rule chain it appends points that
+    /// may be in a tile's `dropped` as well, with a leader that comes to the same.
+    void finish(std::vector<tile_drop>& out);
+
+    /// The kept point that the leader named by a tile belongs to; itself with the rule first.
+    [[nodiscard]] std::uint64_t leader_of(std::uint64_t leader) const;
+    /// What a tile says of a point, with the lowest of the whole component.
+    [[nodiscard]] tile_member settled(const tile_member& member) const;
+
+    /// Of the points dropped here, with the rule first.
+    [[nodiscard]] const longest_move& move() const;
+
+  private:
+    struct state;
+    std::unique_ptr<state> state_;
+};
+
+/// The longest move of settled members, whose tags ascend over all calls.
+class TREEFORM_API chain_moves {
+  public:
+    void add(const tile_member& member);
+    [[nodiscard]] const longest_move& move() const { return move_; }
+
+  private:
+    point3 lowest_{};
+    longest_move move_{};
+};
+
+}  // namespace treeform::detail::weld

@@ -1,0 +1,162 @@
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/weld/carried_rows.hpp>
+#include <libmesh/weld/conditions.hpp>
+#include <libmesh/weld/edge_uses.hpp>
+#include <libmesh/weld/group_points.hpp>
+#include <libmesh/weld/kept_values.hpp>
+#include <libmesh/weld/manifold_groups.hpp>
+#include <libmesh/weld/moves.hpp>
+#include <libmesh/weld/property_groups.hpp>
+#include <treeform/mesh/weld.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+namespace treeform {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 16;
+
+[[nodiscard]] point_groups find_groups(mesh_view mesh, const attributes& properties,
+                                       const weld_options& options) {
+    const auto asked = weld_conditions(properties, !mesh.faces.empty(), options);
+    detail::buffer<std::uint8_t> border;
+    if (options.only_borders) border = detail::weld::border_points(mesh.points.size(), mesh.faces);
+    const detail::weld::conditions conditions(mesh.points, properties, options, asked,
+                                              border.span());
+    return detail::weld::find_groups("weld", mesh.points, conditions.options());
+}
+
+std::uint64_t count_non_finite(points_view points) {
+    std::vector<std::uint64_t> counts(chunk_count(points.size(), grain));
+    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (!detail::base::is_finite(points[i])) ++counts[c];
+    });
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+/// What a chunk of faces comes to.
+struct face_counts {
+    std::size_t kept = 0;
+    std::uint64_t collapsed = 0;
+    std::uint64_t degenerate = 0;
+};
+
+/// Gives the faces their new corners and leaves out those that repeat one, if asked for.
+void carry_faces(std::span<const face> faces, bool keep_degenerate, weld_result& result) {
+    const std::vector<std::uint32_t>& group_of = result.groups.group_of_point;
+    const auto welded = [&](const face& f) {
+        return face{group_of[f[0]], group_of[f[1]], group_of[f[2]]};
+    };
+    std::vector<face_counts> counts(chunk_count(faces.size(), grain));
+    for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        face_counts mine;
+        for (std::size_t i = begin; i < end; ++i) {
+            const bool three = detail::base::has_three_corners(welded(faces[i]));
+            mine.kept += three || keep_degenerate ? 1 : 0;
+            if (three) continue;
+            ++(detail::base::has_three_corners(faces[i]) ? mine.collapsed : mine.degenerate);
+        }
+        counts[c] = mine;
+    });
+    std::size_t total = 0;
+    for (face_counts& n : counts) {
+        total += std::exchange(n.kept, total);
+        result.statistics.collapsed += n.collapsed;
+        result.statistics.degenerate += n.degenerate;
+    }
+    result.mesh.faces.resize(total);
+    result.face_of_new.resize(total);
+    for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::size_t at = counts[c].kept;
+        for (std::size_t i = begin; i < end; ++i) {
+            const face f = welded(faces[i]);
+            if (!keep_degenerate && !detail::base::has_three_corners(f)) continue;
+            result.mesh.faces[at] = f;
+            result.face_of_new[at++] = static_cast<std::uint32_t>(i);
+        }
+    });
+}
+
+/// Places of the groups, and their properties.
+void carry_points(points_view points, const attributes& properties, const weld_options& options,
+                  weld_result& result) {
+    std::vector<point3>& places = result.mesh.points;
+    places.resize(result.point_of_group.size());
+    for_chunks(places.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t g = begin; g < end; ++g) places[g] = points[result.point_of_group[g]];
+    });
+    result.attributes = detail::weld::carry_rows(properties, result);
+    if (options.keep != weld_keep::mean) return;
+    const detail::weld::group_members members(result.groups);
+    detail::weld::take_means(points, members, places);
+    const element* vertices = find_element(properties, "vertex");
+    if (vertices == nullptr) return;
+    detail::weld::take_means(*vertices, members,
+                             obtain_element(result.attributes, "vertex", places.size()));
+}
+
+}  // namespace
+
+weld_result weld(mesh_view mesh, const attributes& properties, const weld_options& options) {
+    detail::base::check_faces("weld", mesh.points.size(), mesh.faces);
+    detail::weld::check_rows(properties, mesh.points.size(), mesh.faces.size());
+    const bool by_property =
+        options.keep == weld_keep::lowest || options.keep == weld_keep::highest;
+    if (by_property) static_cast<void>(detail::weld::column_to_keep_by(properties, options));
+    weld_result result;
+    weld_statistics& statistics = result.statistics;
+    result.groups = find_groups(mesh, properties, options);
+    result.status = result.groups.status;
+    if (result.status == status::cancelled) return result;
+    if (options.keep_manifold && !mesh.faces.empty()) {
+        detail::weld::manifold_groups split = detail::weld::split_to_manifold(mesh, result.groups);
+        result.groups = std::move(split.groups);
+        statistics.left_alone = split.split_up;
+    }
+    statistics.groups = detail::weld::count_groups_of_several(result.groups);
+    statistics.non_finite = count_non_finite(mesh.points);
+    result.point_of_group =
+        detail::weld::kept_points(mesh.points, properties, options, result.groups);
+    carry_faces(mesh.faces, options.keep_degenerate, result);
+    carry_points(mesh.points, properties, options, result);
+    if (options.tolerance > 0.0)  // else nothing has moved
+        statistics.max_displacement = detail::weld::max_displacement(
+            mesh.points, result.groups.group_of_point, result.mesh.points);
+    if (mesh.faces.empty()) return result;
+    if (statistics.max_displacement > 0.0)
+        statistics.flipped = detail::weld::count_flipped(mesh, result.mesh, result.face_of_new);
+    statistics.nonmanifold_before =
+        detail::weld::count_nonmanifold_edges(mesh.points.size(), mesh.faces);
+    statistics.nonmanifold_after =
+        detail::weld::count_nonmanifold_edges(result.mesh.points.size(), result.mesh.faces);
+    return result;
+}
+
+weld_result weld(mesh_view mesh, const weld_options& options) { return weld(mesh, {}, options); }
+
+weld_result weld(const prepared_mesh& mesh, const weld_options& options) {
+    return weld(mesh.view(), {}, options);
+}
+
+cloud_weld_result weld(points_view points, const attributes& properties,
+                       const weld_options& options) {
+    weld_result welded = weld(mesh_view{points, {}}, properties, options);
+    return {std::move(welded.mesh.points),
+            std::move(welded.attributes),
+            std::move(welded.groups),
+            std::move(welded.point_of_group),
+            welded.statistics,
+            welded.status};
+}
+
+cloud_weld_result weld(points_view points, const weld_options& options) {
+    return weld(points, {}, options);
+}
+
+}  // namespace treeform

@@ -1,0 +1,170 @@
+#include <libmesh/stream/state_record.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/weld.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/random.hpp>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own, with a cloud in it.
+class stream_folder {
+  public:
+    explicit stream_folder(std::size_t count)
+        : path_(fs::temp_directory_path() / ("weld_stream_test-" + std::to_string(::getpid()))) {
+        fs::remove_all(path_);
+        fs::create_directory(path_);
+        test::random random(3);
+        tf::mesh_file file;
+        for (std::size_t i = 0; i < count; ++i)
+            file.mesh.points.push_back({random.unit(), random.unit(), 0.1 * random.unit()});
+        tf::write_mesh(input(), file);
+        points_ = file.mesh.points;
+    }
+    ~stream_folder() { fs::remove_all(path_); }
+    stream_folder(const stream_folder&) = delete;
+    stream_folder& operator=(const stream_folder&) = delete;
+
+    [[nodiscard]] fs::path input() const { return path_ / "in.ply"; }
+    [[nodiscard]] fs::path output() const { return path_ / "out.ply"; }
+    [[nodiscard]] fs::path work() const { return path_ / "work"; }
+    [[nodiscard]] const std::vector<tf::point3>& points() const { return points_; }
+
+    [[nodiscard]] tf::weld_stream_options options(tf::weld_rule rule) const {
+        tf::weld_stream_options o;
+        o.tolerance = 0.02;
+        o.rule = rule;
+        o.folder = work();
+        o.points_per_tile = 300;
+        return o;
+    }
+
+  private:
+    fs::path path_;
+    std::vector<tf::point3> points_{};
+};
+
+constexpr tf::weld_rule rules[] = {tf::weld_rule::first, tf::weld_rule::chain};
+
+}  // namespace
+
+TEST_CASE("weld_stream: files, map and counts are what weld gives") {
+    const stream_folder folder(2000);
+    for (const tf::weld_rule rule : rules) {
+        std::vector<std::uint32_t> map;
+        tf::weld_stream_outputs outputs;
+        outputs.welded = {folder.output(), {}};
+        outputs.map = [&](std::span<const std::uint64_t> next) {
+            for (const std::uint64_t n : next) map.push_back(static_cast<std::uint32_t>(n));
+        };
+        const auto streamed = tf::weld_stream(folder.input(), outputs, folder.options(rule));
+        const auto whole = tf::weld(folder.points(), {.tolerance = 0.02, .rule = rule});
+        CHECK(streamed.status == tf::status::ok);
+        CHECK(streamed.survey.points == 2000);
+        CHECK(streamed.survey.tiles > 3);
+        CHECK(streamed.counts.kept == whole.points.size());
+        CHECK(streamed.counts.groups == whole.statistics.groups);
+        CHECK(streamed.counts.max_displacement == whole.statistics.max_displacement);
+        CHECK(map == whole.groups.group_of_point);
+        CHECK(tf::read_mesh(folder.output()).mesh.points == whole.points);
+        CHECK_FALSE(fs::exists(folder.work()));
+    }
+}
+
+TEST_CASE("weld_stream: a relative tolerance is a share of the diagonal") {
+    const stream_folder folder(500);
+    tf::weld_stream_options options = folder.options(tf::weld_rule::first);
+    options.tolerance = 0.05;
+    options.relative = true;
+    const auto streamed = tf::weld_stream(folder.input(), {}, options);
+    const double length = 0.05 * tf::diagonal(*tf::bounding_box(folder.points()));
+    CHECK(streamed.survey.tolerance == length);
+    CHECK(streamed.counts.kept == tf::weld(folder.points(), {.tolerance = length}).points.size());
+}
+
+TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the next call goes on") {
+    const stream_folder folder(1500);
+    const auto whole = tf::weld(folder.points(), {.tolerance = 0.02});
+    for (const char* const at : {"look", "scatter", "weld", "write"}) {
+        CAPTURE(at);
+        tf::weld_stream_outputs outputs;
+        outputs.welded = {folder.output(), {}};
+        tf::weld_stream_options options = folder.options(tf::weld_rule::first);
+        options.progress = [&](std::string_view step, double share) {
+            return step != at || share < 0.5;
+        };
+        CHECK(tf::weld_stream(folder.input(), outputs, options).status == tf::status::cancelled);
+        CHECK_FALSE(fs::exists(folder.output()));
+        CHECK(fs::exists(folder.work()));
+        options.progress = {};
+        const auto again = tf::weld_stream(folder.input(), outputs, options);
+        CHECK(again.survey.continued == (at == std::string("weld") || at == std::string("write")));
+        CHECK(tf::read_mesh(folder.output()).mesh.points == whole.points);
+        fs::remove(folder.output());
+    }
+}
+
+TEST_CASE("weld_stream: what it cannot work with is refused") {
+    const stream_folder folder(100);
+    tf::weld_stream_options options = folder.options(tf::weld_rule::first);
+    for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        options.tolerance = bad;
+        CHECK_THROWS_AS(tf::weld_stream(folder.input(), {}, options), std::invalid_argument);
+    }
+    options.tolerance = 0.1;
+    fs::create_directory(folder.work());
+    std::ofstream(folder.work() / "letter.txt") << "dear";
+    try {
+        tf::weld_stream(folder.input(), {}, options);
+        FAIL("not refused");
+    } catch (const tf::weld_stream_error& error) {
+        CHECK(error.why() == tf::weld_stream_error::reason::folder_foreign);
+        CHECK(error.path() == folder.work());
+    }
+    fs::remove_all(folder.work());
+    const tf::stream_weld holds(folder.input(), options);
+    try {
+        tf::weld_stream(folder.input(), {}, options);
+        FAIL("not refused");
+    } catch (const tf::weld_stream_error& error) {
+        CHECK(error.why() == tf::weld_stream_error::reason::folder_in_use);
+    }
+}
+
+TEST_CASE("state_reader: gives back what was put in, and notices what is not whole") {
+    tf::detail::stream::state_writer writer;
+    writer.number(7);
+    writer.text("a name of some length");
+    writer.text("");
+    writer.point({1.0, -0.0, 2.5});
+    const std::string bytes = writer.bytes();
+    {
+        tf::detail::stream::state_reader reader(bytes);
+        CHECK(reader.number() == 7);
+        CHECK(reader.text() == "a name of some length");
+        CHECK(reader.text().empty());
+        CHECK(reader.point() == tf::point3{1.0, -0.0, 2.5});
+        CHECK(reader.whole());
+        CHECK(reader.number() == 0);
+        CHECK_FALSE(reader.whole());
+    }
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        std::string harmed = bytes;
+        harmed[i] = static_cast<char>(harmed[i] ^ 1);
+        CHECK_FALSE(tf::detail::stream::state_reader(harmed).whole());
+        CHECK_FALSE(tf::detail::stream::state_reader(bytes.substr(0, i)).whole());
+    }
+}

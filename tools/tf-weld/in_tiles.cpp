@@ -1,0 +1,239 @@
+#include "tools/tf-weld/in_tiles.hpp"
+
+#include "tools/common/console.hpp"
+#include "tools/common/sha256.hpp"
+#include "tools/tf-weld/outputs.hpp"
+#include "tools/tf-weld/words.hpp"
+#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+#include <treeform/tf.hpp>
+
+#include <csignal>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the library says of its files, for the person and the shell.
+failure failure_of(const job& work, const tf::weld_stream_error& error) {
+    using enum tf::weld_stream_error::reason;
+    const std::string where = error.path().string() + ": ";
+    switch (error.why()) {
+        case folder:
+            return {bad_output, "work-folder", error.what()};
+        case folder_in_use:
+            return {bad_output, "work-folder", where + "is in use by another tf-weld"};
+        case folder_foreign:
+            return {bad_output, "work-folder",
+                    where + "holds files that tf-weld has not put there"};
+        case write:
+            return {bad_output, "output", error.what()};
+        case read:
+            return {bad_input, "read", error.what()};
+        case damaged:
+            return {bad_input, "damaged", error.what()};
+        case input_changed:
+            break;
+    }
+    return {bad_input, "changed", work.name + ": the file changed while it was read"};
+}
+
+/// A step of the library's work, which says whether it was cancelled.
+template <class Step>
+void take(job& work, const char* timed, const Step& step) {
+    const job::timer timing = work.time(timed);
+    tf::status ended{};
+    try {
+        ended = step();
+    } catch (const tf::weld_stream_error& error) {
+        throw failure_of(work, error);
+    }
+    work.out.end_progress();
+    work.keeper.check();
+    if (ended == tf::status::cancelled) throw failure(stopped, "stopped", work.name + ": stopped");
+}
+
+tf::weld_stream_options library_options(job& work, const weld_request& request,
+                                        const tile_settings& tiles) {
+    const distance& tolerance = request.settings.tolerance;
+    tf::weld_stream_options options;
+    options.tolerance = tolerance.value;
+    options.relative = tolerance.relative;
+    options.rule = request.settings.options.rule;
+    options.format = work.options.format;
+    options.memory = work.options.memory;
+    options.folder = folder_for(work, request, tiles);
+    options.points_per_tile = tiles.points_per_tile;
+    options.progress = [&work](std::string_view step, double share) {
+        return work.progress(step)(share);
+    };
+    if (tiles.stop_at > 0)
+        options.step_done = [left = tiles.stop_at]() mutable {
+            if (--left == 0) std::raise(SIGKILL);
+        };
+    return options;
+}
+
+void say_of_earlier_work(job& work, const tf::cloud_survey& survey, const fs::path& folder) {
+    for (const fs::path& file : survey.damaged)
+        work.warn("damaged",
+                  file.string() + ": this tile's files are not what was written; done again");
+    if (survey.started_anew)
+        work.warn("started-anew", folder.string() +
+                                      ": what is there is of no use for this input and these "
+                                      "options; started again");
+    if (survey.continued)
+        work.out.info(work.name + ": continued in " + folder.string() + ", " +
+                      grouped(survey.finished_tiles) + " of " +
+                      counted(survey.tiles, "tile", "tiles") + " finished before");
+}
+
+void enter_source(job& work, const tf::cloud_survey& survey, const fs::path& input) {
+    json source{{"input", work.path}};
+    const std::string sum = work.options.detailed() ? sha256_of_file(input) : std::string();
+    source["format"] = survey.format;
+    source["sha256"] = sum.empty() ? json(nullptr) : json(sum);
+    source["precision_in"] = survey.single ? "float" : "double";
+    source["points"] = survey.points;
+    source["faces"] = 0;
+    source["first_point"] = 0;
+    for (const char* key : {"format", "sha256", "precision_in"}) work.entry[key] = source[key];
+    work.entry["sources"].push_back(std::move(source));
+    for (const tf::io_warning& w : survey.warnings) work.warn(w.code, w.text);
+}
+
+void say_plan(job& work, const tf::cloud_survey& survey, const fs::path& folder) {
+    if (survey.disk_bytes == 0) return;
+    const std::string needed = grouped(survey.disk_bytes / 1000000 + 1) + " MB";
+    work.out.info(work.name + ": " + grouped(survey.points) + " points in " +
+                  counted(survey.tiles, "tile", "tiles") + ", about " + needed +
+                  " on the disk in " + folder.string());
+    if (survey.disk_bytes_free.value_or(survey.disk_bytes) < survey.disk_bytes)
+        work.warn("space",
+                  folder.string() + ": only " + grouped(*survey.disk_bytes_free / 1000000) +
+                      " MB left on the disk of " + needed + " needed; --work names another");
+}
+
+/// Files as asked for, each in a place of its own until all are whole.
+class stream_files {
+  public:
+    stream_files(job& work, const weld_request& request, const tf::mesh_file& header)
+        : work_(work), asked_(request.outputs), outputs_(work) {
+        const common_options& o = work.options;
+        if (!asked_.map.empty()) open_map();
+        if (!asked_.removed.empty() && !o.dry_run)
+            to_.removed = {outputs_.add(asked_.removed, o.force),
+                           write_options_for(o, {check_points_format(asked_.removed), o.ascii})};
+        path_ = o.dry_run ? std::nullopt : mesh_output(o, work.path);
+        if (path_)
+            to_.welded = {outputs_.add(*path_, o.force || o.in_place),
+                          write_options_for(o, form_of(work, header, *path_))};
+        to_.label = asked_.label;
+        to_.unfinished = outputs_.unfinished();
+        if (map_ && !map_->folder().empty()) to_.unfinished.push_back(map_->folder());
+    }
+
+    void write(tf::stream_weld& weld) {
+        try {
+            take(work_, "write", [&] { return weld.write(to_); });
+        } catch (const tf::io_error& error) {
+            throw failure(bad_output, "output", outputs_.said_of_paths(error.what()));
+        }
+        enter(weld.written());
+        if (map_) map_->commit();
+        outputs_.commit();
+    }
+
+  private:
+    void open_map() {
+        map_.emplace(asked_.map, work_.options.force, work_.keeper);
+        const bool as_csv = map_is_csv(asked_.map);
+        if (as_csv) map_->write(map_heading);
+        to_.map = [this, as_csv, next = std::uint64_t{0}](auto numbers) mutable {
+            std::string text;
+            for (const std::uint64_t number : numbers) put_map_row(text, next++, number, as_csv);
+            map_->write(text);
+        };
+    }
+
+    void enter(const tf::weld_stream_written& written) {
+        if (written.label_replaced)
+            work_.warn("replaced",
+                       "property " + asked_.label + " was there before; its values are replaced");
+        if (written.removed)
+            for (const auto& w : written.removed->warnings) work_.warn(w.code, w.text);
+        if (!written.welded) return;
+        enter_output(work_, *path_, *written.welded,
+                     asked_.label.empty() ? std::optional<std::uint64_t>(0) : std::nullopt);
+        for (const auto& w : written.welded->warnings) work_.warn(w.code, w.text);
+    }
+
+    job& work_;
+    const weld_outputs& asked_;
+    pending_outputs outputs_;
+    std::optional<fs::path> path_{};
+    std::optional<output_file> map_{};
+    tf::weld_stream_outputs to_{};
+};
+
+welding in_words_of_memory(const tf::cloud_survey& survey, const tf::weld_stream_counts& counts) {
+    welding w;
+    w.points = survey.points;
+    w.box = survey.box;
+    w.tolerance = survey.tolerance;
+    w.result.statistics.non_finite = survey.non_finite;
+    w.result.statistics.max_displacement = counts.max_displacement;
+    w.result.statistics.groups = counts.groups;
+    w.counted = counts.kept;
+    return w;
+}
+
+}  // namespace
+
+fs::path folder_for(const job& work, const weld_request& request, const tile_settings& tiles) {
+    if (!tiles.folder.empty()) return tiles.folder;
+    std::optional<fs::path> beside = mesh_output(work.options, work.path);
+    for (const fs::path& other :
+         {request.outputs.removed, request.outputs.map, work.options.report})
+        if ((!beside || *beside == "-") && !other.empty()) beside = other;
+    if (!beside || *beside == "-")
+        beside = fs::temp_directory_path() /
+                 (work.path == "-" ? fs::path("standard_input") : fs::path(work.path).filename());
+    return beside->string() + ".tf-weld-tiles";
+}
+
+exit_status weld_in_tiles(job& work, const weld_request& request, const tile_settings& tiles,
+                          const fs::path& input, const tf::mesh_file& header) {
+    enter_blank_report(work, request);
+    check_outputs(work, request);
+    check_formats(work, request, header);
+    const tf::weld_stream_options options = library_options(work, request, tiles);
+    std::optional<tf::stream_weld> weld;
+    take(work, "read", [&] { return weld.emplace(input, options).look(); });
+    const tf::cloud_survey& survey = weld->survey();
+    say_of_earlier_work(work, survey, options.folder);
+    enter_source(work, survey, input);
+    if (survey.points == 0) throw failure(bad_input, "no-points", work.name + ": no points");
+    if (!request.outputs.label.empty() && survey.points > std::numeric_limits<std::uint32_t>::max())
+        throw failure(bad_input, "label", work.name + ": too many points for --label");
+    say_plan(work, survey, options.folder);
+    take(work, "read", [&] { return weld->scatter(); });
+    take(work, "weld", [&] { return weld->weld(); });
+
+    const welding w = in_words_of_memory(survey, weld->counts());
+    work.out.result(work.name + ": " + verdict(w, request));
+    say_details(work, w);
+    enter_report(work, w, request);
+    work.entry["polygons"] = {{"in", 0}, {"out", 0}};
+    warn_of_harm(work, w);
+    stream_files(work, request, header).write(*weld);
+    weld->remove_folder();
+    return request.outputs.check && w.removed() > 0 ? found : done;
+}
+
+}  // namespace tools
