@@ -71,7 +71,7 @@ struct point_writer::state {
         if (!same_columns(properties, find_element(head.attributes, "vertex")))
             refuse("the columns are not those of the header");
         detail::io::check_columns(properties);
-        if (result.written_as == precision::single_ && !options.precision &&
+        if (result.written_as == precision::float32 && !options.precision &&
             !fits_single(block.points))
             refuse("a coordinate is no float32 value, as the header says");
     }
@@ -96,7 +96,7 @@ point_writer& point_writer::operator=(point_writer&&) noexcept = default;
 void point_writer::write(const point_block& block) {
     state& s = *state_;
     s.check(block);
-    if (s.result.written_as == precision::single_)
+    if (s.result.written_as == precision::float32)
         s.result.largest_move =
             std::max(s.result.largest_move,
                      detail::io::largest_move(block.points, s.written, s.file->name()));

@@ -90,7 +90,7 @@ class obj_reader {
                 {"skipped-elements",
                  std::to_string(skipped_elements_) + " point and line elements were not read"});
         file_.attributes.corners = corners_.take();
-        file_.stored_as = fits_single(file_.mesh.points) ? precision::single_ : precision::double_;
+        file_.stored_as = fits_single(file_.mesh.points) ? precision::float32 : precision::float64;
         return std::move(file_);
     }
 

@@ -137,8 +137,8 @@ void look_behind(bool more, warnings& said) {
     }
     rows.head.format = name_of(header.encoding);
     rows.head.stored_as = header.encoding != pcd_encoding::ascii && has_single_axes(header.vertices)
-                              ? precision::single_
-                              : precision::double_;
+                              ? precision::float32
+                              : precision::float64;
     rows.head.attributes = std::move(header.remarks);
     header.vertices.rows = 0;
     rows.head.attributes.elements = {std::move(header.vertices)};
@@ -158,7 +158,7 @@ mesh_file read_pcd(const source& in) {
     reserve_large(file.mesh.points, count);
     while (rows.append(file.mesh.points, vertices, count, file.warnings) > 0) continue;
     vertices.rows = count;
-    file.stored_as = fits_single(file.mesh.points) ? precision::single_ : precision::double_;
+    file.stored_as = fits_single(file.mesh.points) ? precision::float32 : precision::float64;
     return file;
 }
 

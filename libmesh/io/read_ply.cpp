@@ -172,7 +172,7 @@ mesh_file read_ply(const source& in) {
         file.attributes.elements = std::move(header.elements);
         body_reader<decltype(values)>(in, std::move(values), file).read();
     });
-    file.stored_as = fits_single(file.mesh.points) ? precision::single_ : precision::double_;
+    file.stored_as = fits_single(file.mesh.points) ? precision::float32 : precision::float64;
     return file;
 }
 
@@ -191,7 +191,7 @@ point_rows open_ply_points(const source& in) {
     });
     const bool binary = header.encoding != ply_encoding::ascii;
     rows.head.stored_as =
-        binary && has_single_axes(vertices) ? precision::single_ : precision::double_;
+        binary && has_single_axes(vertices) ? precision::float32 : precision::float64;
     vertices.rows = 0;
     take_remarks(header, rows.head);
     rows.head.attributes.elements = std::move(header.elements);

@@ -77,7 +77,7 @@ class scene_reader {
 
     mesh_file read() {
         file_.indexed = false;
-        file_.stored_as = precision::single_;
+        file_.stored_as = precision::float32;
         if (scene_.mRootNode != nullptr) add_nodes();
         if (file_.mesh.points.empty() && !may_be_empty_) in_.fail("no triangle found");
         if (dropped_ > 0)

@@ -67,7 +67,7 @@ mesh_file read_stl_binary(const source& in) {
     const std::uint32_t count = facet_count(in);
     mesh_file file{.stored_faces = count,
                    .indexed = false,
-                   .stored_as = precision::single_,
+                   .stored_as = precision::float32,
                    .format = "stl-binary"};
     file.attributes.header.assign(in.begin(), 80);
     reserve_large(file.mesh.points, std::size_t{count} * 3);

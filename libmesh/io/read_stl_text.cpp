@@ -25,7 +25,7 @@ class stl_text_reader {
         if (file_.attributes.parts.size() == 1 && file_.attributes.parts[0].object.empty())
             file_.attributes.parts.clear();
         file_.stored_faces = file_.mesh.faces.size();
-        file_.stored_as = fits_single(file_.mesh.points) ? precision::single_ : precision::double_;
+        file_.stored_as = fits_single(file_.mesh.points) ? precision::float32 : precision::float64;
         return std::move(file_);
     }
 

@@ -249,7 +249,7 @@ mesh_file read_xyz(const source& in, std::string_view format) {
         file.warnings.push_back({"columns", xyz_reader::uneven});
         file.attributes.elements.clear();
     }
-    file.stored_as = fits_single(file.mesh.points) ? precision::single_ : precision::double_;
+    file.stored_as = fits_single(file.mesh.points) ? precision::float32 : precision::float64;
     return file;
 }
 

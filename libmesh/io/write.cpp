@@ -140,13 +140,13 @@ class writing {
         writer_ = text ? format_.text : format_.binary;
         result_.format = text ? format_.text_name : format_.binary_name;
         result_.written_as = !text && format_.single_only
-                                 ? precision::single_
+                                 ? precision::float32
                                  : options.precision.value_or(file.stored_as);
         // A node's transform has made doubles of float32 numbers; those are worth keeping.
-        if (!options.precision && result_.written_as == precision::single_ &&
+        if (!options.precision && result_.written_as == precision::float32 &&
             !(!text && format_.single_only) && !fits_single(file.mesh.points))
-            result_.written_as = precision::double_;
-        if (result_.written_as == precision::single_)
+            result_.written_as = precision::float64;
+        if (result_.written_as == precision::float32)
             result_.largest_move = detail::io::largest_move(file.mesh.points, 0, name_);
         if (file.mesh.faces.empty() && !file.mesh.points.empty() &&
             (format_.extension == "stl" || format_.extension == "glb"))

@@ -27,7 +27,7 @@ struct write_job {
     write_result& result;
     sink& out;
 
-    [[nodiscard]] bool single() const { return result.written_as == precision::single_; }
+    [[nodiscard]] bool single() const { return result.written_as == precision::float32; }
     /// A coordinate in the precision of the job.
     [[nodiscard]] double rounded(double x) const { return single() ? base::nearest_float(x) : x; }
     /// As text: always the digits of the double. The shortest text of a float32 would be another

@@ -63,7 +63,7 @@ shared_mesh load_for(const setting& setting, const file_kind& kind) {
 mesh_file file_of(const mesh& mesh, const file_kind& kind) {
     mesh_file file{.mesh = mesh};
     file.stored_faces = mesh.faces.size();
-    file.stored_as = kind.ascii ? precision::double_ : precision::single_;
+    file.stored_as = kind.ascii ? precision::float64 : precision::float32;
     return file;
 }
 

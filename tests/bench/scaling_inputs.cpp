@@ -16,7 +16,7 @@
 namespace treeform::bench {
 namespace {
 
-void write(const std::string& path, mesh m, precision stored_as = precision::double_) {
+void write(const std::string& path, mesh m, precision stored_as = precision::float64) {
     mesh_file file;
     file.mesh = std::move(m);
     file.stored_as = stored_as;
@@ -72,7 +72,7 @@ std::shared_ptr<const scaling_files> files_of_size(const setting& setting, std::
     write(made->second, second);
     write(made->above, test::moved(first, {0, 0, 3}));
     write(made->both, test::together(first, second));
-    write(made->soup, ring(n), precision::single_);
+    write(made->soup, ring(n), precision::float32);
     write(made->cloud, {*cloud_with_copies(n, 30), {}});
     last = made;
     last_size = n;

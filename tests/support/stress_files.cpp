@@ -40,7 +40,7 @@ class stress_folder {
         index_ << file << ',' << name.substr(0, name.find('-')) << ',' << placement << ',' << kind
                << ',' << shape.points.size() << ',' << shape.faces.size() << '\n';
         write_mesh(folder_ / file, {.mesh = std::move(shape)},
-                   {.precision = single ? precision::single_ : precision::double_});
+                   {.precision = single ? precision::float32 : precision::float64});
         ++written_;
     }
 

@@ -64,7 +64,7 @@ TEST_CASE("models: counts are those of the truth, and malformed files are refuse
         CHECK(file.mesh.points.size() == static_cast<std::size_t>(r.number("vertices_stored")));
         CHECK(file.stored_faces == static_cast<std::size_t>(r.number("faces_stored")));
         CHECK(file.mesh.faces.size() == static_cast<std::size_t>(r.number("triangles")));
-        CHECK((file.stored_as == tf::precision::single_) == (r.text("precision") == "exact"));
+        CHECK((file.stored_as == tf::precision::float32) == (r.text("precision") == "exact"));
         CHECK(file.indexed == !file.format.starts_with("stl"));
         std::size_t nonfinite = 0;
         for (const auto& p : file.mesh.points)
@@ -94,7 +94,7 @@ TEST_CASE("models: what was read comes back bit for bit from every format that c
                     CHECK(again.attributes.comments == file.attributes.comments);
             }
         }
-        if (file.stored_as == tf::precision::single_ && !file.mesh.faces.empty()) {
+        if (file.stored_as == tf::precision::float32 && !file.mesh.faces.empty()) {
             const auto stl = reread(tf::write_mesh_to_memory(file, {.format = "stl"}), "a.stl");
             REQUIRE(stl.mesh.faces.size() == file.mesh.faces.size());
             std::vector<tf::point3> corners;
@@ -120,7 +120,7 @@ TEST_CASE("models: scenes come with a part for each node that shows triangles") 
         CHECK(tf::read_mesh(folder / "cube_gears.3mf").attributes.parts.size() == 17);
         const tf::mesh_file nested = tf::read_mesh(folder / "nested.glb");
         CHECK(nested.mesh.faces.size() == 12 * nested.attributes.parts.size());
-        CHECK(nested.stored_as == tf::precision::single_);
+        CHECK(nested.stored_as == tf::precision::float32);
         CHECK(nested.warnings.back().code == "precision");
     } catch (const tf::io_error& e) {
         // A build without assimp says so.

@@ -128,7 +128,7 @@ TEST_CASE("pcd: a file by hand, in each encoding") {
     const tf::mesh_file file = read(xyz_head(2, "binary_compressed") + lengths + "\x17" + blocks);
     CHECK(file.mesh.points == points);
     CHECK(file.format == "pcd-binary-compressed");
-    CHECK(file.stored_as == tf::precision::single_);
+    CHECK(file.stored_as == tf::precision::float32);
     CHECK(file.attributes.comments.empty());
     CHECK(file.attributes.obj_info.empty());
 }
@@ -265,7 +265,7 @@ TEST_CASE("pcd: faces and lists are left out with a warning, and doubles stay do
     const auto result = tf::write_mesh("/dev/null", file, {.format = "pcd"});
     CHECK(result.warnings.at(0).code == "columns-dropped");
     CHECK(result.warnings.at(1).code == "faces-dropped");
-    CHECK(result.written_as == tf::precision::double_);
+    CHECK(result.written_as == tf::precision::float64);
     CHECK(read(written(file, "pcd")).mesh.points == file.mesh.points);
     CHECK(read(written(file, "pcd", true)).mesh.points == file.mesh.points);
 }

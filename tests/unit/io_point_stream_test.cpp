@@ -84,7 +84,7 @@ tf::mesh_file read_by(std::size_t most, const fs::path& path) {
 tf::mesh_file cloud(std::size_t count, bool single) {
     std::mt19937_64 random(count);
     tf::mesh_file file;
-    file.stored_as = single ? tf::precision::single_ : tf::precision::double_;
+    file.stored_as = single ? tf::precision::float32 : tf::precision::float64;
     std::vector<float> intensity;
     std::vector<std::uint8_t> red;
     std::vector<std::int32_t> id;
@@ -271,7 +271,7 @@ TEST_CASE("point streams: a writer takes what was announced, and leaves nothing 
     }
     CHECK(fs::is_empty(here.folder));
     tf::point_writer rounding(here.folder / "a.ply", file, 2,
-                              {.precision = tf::precision::single_});
+                              {.precision = tf::precision::float32});
     block.points[0].x = 0.1;
     rounding.write(block);
     CHECK(rounding.commit().largest_move > 0.0);

@@ -91,7 +91,7 @@ TEST_CASE("ply: binary is what another program would write") {
     tf::mesh_file file;
     file.mesh.points = {{1, 2, 3}, {-0.5, 0, 0}, {0, 1, 0}};
     file.mesh.faces = {{0, 1, 2}};
-    file.stored_as = tf::precision::single_;
+    file.stored_as = tf::precision::float32;
     const std::string bytes = written(file, "ply");
     const std::string head =
         "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
@@ -140,7 +140,7 @@ TEST_CASE("writing: rounding to float32 is reported, and refused where it would 
     const auto folder = scratch();
     const auto result = tf::write_mesh(folder / "a.stl", file);
     CHECK(result.format == "stl-binary");
-    CHECK(result.written_as == tf::precision::single_);
+    CHECK(result.written_as == tf::precision::float32);
     CHECK(result.largest_move > 0);
     CHECK(result.largest_move < 1e-6);
     const auto again = tf::read_mesh(folder / "a.stl");
@@ -148,7 +148,7 @@ TEST_CASE("writing: rounding to float32 is reported, and refused where it would 
     CHECK(tf::write_mesh(folder / "b.stl", again).largest_move == 0.0);
     for (const char* const format : {"ply", "obj", "off"}) {
         const auto text = tf::write_mesh_to_memory(
-            file, {.format = format, .ascii = true, .precision = tf::precision::single_});
+            file, {.format = format, .ascii = true, .precision = tf::precision::float32});
         CHECK(reread(text, std::string("a.") + format).mesh.points[0].x ==
               static_cast<double>(0.1F));
     }

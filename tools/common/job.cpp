@@ -90,7 +90,7 @@ tf::mesh_file job::read(const std::string& input, json& about) {
     }
     about["format"] = file.format;
     about["sha256"] = digest.empty() ? json(nullptr) : json(digest);
-    about["precision_in"] = file.stored_as == tf::precision::single_ ? "float" : "double";
+    about["precision_in"] = file.stored_as == tf::precision::float32 ? "float" : "double";
     out.end_progress();
     keeper.check();
     return file;

@@ -26,7 +26,7 @@ written_form form_of(const job& work, const tf::mesh_file& input,
 }
 
 bool is_single(const tf::mesh_file& file) {
-    return file.stored_as == tf::precision::single_ && !is_text(file.format) &&
+    return file.stored_as == tf::precision::float32 && !is_text(file.format) &&
            tf::fits_single(file.mesh.points);
 }
 

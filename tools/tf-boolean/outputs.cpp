@@ -156,7 +156,7 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     tf::mesh_file file;
     file.mesh = std::move(result.surface);
     file.stored_faces = file.mesh.faces.size();
-    file.stored_as = to_single ? tf::precision::single_ : tf::precision::double_;
+    file.stored_as = to_single ? tf::precision::float32 : tf::precision::float64;
     const written_form form = form_of(o);
     if (!settings.no_attributes)
         carry_properties(file, sources_of(solids),

@@ -52,7 +52,7 @@ void enter_output(job& work, const std::filesystem::path& path, const tf::write_
     work.entry["output"] = {
         {"file", path.string()},
         {"format", written.format},
-        {"precision_out", written.written_as == tf::precision::single_ ? "float" : "double"},
+        {"precision_out", written.written_as == tf::precision::float32 ? "float" : "double"},
         {"max_move", written.largest_move}};
     for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
     if (written.largest_move > 0.0)
@@ -75,8 +75,8 @@ void write_marked(job& work, tf::mesh_file& file, const findings& result,
     }
     add_marks(file, marks);
     tf::write_options options{.format = format, .ascii = o.ascii};
-    if (o.precision == "float") options.precision = tf::precision::single_;
-    if (o.precision == "double") options.precision = tf::precision::double_;
+    if (o.precision == "float") options.precision = tf::precision::float32;
+    if (o.precision == "double") options.precision = tf::precision::float64;
     output_place place(path, o.force, work.keeper);
     try {
         enter_output(work, path, tf::write_mesh(place.writable(), file, options));

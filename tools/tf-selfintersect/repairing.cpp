@@ -197,7 +197,7 @@ void write_repaired(job& work, const tf::mesh_file& input, const findings& resul
     tf::mesh_file file;
     file.mesh = std::move(repaired.surface);
     file.stored_faces = file.mesh.faces.size();
-    file.stored_as = to_single ? tf::precision::single_ : tf::precision::double_;
+    file.stored_as = to_single ? tf::precision::float32 : tf::precision::float64;
     const property_source whole{&input, &result.triangle_of_face};
     std::optional<tf::mesh_file> searched;
     if (input.mesh.points.size() != result.mesh.points.size())

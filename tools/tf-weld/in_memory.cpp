@@ -41,7 +41,7 @@ tf::mesh_file read_all(job& work) {
     warn_of_materials(work, files);
     tf::mesh_file all =
         files.size() == 1 ? std::move(files.front()) : join_files(std::move(files), names);
-    work.entry["precision_in"] = all.stored_as == tf::precision::single_ ? "float" : "double";
+    work.entry["precision_in"] = all.stored_as == tf::precision::float32 ? "float" : "double";
     for (const tf::io_warning& w : all.warnings) work.warn(w.code, w.text);
     return all;
 }

@@ -135,13 +135,13 @@ class joiner {
     void join_descriptions() {
         all_.format = files_.front().format;
         all_.attributes.header = files_.front().attributes.header;
-        all_.stored_as = tf::precision::single_;
+        all_.stored_as = tf::precision::float32;
         for (std::size_t i = 0; i < files_.size(); ++i) {
             const tf::mesh_file& file = files_[i];
             all_.indexed = all_.indexed && file.indexed;
             polygons_ = polygons_ || !file.stored_face.empty();
             parts_ = parts_ || !file.attributes.parts.empty();
-            if (file.stored_as == tf::precision::double_) all_.stored_as = tf::precision::double_;
+            if (file.stored_as == tf::precision::float64) all_.stored_as = tf::precision::float64;
             for (const tf::io_warning& w : file.warnings) warn(w.code, names_[i] + ": " + w.text);
             append_new(all_.attributes.comments, file.attributes.comments);
             append_new(all_.attributes.obj_info, file.attributes.obj_info);

@@ -61,7 +61,7 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     if (s.borders) return "--borders";
     if (s.keep_manifold) return "--keep-manifold";
     if (!conditions_of(header, s).empty()) return "--same";
-    if (work.options.precision == "float" && header.stored_as != tf::precision::single_)
+    if (work.options.precision == "float" && header.stored_as != tf::precision::float32)
         return "--precision float";
     return {};
 }

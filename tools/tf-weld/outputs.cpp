@@ -92,8 +92,8 @@ void check_formats(const job& work, const weld_request& request, const tf::mesh_
 
 tf::write_options write_options_for(const common_options& o, const written_form& form) {
     tf::write_options options{.format = form.format, .ascii = form.ascii};
-    if (o.precision == "float") options.precision = tf::precision::single_;
-    if (o.precision == "double") options.precision = tf::precision::double_;
+    if (o.precision == "float") options.precision = tf::precision::float32;
+    if (o.precision == "double") options.precision = tf::precision::float64;
     return options;
 }
 
@@ -227,7 +227,7 @@ void enter_output(job& work, const std::filesystem::path& path, const tf::write_
     work.entry["output"] = {
         {"file", path.string()},
         {"format", written.format},
-        {"precision_out", written.written_as == tf::precision::single_ ? "float" : "double"},
+        {"precision_out", written.written_as == tf::precision::float32 ? "float" : "double"},
         {"max_move", written.largest_move},
         {"within_tolerance", again ? json(*again) : json(nullptr)}};
 }

@@ -55,7 +55,7 @@ class giving_back {
           reader_(input, work.options.format),
           head_(reader_.header()),
           outputs_(work) {
-        head_.stored_as = survey.single ? tf::precision::single_ : tf::precision::double_;
+        head_.stored_as = survey.single ? tf::precision::float32 : tf::precision::float64;
         naming_outputs([&] { open_files(); });
         std::vector<fs::path> unfinished = outputs_.unfinished();
         if (map_ && !map_->folder().empty()) unfinished.push_back(map_->folder());

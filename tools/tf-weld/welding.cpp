@@ -133,7 +133,7 @@ std::optional<std::uint64_t> still_within(job& work, const tf::mesh_file& welded
     if (settings.borders || settings.keep_manifold) return std::nullopt;
     std::vector<tf::point3> rounded;
     tf::points_view points = welded.mesh.points;
-    if (written_as == tf::precision::single_ && !tf::fits_single(points)) {
+    if (written_as == tf::precision::float32 && !tf::fits_single(points)) {
         rounded = in_single(points);
         points = rounded;
     } else if (settings.keep == tf::weld_keep::first) {

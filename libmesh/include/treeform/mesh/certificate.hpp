@@ -25,6 +25,7 @@ enum class status : std::uint8_t {
     not_certified,   ///< faces still meet in the coordinates returned; `meeting` says which
     vanished,        ///< all of the result is thinner than the coordinates tell apart
     out_of_range,    ///< a coordinate of the result is beyond the numbers asked for
+    no_place,        ///< of a placement: there is no such place, and its `end` says why
     cancelled        ///< `progress` said stop; nothing is returned
 };
 

@@ -20,6 +20,19 @@ struct mesh_view {
     std::span<const face> faces;     ///< [F]
 };
 
+/// The numbers that coordinates are written as.
+enum class precision : std::uint8_t {
+    float32,  ///< as a binary STL holds them
+    float64   ///< doubles
+};
+
+/// Which corners of faces are one vertex, where it matters: whether a mesh is closed, and which of
+/// its faces hang together.
+enum class vertex_identity : std::uint8_t {
+    by_coordinates,  ///< equal coordinates: right also for files that repeat them, as STL does
+    by_index         ///< the same number
+};
+
 struct mesh {
     std::vector<point3> points;  ///< [V]
     std::vector<face> faces;     ///< [F]

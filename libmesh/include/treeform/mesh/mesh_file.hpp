@@ -13,8 +13,6 @@
 
 namespace treeform {
 
-enum class precision : std::uint8_t { single_, double_ };
-
 struct io_warning {
     std::string code;  ///< stable, for scripts: "trailing-bytes", "precision"
     std::string text;  ///< for people
@@ -29,8 +27,8 @@ struct mesh_file {
     std::vector<std::uint32_t> stored_face{};
     std::size_t stored_faces = 0;  ///< faces in the file
     bool indexed = true;           ///< the format numbers its vertices (STL does not)
-    /// single_: every coordinate is a float32 value, or was one before the transform of its node.
-    precision stored_as = precision::double_;
+    /// float32: every coordinate is a float32 value, or was one before the transform of its node.
+    precision stored_as = precision::float64;
     std::string format{};  ///< "stl-binary", "ply-ascii", "obj", ...
     std::vector<io_warning> warnings{};
     treeform::attributes attributes{};  ///< everything else that was read; see there

@@ -26,7 +26,7 @@ struct write_options {
 
 struct write_result {
     std::string format{};  ///< "stl-binary", "ply-ascii", "obj", ...
-    treeform::precision written_as = precision::double_;
+    treeform::precision written_as = precision::float64;
     double largest_move = 0.0;  ///< largest change of a coordinate by rounding to `written_as`
     std::vector<io_warning> warnings{};
 };
