@@ -3,13 +3,11 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_faces.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/align_steps.hpp>
+#include <treeform/mesh/align.hpp>
 #include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/closest_point_query.hpp>
-#include <treeform/mesh/align.hpp>
 #include <treeform/tree/parallel.hpp>
-
-#define EIGEN_MPL2_ONLY
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +20,14 @@
 namespace treeform {
 namespace {
 
+using detail::place::block;
+using detail::place::partner;
+using detail::place::share_of;
+using detail::place::similarity;
+using detail::place::sum_over;
+using detail::place::trim;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-/// Sums are of blocks of this many points, added up in order: the same on any number of threads.
-constexpr std::size_t block = 4096;
 
 void refuse(const std::string& what) { throw std::invalid_argument("treeform::align: " + what); }
 
@@ -85,25 +86,6 @@ struct frame {
     }
 };
 
-/// What is looked for: y = scale rotation x + shift.
-struct similarity {
-    double scale = 1.0;
-    Matrix3d rotation = Matrix3d::Identity();
-    Vector3d shift = Vector3d::Zero();
-
-    [[nodiscard]] Vector3d operator()(const Vector3d& x) const {
-        return scale * (rotation * x) + shift;
-    }
-};
-
-/// A moved point, its nearest fixed point, and the normal of the plane it is to come to: of the
-/// face there, or from an edge or corner that is nearest the direction to the moved point.
-struct partner {
-    Vector3d from, to, normal;
-    double distance;
-    std::size_t number;
-};
-
 /// The fixed side, scaled; points are faces of no area when there are no others.
 class target {
   public:
@@ -143,7 +125,7 @@ class target {
     }
 
     /// In the plane of a face but beside it, a point would be left there by the normal of the face.
-    /// On the surface, but for rounding, directions say nothing.
+    /// On the surface, except for rounding, directions say nothing.
     static partner with_plane(partner p) {
         const Vector3d off = p.from - p.to;
         if (p.distance > 1e-9 && std::abs(off.dot(p.normal)) < 0.999 * p.distance)
@@ -155,108 +137,6 @@ class target {
     std::vector<face> faces_;
     closest_point_query query_;
 };
-
-std::size_t share_of(double overlap, std::size_t count) {
-    return std::max<std::size_t>(
-        static_cast<std::size_t>(std::ceil(overlap * static_cast<double>(count) - 1e-9)), 1);
-}
-
-/// Leaves the nearest `count` partners, in the order of their points; of equals the first.
-void trim(std::vector<partner>& partners, std::size_t count) {
-    if (partners.size() <= count) return;
-    std::nth_element(partners.begin(), partners.begin() + static_cast<std::ptrdiff_t>(count),
-                     partners.end(), [](const partner& a, const partner& b) {
-                         return std::pair(a.distance, a.number) < std::pair(b.distance, b.number);
-                     });
-    partners.resize(count);
-    std::sort(partners.begin(), partners.end(),
-              [](const partner& a, const partner& b) { return a.number < b.number; });
-}
-
-/// The sum of `of(partner)` over all.
-template <class Sum, class Of>
-Sum sum_over(const std::vector<partner>& partners, Sum zero, const Of& of) {
-    std::vector<Sum> sums(chunk_count(partners.size(), block), zero);
-    for_chunks(partners.size(), block, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        for (std::size_t i = begin; i < end; ++i) sums[chunk] += of(partners[i]);
-    });
-    for (const Sum& s : sums) zero += s;
-    return zero;
-}
-
-Vector3d mean(const std::vector<partner>& partners, Vector3d partner::*of) {
-    const Vector3d sum =
-        sum_over(partners, Vector3d(Vector3d::Zero()), [of](const partner& p) { return p.*of; });
-    return sum / static_cast<double>(partners.size());
-}
-
-/// A step about a center: y' = center + scale rotation (y - center) + shift.
-similarity about(const Vector3d& center, similarity step) {
-    step.shift += center - step.scale * (step.rotation * center);
-    return step;
-}
-
-/// Least squares of the distances between partners. \source Umeyama (1991), equations 40 to 43
-similarity point_step(const std::vector<partner>& partners, bool scale) {
-    const Vector3d from = mean(partners, &partner::from), to = mean(partners, &partner::to);
-    Eigen::Matrix<double, 3, 4> sums = Eigen::Matrix<double, 3, 4>::Zero();
-    sums = sum_over(partners, sums, [&](const partner& p) {
-        Eigen::Matrix<double, 3, 4> one = Eigen::Matrix<double, 3, 4>::Zero();
-        one.leftCols<3>() = (p.to - to) * (p.from - from).transpose();
-        one(0, 3) = (p.from - from).squaredNorm();
-        return one;
-    });
-    const Eigen::JacobiSVD<Matrix3d> svd(sums.leftCols<3>(),
-                                         Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Vector3d signs(1.0, 1.0, 1.0);  // else flat points may come out mirrored
-    if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) signs.z() = -1.0;
-    similarity step;
-    step.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-    if (scale && sums(0, 3) > 0.0) step.scale = svd.singularValues().dot(signs) / sums(0, 3);
-    step.shift = to - from;
-    return about(from, step);
-}
-
-using row7 = Eigen::Matrix<double, 7, 1>;
-using system7 = Eigen::Matrix<double, 7, 8>;
-
-/// Least squares of the distances to the planes at the partners, of a motion taken as linear: a
-/// turn, a shift, and a growth if `scale`. Directions that change no distance stay as they are.
-similarity plane_step(const std::vector<partner>& partners, bool scale) {
-    const Vector3d center = mean(partners, &partner::from);
-    const system7 sums = sum_over(partners, system7(system7::Zero()), [&](const partner& p) {
-        const Vector3d arm = p.from - center;
-        row7 row;
-        row << arm.cross(p.normal), p.normal, scale ? arm.dot(p.normal) : 0.0;
-        system7 one;
-        one.leftCols<7>() = row * row.transpose();
-        one.col(7) = row * (p.to - p.from).dot(p.normal);
-        return one;
-    });
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 7, 7>> solver(sums.leftCols<7>());
-    const row7 values = solver.eigenvalues();
-    const row7 along = solver.eigenvectors().transpose() * sums.col(7);
-    row7 x = row7::Zero();
-    for (int i = 0; i < 7; ++i)
-        if (values(i) > 1e-10 * values(6)) x += along(i) / values(i) * solver.eigenvectors().col(i);
-    similarity step;
-    const Vector3d turn = x.head<3>();
-    const double angle = turn.norm();
-    if (angle > 0.0) step.rotation = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-    step.shift = x.segment<3>(3);
-    step.scale = std::max(1.0 + x(6), 0.1);
-    return about(center, step);
-}
-
-/// First `map`, then `step`; the rotation is made one again, since roundings add up.
-similarity after(const similarity& step, const similarity& map) {
-    similarity both;
-    both.scale = step.scale * map.scale;
-    both.rotation =
-        Eigen::Quaterniond(step.rotation * map.rotation).normalized().toRotationMatrix();
-    both.shift = step(map.shift);
-    return both;
-}
 
 /// How good a place is: the mean of the squared distances that count, each no more than the
 /// largest allowed, and what the result says of it.
@@ -312,10 +192,10 @@ search_result search(const target& fixed, const std::vector<Vector3d>& samples,
         if (!work.step(0.2, 0.8, i, 10.0)) return best;
         trim(partners, share_of(o.overlap, samples.size()));
         if (partners.empty()) return best;
-        const similarity step =
-            planes ? plane_step(partners, o.scale) : point_step(partners, o.scale);
+        const similarity step = planes ? detail::place::plane_step(partners, o.scale)
+                                       : detail::place::point_step(partners, o.scale);
         if (!step.shift.allFinite() || !step.rotation.allFinite()) return best;
-        map = after(step, map);
+        map = detail::place::after(step, map);
         best.converged = displacement(step) <= o.tolerance;
     }
 }

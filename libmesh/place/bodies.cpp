@@ -87,9 +87,9 @@ file_bodies whole_body(const mesh_file& file) {
     found.left_out = all - usable.size();
     if (usable.empty()) return found;
     file_body& body = found.bodies.emplace_back();
-    found.shapes.push_back(
-        found.cloud ? cloud_of(file.mesh, usable)
-                    : prepared_mesh(join_equal_points(select_faces(file.mesh, usable))));
+    found.shapes.push_back(found.cloud
+                               ? cloud_of(file.mesh, usable)
+                               : prepared_mesh(join_equal_points(select_faces(file.mesh, usable))));
     if (usable.size() < all) body.triangle_of_face = std::move(usable);
     return found;
 }
@@ -131,8 +131,7 @@ void put_back(mesh_file& file, const file_body& body, const prepared_mesh& shape
             points[t] = placed[f];
             continue;
         }
-        for (std::size_t i = 0; i < 3; ++i)
-            points[file.mesh.faces[t][i]] = placed[faces[f][i]];
+        for (std::size_t i = 0; i < 3; ++i) points[file.mesh.faces[t][i]] = placed[faces[f][i]];
     }
 }
 

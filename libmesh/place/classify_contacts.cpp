@@ -22,11 +22,10 @@ void mark(contact_class& present, contact_class one) {
 }
 
 void mark_meeting(const shape& placed, const shape& part, classes& a, classes& b) {
-    const auto found =
-        mesh_intersections(placed.mesh(), placed.faces(), part.mesh(), part.faces());
+    const auto found = mesh_intersections(placed.mesh(), placed.faces(), part.mesh(), part.faces());
     for (const face_pair& pair : found.pairs) {
-        const contact_class one = pair.kind == pair_kind::crossing ? contact_class::penetrating
-                                                                   : contact_class::touching;
+        const contact_class one =
+            pair.kind == pair_kind::crossing ? contact_class::penetrating : contact_class::touching;
         mark(a[pair.a], one);
         mark(b[pair.b], one);
     }
@@ -81,8 +80,8 @@ void mark_contacts(mesh_view placed, std::span<const prepared_mesh> fixed, const
 
 }  // namespace
 
-contact_classes classify_contacts(const prepared_mesh& moving,
-                                  std::span<const prepared_mesh> fixed, const placement& at) {
+contact_classes classify_contacts(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
+                                  const placement& at) {
     const mesh_view here = moving.view();
     const mesh_view there{at.points, here.faces};
     std::optional<tree<3>> own;
@@ -96,8 +95,7 @@ contact_classes classify_contacts(const prepared_mesh& moving,
         if (!box || !other || !detail::place::within(*box, *other, at.clearance)) continue;
         const shape part(fixed[i]);
         found.fixed[i].resize(part.mesh().faces.size());
-        if (at.clearance > 0.0)
-            mark_near(placed, part, at.clearance, found.moving, found.fixed[i]);
+        if (at.clearance > 0.0) mark_near(placed, part, at.clearance, found.moving, found.fixed[i]);
         mark_meeting(placed, part, found.moving, found.fixed[i]);
     }
     mark_contacts(there, fixed, at, found);

@@ -14,9 +14,7 @@ point3 cross(const point3& a, const point3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-point3 minus(const point3& a, const point3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
+point3 minus(const point3& a, const point3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
 /// Of length 1; 0 where there is no direction.
 point3 unit(const point3& v) {
@@ -30,9 +28,7 @@ triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
     return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
 }
 
-point3 normal_of(const triangle3& t) {
-    return unit(cross(minus(t[1], t[0]), minus(t[2], t[0])));
-}
+point3 normal_of(const triangle3& t) { return unit(cross(minus(t[1], t[0]), minus(t[2], t[0]))); }
 
 /// Along an edge; 0 where the feature is none.
 point3 edge_of(const triangle3& t, feature on) {
@@ -50,7 +46,7 @@ point3 edge_of(const triangle3& t, feature on) {
 
 /// Of the plane in which the features meet; on the side that the motion comes from.
 point3 contact_normal(const triangle3& moving, const triangle3& fixed, contact at,
-                          const point3& motion) {
+                      const point3& motion) {
     point3 normal = unit(cross(edge_of(moving, at.on_a), edge_of(fixed, at.on_b)));
     if (normal == point3{} && at.on_a == feature::interior) normal = normal_of(moving);
     if (normal == point3{}) normal = normal_of(fixed);
@@ -66,12 +62,11 @@ std::vector<placement_contact> contacts_of(const shape& moving, const chosen_par
                                            const sweep_result& met, const point3& motion) {
     std::vector<placement_contact> rows;
     for (const sweep_meeting& c : met.contacts) {
-        const point3 normal =
-            contact_normal(triangle_of(moving.mesh(), c.where.face_a),
-                           triangle_of(parts.parts[c.part].mesh(), c.where.face_b), c.where.at,
-                           motion);
-        rows.push_back({c.where.point, normal, c.where.face_a, c.where.face_b,
-                        parts.number[c.part]});
+        const point3 normal = contact_normal(
+            triangle_of(moving.mesh(), c.where.face_a),
+            triangle_of(parts.parts[c.part].mesh(), c.where.face_b), c.where.at, motion);
+        rows.push_back(
+            {c.where.point, normal, c.where.face_a, c.where.face_b, parts.number[c.part]});
     }
     return rows;
 }

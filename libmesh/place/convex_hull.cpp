@@ -25,7 +25,7 @@ void check_points(points_view points) {
 }
 
 /// The point of the highest score for which `holds`: asked of the highest alone at first, since it
-/// is the one but for rounding; the lowest number of equals. None when it holds for no point.
+/// is the one except for rounding; the lowest number of equals. None when it holds for no point.
 template <class Score, class Holds>
 std::optional<std::uint32_t> best_point(std::size_t count, const Score& score, const Holds& holds) {
     std::uint32_t best = 0;

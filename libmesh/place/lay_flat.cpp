@@ -37,7 +37,8 @@ void check(mesh_view mesh, const lay_flat_options& options) {
     if (!(options.tolerance >= 0.0) || std::isinf(options.tolerance))
         throw std::invalid_argument("treeform::lay_flat: the tolerance is negative or not finite");
     if (!std::isfinite(options.bed) || !detail::base::is_finite(options.toward))
-        throw std::invalid_argument("treeform::lay_flat: the bed, direction or point is not finite");
+        throw std::invalid_argument(
+            "treeform::lay_flat: the bed, direction or point is not finite");
     if (options.choose == lay_choice::nearest_normal && options.toward == point3{})
         throw std::invalid_argument("treeform::lay_flat: the direction is zero");
 }
@@ -339,7 +340,8 @@ void put_down(laid_flat& laid, mesh_view mesh, const std::vector<std::uint32_t>&
         if (options.precision == precision::float32)
             for (std::size_t k = 0; k < 3; ++k) q[k] = detail::base::nearest_float(q[k]);
         if (!detail::base::is_finite(q))
-            throw std::overflow_error("treeform::lay_flat: the coordinates are too large to be turned");
+            throw std::overflow_error(
+                "treeform::lay_flat: the coordinates are too large to be turned");
         laid.points.push_back(q);
     }
     for (const std::uint32_t i : ids) {

@@ -115,8 +115,8 @@ std::optional<mesh_measure> detail::place::measure_of(const shape& of_a, const s
         }
     }
     const bool separate = result.relation.relation == mesh_relation::separate;
-    const auto nearest = mesh_distance(
-        a, of_a.faces(), b, of_b.faces(), separate ? radius : std::numeric_limits<double>::infinity());
+    const auto nearest = mesh_distance(a, of_a.faces(), b, of_b.faces(),
+                                       separate ? radius : std::numeric_limits<double>::infinity());
     work.reach(1.0);
     if (!nearest) return std::nullopt;
     result.surface_distance = nearest->distance;

@@ -26,7 +26,7 @@ struct move_apart {
 };
 
 struct moves_apart {
-    std::vector<move_apart> moves{};  ///< the shortest first
+    std::vector<move_apart> moves{};                 ///< the shortest first
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: `moves` is empty
 };
 
@@ -36,10 +36,10 @@ struct moves_apart {
 /// The directions tried are the six of the axes, those of the line between the nearest points, the
 /// normals of faces that meet, their sum, and the way of a walk that steps out of the reach of the
 /// nearest part until none is; then others around the best, ever closer to it. In each, some places
-/// from near to far are looked at; from the first free one the mesh slides back, as `sweep_among` does,
-/// until contact or to the clearance. That need not be the least translation in a direction, nor
-/// the best of all directions, which is a boundary point of a set with O(n^2 m^2) faces. At least
-/// one is given: along an axis, past all boxes.
+/// from near to far are looked at; from the first free one the mesh slides back, as `sweep_among`
+/// does, until contact or to the clearance. That need not be the least translation in a direction,
+/// nor the best of all directions, which is a boundary point of a set with O(n^2 m^2) faces. At
+/// least one is given: along an axis, past all boxes.
 ///
 /// The places are those of exact translations except for rounding: `settle_among`, backing off
 /// `forward`, decides in the coordinates that are written.

@@ -79,8 +79,8 @@ bool is_new(const shape& s, const candidate& c) {
                         [&](const candidate& other) { return other.cells == c.cells; });
 }
 
-std::vector<shape> shapes_of(std::span<const mesh_view> parts, const pack_options& o,
-                             double cell, const progress_callback& progress) {
+std::vector<shape> shapes_of(std::span<const mesh_view> parts, const pack_options& o, double cell,
+                             const progress_callback& progress) {
     const std::vector<unsigned> turns = turns_of(o.turns);
     std::vector<candidate> all(parts.size() * turns.size());
     detail::base::work_progress work(progress);

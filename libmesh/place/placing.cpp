@@ -40,8 +40,7 @@ point3 in_range_of_doubles(const point3& direction) {
 void check(const placing_options& o) {
     if (!(o.clearance >= 0.0) || !std::isfinite(o.clearance))
         refuse(o, "the clearance is negative or not finite");
-    if (o.max_travel && !(*o.max_travel >= 0.0))
-        refuse(o, "the largest travel is negative or NaN");
+    if (o.max_travel && !(*o.max_travel >= 0.0)) refuse(o, "the largest travel is negative or NaN");
     if (o.bed && !std::isfinite(not_below(*o.bed + o.clearance, o.precision)))
         refuse(o, "no coordinate that can be written is as high as the bed");
 }
@@ -149,9 +148,8 @@ void placing::stay() { settle({}, {0.0, 0.0, -1.0}, 0.0, placement_end::stays); 
 /// Writes the place down: `end` is what it is then, if it can be written.
 void placing::settle(const chosen_parts& known, const point3& motion, double time,
                      placement_end end, bool forward, bool close_in) {
-    const chosen_parts parts = known.parts.empty()
-                                   ? among_.on_the_way(*box_, motion, time, options_.clearance)
-                                   : known;
+    const chosen_parts parts =
+        known.parts.empty() ? among_.on_the_way(*box_, motion, time, options_.clearance) : known;
     settle_among_options options{.precision = options_.precision,
                                  .clearance = options_.clearance,
                                  .forward = forward,
@@ -242,8 +240,7 @@ void placing::mate() {
     const mesh_measure near = result_.nearest->how;
     const point3 way = way_between(near);
     if (way == point3{}) return stay();
-    const chosen_parts parts =
-        among_.on_the_way(*box_, way, 1.0 + 0x1p-20, options_.clearance);
+    const chosen_parts parts = among_.on_the_way(*box_, way, 1.0 + 0x1p-20, options_.clearance);
     result_.statistics.fixed_culled = among_.size() - parts.parts.size();
     const mate_motion found = motion_to_mate(near, moving_, parts.parts,
                                              {.clearance = options_.clearance,
@@ -262,9 +259,8 @@ void placing::mate() {
 }
 
 void placing::separate() {
-    const bool near =
-        result_.at_start == standing::penetrating ||
-        (options_.clearance > 0.0 && result_.at_start != standing::clear);
+    const bool near = result_.at_start == standing::penetrating ||
+                      (options_.clearance > 0.0 && result_.at_start != standing::clear);
     if (!near) return stay();
     // The way out of what is near, if nothing else is there; else out of more.
     double reach = options_.clearance;
@@ -275,8 +271,8 @@ void placing::separate() {
         if (!placed()) return;
         const box3 there = *box_of_faces({result_.points, whose_.view().faces});
         if (!among_.others_around(there, options_.clearance, parts)) return;
-        reach = std::max(
-            {2.0 * reach, result_.travel + options_.clearance, diagonal(*box_) * 0x1p-6});
+        reach =
+            std::max({2.0 * reach, result_.travel + options_.clearance, diagonal(*box_) * 0x1p-6});
         forget_place();
     }
 }
@@ -324,8 +320,8 @@ void placing::look_at_place() {
     if (moved) {
         if (!among_.empty()) {
             const box3 box = *box_of_faces(there);
-            result_.nearest = among_.nearest(at, box, radius(diagonal(box) * 0x1p-10),
-                                             work_.part(0.85, 1.0));
+            result_.nearest =
+                among_.nearest(at, box, radius(diagonal(box) * 0x1p-10), work_.part(0.85, 1.0));
             over();
         }
         result_.at_place = standing_of(result_.nearest);

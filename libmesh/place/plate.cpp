@@ -194,14 +194,13 @@ double plate::next_above(double below) const {
     const auto written = [&](double x) { return single_ ? base::nearest_float(x) : x; };
     double at = written(below + options_.spacing);
     while (compare_difference(at, below, options_.spacing) < 0)
-        at = single_
-                 ? static_cast<double>(std::nextafter(static_cast<float>(at),
-                                                      std::numeric_limits<float>::infinity()))
-                 : std::nextafter(at, std::numeric_limits<double>::infinity());
+        at = single_ ? static_cast<double>(std::nextafter(static_cast<float>(at),
+                                                          std::numeric_limits<float>::infinity()))
+                     : std::nextafter(at, std::numeric_limits<double>::infinity());
     return at;
 }
 
-/// A slide ends where rounding has it. Where that is, but for rounding, the spacing above the box
+/// A slide ends where rounding has it. Where that is, except for rounding, the spacing above the box
 /// of a part, it is to be that exactly: so that rows of boxes are as long as they should be.
 double plate::snapped(double at, std::size_t axis) const {
     for (const resident& r : residents_) {
@@ -227,9 +226,9 @@ void plate::slide(const turned_part& part, const tree<3>& faces_tree, point3& by
 
 bool plate::put(std::uint32_t number, mesh_view mesh, unsigned turn, cell_place place) {
     const turned_part part(mesh, turn);
-    const point3 raster_place{
-        options_.corner.x + place.column * cell_, options_.corner.y + place.row * cell_,
-        not_below(options_.corner.z, options_.precision)};
+    const point3 raster_place{options_.corner.x + place.column * cell_,
+                              options_.corner.y + place.row * cell_,
+                              not_below(options_.corner.z, options_.precision)};
     const auto settle = [&](const point3& by) {
         resident one = this->at(number, part, by);
         if (!inside(one.box)) return false;

@@ -3,9 +3,9 @@
 /// A plate with parts on it, each checked against those that were there before.
 
 #include <libmesh/place/plate_raster.hpp>
-#include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/pack.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <array>

@@ -37,8 +37,7 @@ std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
     options.first_only = true;
     options.kinds = only(pair_kind::crossing);
     options.progress = progress;
-    const auto crossing =
-        mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), options);
+    const auto crossing = mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), options);
     if (!crossing.pairs.empty()) return crossing.pairs[0];
     return std::nullopt;
 }

@@ -20,7 +20,12 @@ class settling {
   public:
     settling(const prepared_mesh& a, std::span<const shape> parts, const point3& motion,
              const settle_among_options& options)
-        : whose_(a), a_(a.view()), parts_(parts), motion_(motion), options_(options), work_(options_.progress) {
+        : whose_(a),
+          a_(a.view()),
+          parts_(parts),
+          motion_(motion),
+          options_(options),
+          work_(options_.progress) {
         for (const shape& part : parts) boxes_.push_back(bounding_box(part.mesh().points));
     }
 
@@ -98,8 +103,8 @@ class settling {
             if (!faces) faces = face_tree(there);
             const shape moved(whose_, one.points, *faces, part.vertices());
             const mesh_relation how = relation_of(moved, part, go_on).relation;
-            const bool near = how == mesh_relation::separate && options_.clearance > 0.0 &&
-                              nearer(moved, part);
+            const bool near =
+                how == mesh_relation::separate && options_.clearance > 0.0 && nearer(moved, part);
             const bool too_near = how == mesh_relation::penetrating || near ||
                                   (options_.clearance > 0.0 && how == mesh_relation::touching);
             if (how > one.relation || (too_near && one.good && how == one.relation)) one.part = i;
@@ -130,24 +135,20 @@ void check(const point3& motion, double time, const settle_among_options& option
     for (std::size_t k = 0; k < 3; ++k)
         speed = std::isnan(motion[k]) ? motion[k] : std::max(speed, std::abs(motion[k]));
     if (!(std::isfinite(speed) && speed > 0.0) || !(time >= 0.0) || !std::isfinite(time))
-        throw std::invalid_argument(
-            "treeform: the motion or the time is not finite, or zero");
+        throw std::invalid_argument("treeform: the motion or the time is not finite, or zero");
     if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
-        throw std::invalid_argument(
-            "treeform: the clearance is negative or not finite");
+        throw std::invalid_argument("treeform: the clearance is negative or not finite");
 }
 
 }  // namespace
 
 settled_among settle_among(const prepared_mesh& a, std::span<const shape> parts,
-                           const point3& motion, double time,
-                           const settle_among_options& options) {
+                           const point3& motion, double time, const settle_among_options& options) {
     check(motion, time, options);
     settling place(a, parts, motion, options);
     settled_among best = place.at(time, true);
     if (!base::all_finite(best.points))
-        throw std::overflow_error(
-            "treeform: the coordinates at the place are too large");
+        throw std::overflow_error("treeform: the coordinates at the place are too large");
     const double unit = place.unit_of_time(best.points);
     const auto closed_in = [&](settled_among found) {
         const bool wanted = options.close_in && !options.forward && !(options.clearance > 0.0);

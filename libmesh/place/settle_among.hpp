@@ -19,7 +19,7 @@ namespace treeform::detail::place {
 
 struct settle_among_options {
     treeform::precision precision = treeform::precision::float64;  ///< of the coordinates returned
-    double clearance = 0.0;  ///< the least distance to the parts, as `mesh_distance` computes it
+    double clearance = 0.0;  ///< the least distance to the parts, as `distance` computes it
     /// Where given, a level that the mesh stays above. What would come to lie below it is put on
     /// it, and so are, at the time asked for, its lowest points, when these come to lie within 4
     /// units in the last place of the largest z, before or after: then the mesh rests on it
@@ -41,7 +41,7 @@ struct settled_among {
     bool good = false;             ///< nothing is penetrated, all clearances are kept
     /// Of what `points` holds to the parts, the closest: penetrating, else touching, else separate.
     mesh_relation relation = mesh_relation::separate;
-    std::size_t part = 0;    ///< the lowest part of that relation, or one nearer than the clearance
+    std::size_t part = 0;  ///< the lowest part of that relation, or one nearer than the clearance
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
 };
 

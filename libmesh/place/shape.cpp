@@ -24,8 +24,7 @@ const std::vector<face>& joined_corners(const prepared_mesh& mesh) {
         const equal_points equal = find_equal_points(given.points);
         if (equal.first_of_new.size() == given.points.size()) return faces;
         for (face& f : faces)
-            for (std::uint32_t& corner : f)
-                corner = equal.first_of_new[equal.new_of_old[corner]];
+            for (std::uint32_t& corner : f) corner = equal.first_of_new[equal.new_of_old[corner]];
         return faces;
     });
 }
@@ -51,6 +50,11 @@ void check_operand(const std::string& function, const std::string& operand, mesh
             if (!base::is_finite(mesh.points[corner]))
                 throw std::invalid_argument("treeform::" + name + ": face " + std::to_string(f) +
                                             " has a corner that is not finite");
+}
+
+void check_motion(const std::string& function, const point3& motion) {
+    if (!base::is_finite(motion) || motion == point3{})
+        throw std::invalid_argument("treeform::" + function + ": the motion is zero or not finite");
 }
 
 std::optional<box3> box_of_faces(mesh_view mesh) {

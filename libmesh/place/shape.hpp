@@ -51,6 +51,9 @@ class shape {
 ///         not finite; `function` is "slide", the message "treeform::slide: fixed 3: face 5 ..."
 void check_operand(const std::string& function, const std::string& operand, mesh_view mesh);
 
+/// \throws std::invalid_argument for a motion that is zero or not finite
+void check_motion(const std::string& function, const point3& motion);
+
 /// The box of the points that faces use; none without faces.
 [[nodiscard]] std::optional<box3> box_of_faces(mesh_view mesh);
 

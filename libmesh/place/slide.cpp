@@ -113,8 +113,7 @@ placement separate(mesh_view moving, mesh_view fixed, const separate_options& op
     return separate(prepared_mesh::borrow(moving), one(from), options);
 }
 
-placement measure_among(const prepared_mesh& moving, many fixed,
-                        const measure_among_options& o) {
+placement measure_among(const prepared_mesh& moving, many fixed, const measure_among_options& o) {
     placing work(moving, fixed,
                  {.function = "measure_among",
                   .clearance = o.clearance,

@@ -24,13 +24,14 @@ struct part_end {
 part_end end_at(const shape& a, const shape& part, const point3& motion, double latest,
                 const sweep_options& options, const progress_callback& progress) {
     if (options.clearance > 0.0) {
-        auto one = approach_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion, options.clearance,
-                                  {.latest = latest, .limit = options.limit, .progress = progress});
+        auto one =
+            approach_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion, options.clearance,
+                        {.latest = latest, .limit = options.limit, .progress = progress});
         return {one.end,           one.time,         {}, std::move(one.contacts),
                 one.contact_count, one.pairs_tested, {}};
     }
     auto one = impact_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion,
-                             {.latest = latest, .limit = options.limit, .progress = progress});
+                         {.latest = latest, .limit = options.limit, .progress = progress});
     return {one.end,           one.time,         one.exact,     std::move(one.contacts),
             one.contact_count, one.pairs_tested, one.predicates};
 }

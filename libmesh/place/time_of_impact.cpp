@@ -132,6 +132,7 @@ impact time_of_impact(const prepared_mesh& a, const prepared_mesh& b, const poin
                       const impact_options& options) {
     detail::place::check_operand("time_of_impact", "a", a.view());
     detail::place::check_operand("time_of_impact", "b", b.view());
+    detail::place::check_motion("time_of_impact", motion);
     return detail::place::impact_of(a.view(), face_tree(a), b.view(), face_tree(b), motion,
                                     options);
 }

@@ -84,7 +84,8 @@ approach detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_vie
         throw std::invalid_argument(
             "treeform::time_to_distance: the distance is not positive or infinite");
     if (!(options.latest >= 0.0))
-        throw std::invalid_argument("treeform::time_to_distance: the latest time is negative or NaN");
+        throw std::invalid_argument(
+            "treeform::time_to_distance: the latest time is negative or NaN");
     approach result;
     const auto near = mesh_distance(a, tree_a, b, tree_b, distance);
     detail::base::work_progress work(options.progress);
@@ -138,6 +139,7 @@ approach time_to_distance(const prepared_mesh& a, const prepared_mesh& b, const 
                           double distance, const approach_options& options) {
     detail::place::check_operand("time_to_distance", "a", a.view());
     detail::place::check_operand("time_to_distance", "b", b.view());
+    detail::place::check_motion("time_to_distance", motion);
     return detail::place::approach_of(a.view(), face_tree(a), b.view(), face_tree(b), motion,
                                       distance, options);
 }

@@ -18,8 +18,8 @@ rounding_effects effects_of_rounding(const prepared_mesh& mesh, const transform<
     found.step = coordinate_step(placed, is_single);
     const auto box = bounding_box(moving.points);
     found.noticeable =
-        found.max_displacement > 0.0 && ((is_single && !was_single) ||
-                                         found.max_displacement > 1e-6 * (box ? diagonal(*box) : 0));
+        found.max_displacement > 0.0 &&
+        ((is_single && !was_single) || found.max_displacement > 1e-6 * (box ? diagonal(*box) : 0));
     const bool coarser = found.step > coordinate_step(moving.points, was_single);
     if (!coarser || !(found.max_displacement > 0.0) || mesh.is_cloud()) return found;
     const rounding_harm harm = harm_of_rounding(moving, placed, options.progress);

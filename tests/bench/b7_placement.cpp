@@ -136,31 +136,31 @@ contest contact_beside_distance(const setting& setting, const scene_name& name) 
                     .unit = per_pose(name.poses),
                     .with_memory = false,
                     .long_runs = 3};
-    contest.contestants.push_back(
-        {"treeform", 1, [=] {
-             const auto p = prepare();
-             return make_job([p] {
-                 std::size_t met = 0;
-                 for (const transform<3>& pose : p->given->apart)
-                     met += time_of_impact(p->b, p->a, towards_first(*p->given, pose),
-                                           {.move_a = pose})
-                                .end == motion_end::contact;
-                 return met;
-             });
-         }});
-    contest.contestants.push_back({"treeform one distance", 1, [=] {
+    contest.contestants.push_back({"treeform", 1, [=] {
                                        const auto p = prepare();
                                        return make_job([p] {
-                                           double sum = 0.0;
+                                           std::size_t met = 0;
                                            for (const transform<3>& pose : p->given->apart)
-                                               sum += mesh_distance(*p->given->a, face_tree(p->a),
-                                                                    *p->given->b,
-                                                                    transformed<3>(face_tree(p->b), pose))
-                                                          .value()
-                                                          .distance;
-                                           return sum;
+                                               met += time_of_impact(p->b, p->a,
+                                                                     towards_first(*p->given, pose),
+                                                                     {.move_a = pose})
+                                                          .end == motion_end::contact;
+                                           return met;
                                        });
                                    }});
+    contest.contestants.push_back(
+        {"treeform one distance", 1, [=] {
+             const auto p = prepare();
+             return make_job([p] {
+                 double sum = 0.0;
+                 for (const transform<3>& pose : p->given->apart)
+                     sum += mesh_distance(*p->given->a, face_tree(p->a), *p->given->b,
+                                          transformed<3>(face_tree(p->b), pose))
+                                .value()
+                                .distance;
+                 return sum;
+             });
+         }});
     return contest;
 }
 

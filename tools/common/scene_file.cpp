@@ -78,8 +78,7 @@ void append_texture_numbers(tf::mesh_file& scene, const tf::mesh_file& one, std:
 
 }  // namespace
 
-tf::mesh_file scene_of(job& work, std::span<const scene_input> inputs,
-                       const std::string& format) {
+tf::mesh_file scene_of(job& work, std::span<const scene_input> inputs, const std::string& format) {
     tf::mesh_file scene;
     scene.format = inputs[0].file->format;
     scene.stored_as = inputs[0].file->stored_as;

@@ -14,9 +14,8 @@ namespace tools {
 namespace {
 
 /// Calls the verb of the mode.
-tf::placement place_by_verb(const body_set& moving, const body_set& fixed,
-                            const place_settings& s, tf::precision precision,
-                            const tf::progress_callback& progress) {
+tf::placement place_by_verb(const body_set& moving, const body_set& fixed, const place_settings& s,
+                            tf::precision precision, const tf::progress_callback& progress) {
     const tf::prepared_mesh& mesh = moving.shapes[0];
     const double diagonal = tf::diagonal(*moving.bodies[0].box);
     const double clearance = s.clearance.used(diagonal);

@@ -63,8 +63,8 @@ void color_scene(tf::mesh_file& file, const body& moving, const body_set& fixed,
     for (std::size_t i = 0; i < fixed.bodies.size(); ++i) {
         const body& b = fixed.bodies[i];
         enter_classes(of_file, b, found.fixed[i]);
-        const bool last = i + 1 == fixed.bodies.size() ||
-                          fixed.bodies[i + 1].file_number != b.file_number;
+        const bool last =
+            i + 1 == fixed.bodies.size() || fixed.bodies[i + 1].file_number != b.file_number;
         if (!last) continue;
         if (!b.cloud) all.insert(all.end(), of_file.begin(), of_file.end());
         of_file.clear();
@@ -148,8 +148,7 @@ tf::rounding_effects look_at_rounding(job& work, const body_set& moving, std::si
     return found;
 }
 
-void enter_rounding(job& work, std::span<const tf::rounding_effects> all,
-                    tf::precision precision) {
+void enter_rounding(job& work, std::span<const tf::rounding_effects> all, tf::precision precision) {
     tf::rounding_effects sum;
     for (const tf::rounding_effects& one : all) {
         sum.max_displacement = std::max(sum.max_displacement, one.max_displacement);
@@ -188,9 +187,10 @@ void write_result(job& work, body_set& moving, const outcome& found, const body_
     const tf::placement& p = found.at;
     const bool picture = settings.mode == place_mode::measure;
     if (!picture)
-        enter_rounding(work, std::array{look_at_rounding(work, moving, 0, p.matrix, p.points,
-                                                         found.precision)},
-                       found.precision);
+        enter_rounding(
+            work,
+            std::array{look_at_rounding(work, moving, 0, p.matrix, p.points, found.precision)},
+            found.precision);
     if (work.options.dry_run) return;
     const written_form form = form_of(work, *one.file, *path);
     // `fit` looks at no faces, and without fixed meshes there is nothing to meet.

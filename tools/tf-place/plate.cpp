@@ -66,10 +66,9 @@ exit_status arrange_all(job& work, const place_settings& settings) {
     const tf::transform<3> start =
         settings.start.empty() ? tf::transform<3>{} : read_matrix(settings.start);
     body_set parts = read_all(work, start);
-    const bool all_single =
-        std::all_of(parts.bodies.begin(), parts.bodies.end(), [&](const body& b) {
-            return precision_of(work, *b.file) == tf::precision::float32;
-        });
+    const bool all_single = std::all_of(
+        parts.bodies.begin(), parts.bodies.end(),
+        [&](const body& b) { return precision_of(work, *b.file) == tf::precision::float32; });
     const auto precision = all_single ? tf::precision::float32 : tf::precision::float64;
     const tf::packing found = find_places(work, parts, settings, precision);
 
@@ -84,8 +83,7 @@ exit_status arrange_all(job& work, const place_settings& settings) {
         matrix_lines += matrix_text(matrices[i]);
         if (!at.placed) continue;
         if (wants_mesh(work.options))
-            roundings.push_back(
-                look_at_rounding(work, parts, i, at.matrix, at.points, precision));
+            roundings.push_back(look_at_rounding(work, parts, i, at.matrix, at.points, precision));
         put_back(parts, i, at.points, at.matrix, matrices[i], precision);
     }
     enter_places(work, parts, found, matrices);

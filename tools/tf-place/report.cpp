@@ -43,8 +43,7 @@ void enter_nearest(json& entry, const body& moving, const tf::nearest_fixed& nea
     there["name"] = name_entry(part);
     entry["distance"] = near.how.distance;
     entry["surface_distance"] = near.how.surface_distance;
-    entry["closest"] = {{"moving", side_entry(moving, near.how.on_a)},
-                        {"fixed", std::move(there)}};
+    entry["closest"] = {{"moving", side_entry(moving, near.how.on_a)}, {"fixed", std::move(there)}};
     const tf::mesh_relation_result& how = near.how.relation;
     if (how.a_inside_b || how.b_inside_a) entry["inside"] = how.a_inside_b ? "moving" : "fixed";
 }

@@ -39,7 +39,7 @@ struct place_settings {
     bool size_given = false;
     bool arrange_options_given = false;
     tf::lay_flat_options lay{};  ///< which side, and the spin
-    int sides_chosen = 0;   ///< options given that choose a side
+    int sides_chosen = 0;        ///< options given that choose a side
     /// Flat faces that were turned and rounded, to float32 mostly, are one side of the hull again.
     distance flatness{.given = "0.0001%", .value = 1e-6, .relative = true};
     bool flatness_given = false;

@@ -1,6 +1,5 @@
-#include "tools/tf-place/move.hpp"
-
 #include "tools/common/console.hpp"
+#include "tools/tf-place/move.hpp"
 #include <treeform/tf.hpp>
 
 namespace tools {

@@ -2,9 +2,9 @@
 /// Clouds of points among meshes: related, measured, slid and settled like these.
 
 #include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/point_faces.hpp>
 #include <treeform/mesh/closest_point_query.hpp>
 #include <treeform/mesh/measure.hpp>
-#include <libmesh/base/point_faces.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/separate.hpp>
 #include <treeform/mesh/slide.hpp>
@@ -37,11 +37,11 @@ tf::mesh cloud(std::vector<tf::point3> points) {
 }
 
 tf::mesh random_cloud(test::random& source, std::size_t count, double size,
-                      const tf::point3& centre) {
+                      const tf::point3& center) {
     std::vector<tf::point3> points;
     for (std::size_t i = 0; i < count; ++i)
-        points.push_back({centre.x + source.in(-size, size), centre.y + source.in(-size, size),
-                          centre.z + source.in(-size, size)});
+        points.push_back({center.x + source.in(-size, size), center.y + source.in(-size, size),
+                          center.z + source.in(-size, size)});
     return cloud(std::move(points));
 }
 
@@ -168,16 +168,15 @@ TEST_CASE("clouds: what has been slid or separated penetrates nothing as written
         for (const auto precision : {tf::precision::float64, tf::precision::float32}) {
             const auto moving = tf::prepared_mesh::borrow_cloud(above.points);
             CHECK(moving.is_cloud());
-            const auto slid =
-                tf::slide(moving, fixed, {0.1, 0, -1}, {.precision = precision});
+            const auto slid = tf::slide(moving, fixed, {0.1, 0, -1}, {.precision = precision});
             REQUIRE(slid);
             CHECK(slid.end == tf::placement_end::contact);
             CHECK(relation_by_points(cloud(slid.points), solid) != mesh_relation::penetrating);
             CHECK(std::abs(slid.travel / std::hypot(0.1, 1.0) - time) < 1e-5);
         }
         const tf::mesh within = random_cloud(source, 40, 0.4, {0.5, 0.1, 0.2});
-        const auto out = tf::separate(tf::prepared_mesh::cloud(std::vector(within.points)),
-                                      {&fixed, 1});
+        const auto out =
+            tf::separate(tf::prepared_mesh::cloud(std::vector(within.points)), {&fixed, 1});
         REQUIRE(out);
         CHECK(out.end == tf::placement_end::moved_apart);
         CHECK(relation_by_points(cloud(out.points), solid) != mesh_relation::penetrating);

@@ -73,7 +73,8 @@ void check(const tf::mesh& mesh, const tf::laid_flat& laid, const tf::lay_flat_o
         CHECK(std::binary_search(laid.on_bed.begin(), laid.on_bed.end(), i) == on_bed);
         CHECK(distance(q, laid.matrix(p[i])) <= 16 * unit * largest);
         for (std::size_t k = 0; k < 3; ++k)
-            if ((options.precision == tf::precision::float32)) CHECK(q[k] == static_cast<double>(static_cast<float>(q[k])));
+            if ((options.precision == tf::precision::float32))
+                CHECK(q[k] == static_cast<double>(static_cast<float>(q[k])));
     }
     CHECK(down == laid.on_bed.size());
     CHECK(down >= 3);
@@ -115,7 +116,8 @@ tf::mesh random_shape(test::random& source, int kind) {
 
 }  // namespace
 
-TEST_CASE("lay flat: a box that stands on a largest side stays, bit for bit, and comes to the bed") {
+TEST_CASE(
+    "lay flat: a box that stands on a largest side stays, bit for bit, and comes to the bed") {
     const tf::mesh box = test::moved(test::box(3, 2, 1), {0.1, 0.2, 0.3});
     const auto laid = tf::lay_flat(box);
     REQUIRE(laid);
@@ -132,7 +134,8 @@ TEST_CASE("lay flat: a box that stands on a largest side stays, bit for bit, and
         CHECK(tf::lay_flat(cube, {.keep_spin = keep})->points == cube.points);
 }
 
-TEST_CASE("lay flat: a box on its edge comes down on its largest face, with its length along an axis") {
+TEST_CASE(
+    "lay flat: a box on its edge comes down on its largest face, with its length along an axis") {
     test::random source(1);
     for (int round = 0; round < 30; ++round) {
         // Rounding has bent the box: exactly, most of its sides are two triangles.
@@ -145,7 +148,10 @@ TEST_CASE("lay flat: a box on its edge comes down on its largest face, with its 
         CHECK(tf::lay_flat(box)->sides.size() > 6);
         for (const bool keep : {false, true}) {
             const tf::lay_flat_options options{
-                .keep_spin = keep, .tolerance = 1e-6, .bed = 0.75, .precision = single ? tf::precision::float32 : tf::precision::float64};
+                .keep_spin = keep,
+                .tolerance = 1e-6,
+                .bed = 0.75,
+                .precision = single ? tf::precision::float32 : tf::precision::float64};
             const auto laid = tf::lay_flat(box, options);
             REQUIRE(laid);
             REQUIRE(laid->sides.size() == 6);
@@ -166,7 +172,8 @@ TEST_CASE("lay flat: a box on its edge comes down on its largest face, with its 
     }
 }
 
-TEST_CASE("lay flat: the side is on the bed exactly, whatever the shape, place, choice and precision") {
+TEST_CASE(
+    "lay flat: the side is on the bed exactly, whatever the shape, place, choice and precision") {
     test::random source(2);
     for (int round = 0; round < 100; ++round) {
         CAPTURE(round);
@@ -215,7 +222,8 @@ TEST_CASE("lay flat: the choice is that of looking at all sides") {
     }
 }
 
-TEST_CASE("lay flat: straight up and straight down, and nearly so, are turned by as much as it takes") {
+TEST_CASE(
+    "lay flat: straight up and straight down, and nearly so, are turned by as much as it takes") {
     for (const double z : {1.0, -1.0})
         for (const double x : {0.0, 0x1p-60, 1e-9, -1e-9, 1e-3}) {
             // a flat square, tilted by x about the y axis

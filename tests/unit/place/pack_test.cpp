@@ -1,6 +1,6 @@
-#include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/pack.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -83,8 +83,7 @@ void check(const std::vector<tf::mesh>& parts, const tf::pack_options& o,
             const tf::point3 q = one.matrix(parts[i].points[v]);
             for (std::size_t k = 0; k < 3; ++k) {
                 CHECK(std::abs(q[k] - one.points[v][k]) <= 16 * unit * largest);
-                if (single)
-                    CHECK(one.points[v][k] == double{static_cast<float>(one.points[v][k])});
+                if (single) CHECK(one.points[v][k] == double{static_cast<float>(one.points[v][k])});
             }
         }
     }

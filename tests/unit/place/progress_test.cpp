@@ -84,8 +84,7 @@ struct operations {
              }},
             {"time to distance",
              [=, this](const auto& p) {
-                 return cancelled(
-                     tf::time_to_distance(above, still, down, 0.25, {.progress = p}));
+                 return cancelled(tf::time_to_distance(above, still, down, 0.25, {.progress = p}));
              }},
             {"sweep among",
              [=, this](const auto& p) {
@@ -104,8 +103,8 @@ struct operations {
              }},
             {"moves apart",
              [=, this](const auto& p) {
-                 return cancelled(tf::detail::place::find_moves_apart(shape(inside), parts,
-                                                                      {.progress = p}));
+                 return cancelled(
+                     tf::detail::place::find_moves_apart(shape(inside), parts, {.progress = p}));
              }},
             {"slide",
              [=, this](const auto& p) {

@@ -141,10 +141,10 @@ TEST_CASE("separate: the mesh comes out of all, in coordinates that hold") {
         for (const double x : {0.0, 1.5}) fixed.emplace_back(moved(test::ball(2, 1.0), {x, 0, 0}));
         const tf::mesh a = moved(test::ball(2, 0.5), {source.in(-1, 2), source.in(-1, 1), 0.25});
         const auto whole = prepared_mesh::borrow(a);
-        const auto found = tf::separate(
-            whole, fixed,
-            {.clearance = clearance,
-             .precision = single ? tf::precision::float32 : tf::precision::float64});
+        const auto found =
+            tf::separate(whole, fixed,
+                         {.clearance = clearance,
+                          .precision = single ? tf::precision::float32 : tf::precision::float64});
         REQUIRE(found);
         CHECK(found.at_place != tf::standing::penetrating);
         CHECK(found.at_place != tf::standing::closer_than_clearance);

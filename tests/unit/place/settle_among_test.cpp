@@ -62,7 +62,8 @@ TEST_CASE("time to distance: along a wall at just the distance a mesh goes on, a
     CHECK(end.time == 23.5);
 }
 
-TEST_CASE("time to distance: before the time the meshes are apart by the distance, then no longer") {
+TEST_CASE(
+    "time to distance: before the time the meshes are apart by the distance, then no longer") {
     test::random source(21);
     int met = 0;
     for (int round = 0; round < 60; ++round) {
@@ -131,13 +132,12 @@ TEST_CASE("settle among: what is written neither penetrates nor is nearer than t
         const tf::mesh a = moved(test::ball(2, 0.5), {far, 0, 5});
         const tf::point3 down{source.in(-0.05, 0.05), 0, -1};
         const auto whole = prepared_mesh::borrow(a);
-        const auto found =
-            sweep_among(shape(whole), among.parts(), down, {.clearance = clearance});
+        const auto found = sweep_among(shape(whole), among.parts(), down, {.clearance = clearance});
         REQUIRE(found.end == motion_end::contact);
-        const auto settled = settle_among(whole, among.parts(), down, found.time,
-                                          {.precision = single ? tf::precision::float32
-                                                               : tf::precision::float64,
-                                           .clearance = clearance});
+        const auto settled =
+            settle_among(whole, among.parts(), down, found.time,
+                         {.precision = single ? tf::precision::float32 : tf::precision::float64,
+                          .clearance = clearance});
         REQUIRE(settled.good);
         stepped_back += settled.backed_off > 0;
         CHECK(std::abs(settled.time - found.time) < 1e-2);
@@ -160,10 +160,10 @@ TEST_CASE("settle among: the lowest points come to lie on the floor exactly") {
         double lowest = std::numeric_limits<double>::infinity();
         for (const tf::point3& p : a.points) lowest = std::min(lowest, p.z);
         const bool single = round % 2 == 0 && floor == 0.0;
-        const auto settled = settle_among(prepared_mesh::borrow(a), {}, {0, 0, -1}, lowest - floor,
-                                          {.precision = single ? tf::precision::float32
-                                                               : tf::precision::float64,
-                                           .floor = floor});
+        const auto settled =
+            settle_among(prepared_mesh::borrow(a), {}, {0, 0, -1}, lowest - floor,
+                         {.precision = single ? tf::precision::float32 : tf::precision::float64,
+                          .floor = floor});
         CHECK(settled.good);
         double reached = std::numeric_limits<double>::infinity();
         for (const tf::point3& p : settled.points) reached = std::min(reached, p.z);

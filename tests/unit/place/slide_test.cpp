@@ -150,12 +150,10 @@ TEST_CASE("slide: what fell on something is close to it in the coordinates writt
         const tf::point3 motion{source.in(-0.1, 0.1), source.in(-0.1, 0.1), -1.0};
         const auto contact = tf::time_of_impact(a, b, motion);
         REQUIRE(contact.end == tf::motion_end::contact);
-        const auto found =
-            tf::slide(a, b, motion,
-                      {.precision = single ? tf::precision::float32 : tf::precision::float64});
+        const auto found = tf::slide(
+            a, b, motion, {.precision = single ? tf::precision::float32 : tf::precision::float64});
         REQUIRE(found);
-        CHECK(tf::relation({found.points, a.faces}, b).relation !=
-              tf::mesh_relation::penetrating);
+        CHECK(tf::relation({found.points, a.faces}, b).relation != tf::mesh_relation::penetrating);
         // a little further it would
         const double ulp = (4.0 + far) * (single ? 0x1p-23 : 0x1p-52);
         const double time = found.travel / std::hypot(motion.x, motion.y, motion.z) + 8 * ulp;
@@ -221,9 +219,9 @@ TEST_CASE("slide and drop: what cannot be meant is refused, and named") {
     CHECK_THROWS_WITH_AS(static_cast<void>(tf::drop(a, {.bed = 0.0, .direction = {0, 0, 1}})),
                          "treeform::drop: the direction does not lead down to the bed",
                          std::invalid_argument);
-    CHECK_THROWS_AS(static_cast<void>(
-                        tf::drop(a, {.precision = tf::precision::float32, .bed = 1e300})),
-                    std::invalid_argument);
+    CHECK_THROWS_AS(
+        static_cast<void>(tf::drop(a, {.precision = tf::precision::float32, .bed = 1e300})),
+        std::invalid_argument);
     still_parts among;
     among.add(b);
     among.add(b);

@@ -1,6 +1,6 @@
 #include <libmesh/base/face_tree.hpp>
-#include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/sweep.hpp>
@@ -81,7 +81,7 @@ TEST_CASE("time of impact: a box falls flat on another, on every pair of faces t
     // twice as fast, half the time; and not when the way is shorter
     CHECK(tf::time_of_impact(moved(box(1, 1, 1), {1, 1, 5.5}), floor, {0, 0, -2}).time == 2.25);
     const auto short_of = tf::time_of_impact(moved(box(1, 1, 1), {1, 1, 5.5}), floor, {0, 0, -1},
-                                            {.latest = std::nextafter(4.5, 0.0)});
+                                             {.latest = std::nextafter(4.5, 0.0)});
     CHECK(short_of.end == tf::motion_end::free);
     CHECK(tf::time_of_impact(moved(box(1, 1, 1), {1, 1, 5.5}), floor, {0, 0, -1}, {.latest = 4.5})
               .end == tf::motion_end::contact);
@@ -124,7 +124,8 @@ TEST_CASE("time of impact is that of all pairs of faces, also where times are eq
     }
 }
 
-TEST_CASE("time of impact: times and pairs do not change with scale, and hold far from the origin") {
+TEST_CASE(
+    "time of impact: times and pairs do not change with scale, and hold far from the origin") {
     test::random source(8);
     const tf::mesh a = moved(test::random_soup(source, 60, 0.3), {0, 0, 3});
     const tf::mesh b = test::random_soup(source, 60, 0.3);
@@ -147,7 +148,8 @@ TEST_CASE("time of impact: times and pairs do not change with scale, and hold fa
     check(moved(a, {1e9, -1e9, 1e9}), moved(b, {1e9, -1e9, 1e9}), d);
 }
 
-TEST_CASE("time of impact: swapping the meshes and turning the motion changes no time and no pair") {
+TEST_CASE(
+    "time of impact: swapping the meshes and turning the motion changes no time and no pair") {
     test::random source(12);
     int met = 0;
     for (int round = 0; round < 40; ++round) {
@@ -187,7 +189,8 @@ TEST_CASE("time of impact: motions and times that cannot be meant are refused") 
     const tf::mesh a = moved(box(1, 1, 1), {0, 0, 3}), b = box(1, 1, 1);
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK_THROWS_AS(static_cast<void>(tf::time_of_impact(a, b, {0, 0, 0})), std::invalid_argument);
-    CHECK_THROWS_AS(static_cast<void>(tf::time_of_impact(a, b, {0, nan, 0})), std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(tf::time_of_impact(a, b, {0, nan, 0})),
+                    std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(tf::time_of_impact(a, b, {0, 0, 1}, {.latest = -1.0})),
                     std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(tf::time_of_impact(a, b, {0, 0, 1}, {.latest = nan})),

@@ -77,7 +77,8 @@ struct align_result {
 ///
 /// \throws std::invalid_argument naming a point that is not finite or a face with a corner that is
 ///         no point, and for an option that is out of its range
-/// \throws std::overflow_error where the matrix, a point as written, or some square of a distance in about the
+/// \throws std::overflow_error where the matrix, a point as written, or some square of a distance
+/// in about the
 ///         diagonals of the fixed mesh, is beyond the range of doubles
 /// \cost   a `closest_point_query` of the fixed mesh, a search of all moving points at the start
 ///         and the end, and of the samples in each step

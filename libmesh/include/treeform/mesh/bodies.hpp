@@ -36,7 +36,7 @@ struct file_bodies {
     /// [B] Faces are finite triangles of the file; equal corners are one point, and only points
     /// that faces use are there. Those of a cloud are its finite points.
     std::vector<prepared_mesh> shapes{};
-    bool cloud = false;               ///< the file has no faces
+    bool cloud = false;        ///< the file has no faces
     std::size_t left_out = 0;  ///< its triangles, or points, with a coordinate that is not finite
 };
 

@@ -35,7 +35,7 @@ struct lay_flat_options {
     /// while a flat face that was turned and rounded before is many sides. Some 1e-6 of the size
     /// joins those again.
     double tolerance = 0.0;
-    double bed = 0.0;        ///< z of the bed
+    double bed = 0.0;                                              ///< z of the bed
     treeform::precision precision = treeform::precision::float64;  ///< of the points returned
     progress_callback progress{};
 };
@@ -49,8 +49,8 @@ struct laid_flat {
     /// What there was to choose from, as it was before: largest area first. With a tolerance, each
     /// is a side of the hull and all around it that belongs to its plane, a side being in one only.
     std::vector<hull_side> sides{};
-    std::size_t chosen = 0;               ///< of `sides`
-    std::vector<std::uint32_t> on_bed{};  ///< points of that side, ascending
+    std::size_t chosen = 0;                      ///< of `sides`
+    std::vector<std::uint32_t> on_bed{};         ///< points of that side, ascending
     std::optional<placement_contact> contact{};  ///< the lowest face with the lowest point
     /// The most that a z was changed to be on the bed or not below it, beyond the rotation: some
     /// units in the last place, and of the order of the tolerance with one.

@@ -24,7 +24,8 @@ struct mate_options {
 };
 
 /// `moving` translated so that its nearest points to `fixed` come together, or to the clearance; in
-/// coordinates that were checked, as `slide` does. What touches stays; what penetrates has no place.
+/// coordinates that were checked, as `slide` does. What touches stays; what penetrates has no
+/// place.
 ///
 /// \throws std::invalid_argument as `slide`
 /// \cost   `measure` for the fixed meshes that may be the nearest, and a `slide`

@@ -26,7 +26,7 @@ struct surface_point {
 };
 
 struct measure_options {
-    double radius = std::numeric_limits<double>::infinity();  ///< inclusive
+    double radius = std::numeric_limits<double>::infinity();     ///< inclusive
     vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
     progress_callback progress{};
 };
@@ -46,7 +46,7 @@ struct mesh_measure {
 /// no faces, or when they are further apart than `options.radius` and separate.
 ///
 /// The relation is exact, as `relation` says, and so is whether distances are 0. Else they are
-/// rounded as `mesh_distance` says. When the surfaces meet, the points are on the faces that
+/// rounded as `distance` says. When the surfaces meet, the points are on the faces that
 /// `relation` names if these meet.
 ///
 /// \throws std::invalid_argument as `relation`, and for a radius that is negative or NaN
@@ -60,7 +60,7 @@ struct mesh_measure {
 
 /// The weights of the corners of `t` that give the point `p` of it, as in `surface_point`.
 ///
-/// \pre coordinates are finite; `p` is on the triangle but for rounding, or else the weights are
+/// \pre coordinates are finite; `p` is on the triangle except for rounding, or else the weights are
 ///      those of some point of it
 [[nodiscard]] TREEFORM_API std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t,
                                                                      const point3& p);

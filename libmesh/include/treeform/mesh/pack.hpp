@@ -48,7 +48,7 @@ struct packed_part {
 };
 
 struct packing {
-    std::vector<packed_part> parts{};       ///< [P] in the order given
+    std::vector<packed_part> parts{};         ///< [P] in the order given
     std::vector<std::uint32_t> not_placed{};  ///< numbers of parts that found no place, ascending
     /// Pairs of parts whose boxes are nearer than the spacing, so that their faces were looked at.
     std::uint64_t pairs_measured = 0;
@@ -60,11 +60,12 @@ struct packing {
 /// the bed with its lowest point.
 ///
 /// What is said of the coordinates in `points`, as written: the lowest z of a placed part is
-/// exactly that of the bed (the least float32 not below it, where these are asked for); no coordinate is outside of the plate or
-/// above its height; any two placed parts are at least `spacing` apart, decided on the exact boxes
-/// or by `distance` (not squared) less its error. With a spacing of 0 parts have no common point unless it
-/// is in a plane that separates their boxes. Parts are not put on or under each other, except for
-/// what `tighten` moves below an overhang; a small one may stand in the hole of another.
+/// exactly that of the bed (the least float32 not below it, where these are asked for); no
+/// coordinate is outside of the plate or above its height; any two placed parts are at least
+/// `spacing` apart, decided on the exact boxes or by `distance` (not squared) less its error. With
+/// a spacing of 0 parts have no common point unless it is in a plane that separates their boxes.
+/// Parts are not put on or under each other, except for what `tighten` moves below an overhang; a
+/// small one may stand in the hole of another.
 ///
 /// It is a search: parts in the order of the area they cover, each at the free place of the least
 /// y, then x, found on a raster of some 512 cells a side and then moved down y and x until

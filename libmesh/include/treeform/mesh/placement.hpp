@@ -30,19 +30,19 @@ enum class standing : std::uint8_t {
 
 /// What has ended a placement.
 enum class placement_end : std::uint8_t {
-    contact,            ///< something fixed, or the clearance from it
-    bed,                ///< the bed, or the clearance over it
-    stays,              ///< nothing: it may be where it is
-    moved_apart,        ///< of `separate`: it is out of what was in its way
-    nothing_met,        ///< no place: nothing is in the way, or within the largest travel
-    too_far,            ///< no place: it is further away than the largest travel
-    starts_penetrating, ///< no place: it penetrates something where it is
-    starts_too_near,    ///< no place: it is nearer than the clearance to something where it is
-    starts_touching,    ///< no place: it touches something where it is, and a clearance is asked
-    starts_below_bed,   ///< no place: it would have to go up to the bed, past what is fixed
-    no_coordinates,     ///< no place in coordinates that can be written
-    out_of_range,       ///< no place: coordinates are beyond the range of the numbers asked for
-    cancelled           ///< `progress` said stop; the rest means nothing
+    contact,             ///< something fixed, or the clearance from it
+    bed,                 ///< the bed, or the clearance over it
+    stays,               ///< nothing: it may be where it is
+    moved_apart,         ///< of `separate`: it is out of what was in its way
+    nothing_met,         ///< no place: nothing is in the way, or within the largest travel
+    too_far,             ///< no place: it is further away than the largest travel
+    starts_penetrating,  ///< no place: it penetrates something where it is
+    starts_too_near,     ///< no place: it is nearer than the clearance to something where it is
+    starts_touching,     ///< no place: it touches something where it is, and a clearance is asked
+    starts_below_bed,    ///< no place: it would have to go up to the bed, past what is fixed
+    no_coordinates,      ///< no place in coordinates that can be written
+    out_of_range,        ///< no place: coordinates are beyond the range of the numbers asked for
+    cancelled            ///< `progress` said stop; the rest means nothing
 };
 
 /// A pair of faces that meet at the place, or keep the clearance there.
@@ -62,9 +62,9 @@ struct nearest_fixed {
 };
 
 struct placement_statistics {
-    unsigned backed_off = 0;         ///< steps taken back from what rounding made penetrate
-    std::uint64_t fixed_culled = 0;  ///< fixed meshes whose box told that they cannot matter
-    std::uint64_t pairs_tested = 0;  ///< of faces in motion
+    unsigned backed_off = 0;          ///< steps taken back from what rounding made penetrate
+    std::uint64_t fixed_culled = 0;   ///< fixed meshes whose box told that they cannot matter
+    std::uint64_t pairs_tested = 0;   ///< of faces in motion
     predicate_counters predicates{};  ///< that these took
 };
 
@@ -78,8 +78,8 @@ struct placement {
     /// new = M * old: a translation. `points` are that, rounded once, except for what is put on the
     /// bed.
     transform<3> matrix{};
-    point3 direction{};   ///< of the travel, of length 1; 0 when there is none
-    double travel = 0.0;  ///< a length; of `too_far` the one that it would take
+    point3 direction{};           ///< of the travel, of length 1; 0 when there is none
+    double travel = 0.0;          ///< a length; of `too_far` the one that it would take
     double clearance = 0.0;       ///< that was asked for
     std::optional<double> bed{};  ///< z of what it may rest on, as written; with the clearance
     double below_bed = 0.0;       ///< how far it reached below that at the start
@@ -95,7 +95,7 @@ struct placement {
 };
 
 struct measure_among_options {
-    double clearance = 0.0;  ///< distances below it are `closer_than_clearance`
+    double clearance = 0.0;    ///< distances below it are `closer_than_clearance`
     std::size_t limit = 1000;  ///< contacts listed of each fixed mesh
     vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
     progress_callback progress{};

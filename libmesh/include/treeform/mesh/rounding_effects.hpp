@@ -24,7 +24,7 @@ struct rounding_effects {
     double step = 0.0;  ///< between neighboring numbers, at the largest coordinate written
     /// Where doubles have become float32, or a change is more than a millionth of the size.
     bool noticeable = false;
-    bool compared = false;  ///< the faces were looked at, since steps are coarser than before
+    bool compared = false;        ///< the faces were looked at, since steps are coarser than before
     std::uint64_t collapsed = 0;  ///< faces that have no area any more
     std::uint64_t meeting = 0;    ///< pairs of faces that meet, and did not
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
@@ -36,11 +36,11 @@ struct rounding_effects {
 /// \throws std::invalid_argument for another number of points
 /// \cost   O(V); where coordinates are coarser, two `self_intersections` at most
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API rounding_effects effects_of_rounding(
-    const prepared_mesh& moving, const transform<3>& by, points_view placed,
-    const rounding_options& options = {});
-[[nodiscard]] TREEFORM_API rounding_effects effects_of_rounding(
-    mesh_view moving, const transform<3>& by, points_view placed,
-    const rounding_options& options = {});
+[[nodiscard]] TREEFORM_API rounding_effects
+effects_of_rounding(const prepared_mesh& moving, const transform<3>& by, points_view placed,
+                    const rounding_options& options = {});
+[[nodiscard]] TREEFORM_API rounding_effects
+effects_of_rounding(mesh_view moving, const transform<3>& by, points_view placed,
+                    const rounding_options& options = {});
 
 }  // namespace treeform

@@ -23,7 +23,7 @@ struct slide_options {
     std::optional<double> bed{};
     /// Where rounding leaves a gap at a contact, close it by units in the last place.
     bool close_in = true;
-    std::size_t limit = 1000;  ///< contacts listed
+    std::size_t limit = 1000;                                    ///< contacts listed
     vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
     progress_callback progress{};
 };
