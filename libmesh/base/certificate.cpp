@@ -47,6 +47,8 @@ std::string certificate::message() const {
             return "the result is thinner than its coordinates can tell apart";
         case treeform::status::out_of_range:
             return "coordinates of the result are beyond the range of the numbers asked for";
+        case treeform::status::no_place:
+            return "there is no such place";
         case treeform::status::cancelled:
             return "stopped by its caller";
     }

@@ -1,3 +1,4 @@
+#include <libmesh/base/point_faces.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -33,11 +34,28 @@ prepared_mesh prepared_mesh::borrow(mesh_view view) {
     return result;
 }
 
+prepared_mesh prepared_mesh::cloud(std::vector<point3>&& owned) {
+    const std::size_t count = owned.size();
+    prepared_mesh result(mesh{std::move(owned), detail::base::point_faces(count)});
+    result.cloud_ = true;
+    return result;
+}
+
+prepared_mesh prepared_mesh::borrow_cloud(points_view points) {
+    prepared_mesh result(mesh{{}, detail::base::point_faces(points.size())});
+    result.view_.points = points;
+    result.cloud_ = true;
+    return result;
+}
+
 prepared_mesh::prepared_mesh(prepared_mesh&& other) noexcept
-    : view_(std::exchange(other.view_, {})), state_(std::move(other.state_)) {}
+    : view_(std::exchange(other.view_, {})),
+      cloud_(other.cloud_),
+      state_(std::move(other.state_)) {}
 
 prepared_mesh& prepared_mesh::operator=(prepared_mesh&& other) noexcept {
     view_ = std::exchange(other.view_, {});
+    cloud_ = other.cloud_;
     state_ = std::move(other.state_);
     return *this;
 }

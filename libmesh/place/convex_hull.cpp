@@ -25,7 +25,7 @@ void check_points(points_view points) {
 }
 
 /// The point of the highest score for which `holds`: asked of the highest alone at first, since it
-/// is the one but for rounding; the lowest number of equals. None when it holds for no point.
+/// is the one except for rounding; the lowest number of equals. None when it holds for no point.
 template <class Score, class Holds>
 std::optional<std::uint32_t> best_point(std::size_t count, const Score& score, const Holds& holds) {
     std::uint32_t best = 0;
@@ -176,7 +176,7 @@ point3 of_length_1(point3 n) {
     return {n.x / length, n.y / length, n.z / length};
 }
 
-/// Area, normal and centre of the faces of a side.
+/// Area, normal and center of the faces of a side.
 void measure(hull_side& side, std::span<const face> faces, points_view points) {
     // Differences are halved, so that none overflows; then brought to the size of 1.
     const point3 base = points[faces[0][0]];
@@ -218,7 +218,7 @@ void measure(hull_side& side, std::span<const face> faces, points_view points) {
     }
     side.normal = of_length_1(normal);
     for (std::size_t k = 0; k < 3; ++k)
-        side.centre[k] = base[k] + (total > 0.0 ? 2.0 * (moment[k] / total / by) : 0.0);
+        side.center[k] = base[k] + (total > 0.0 ? 2.0 * (moment[k] / total / by) : 0.0);
     side.area = 2.0 * total / by / by;
 }
 
@@ -243,14 +243,14 @@ convex_hull_result joined(std::vector<std::vector<face>> sides, points_view poin
 convex_hull_result hull_of(points_view points, detail::base::work_progress& work) {
     const detail::place::scaled_points scaled(points);
     const first_simplex first = find_simplex(points, scaled);
-    if (first.dimension < 2) return {first.dimension, {}, {}, false};
+    if (first.dimension < 2) return {.dimension = first.dimension};
     const auto& [a, b, c, d] = first.corner;
     if (first.dimension == 2) {
         const int axis = axis_that_sees(points[a], points[b], points[c]);
         return joined(faces_of_polygon(polygon_around(points, axis)), points, 2);
     }
     detail::place::quickhull hull(points, scaled, first.corner);
-    if (!hull.run(work)) return {.cancelled = true};
+    if (!hull.run(work)) return {.status = status::cancelled};
     return joined(hull.sides(), points, 3);
 }
 

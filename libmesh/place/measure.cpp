@@ -1,8 +1,8 @@
-#include <libmesh/base/face_tree.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/place/measure_of.hpp>
+#include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh_distance.hpp>
 
 #include <algorithm>
@@ -94,13 +94,15 @@ std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t, const 
     return best;
 }
 
-std::optional<mesh_measure> measure(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                    const tree<3>& tree_b, const measure_options& options) {
+std::optional<mesh_measure> detail::place::measure_of(const shape& of_a, const shape& of_b,
+                                                      double radius,
+                                                      const progress_callback& progress) {
+    const mesh_view a = of_a.mesh(), b = of_b.mesh();
     if (a.faces.empty() || b.faces.empty()) return std::nullopt;
-    detail::base::work_progress work(options.progress);
+    detail::base::work_progress work(progress);
     mesh_measure result;
-    if (boxes_meet(a, b)) result.relation = relation(a, tree_a, b, tree_b, work.part(0.0, 0.5));
-    if (!work.reach(0.5)) result.relation = {.cancelled = true};
+    if (boxes_meet(a, b)) result.relation = relation_of(of_a, of_b, work.part(0.0, 0.5));
+    if (!work.reach(0.5)) result.relation = {.status = status::cancelled};
     if (work.cancelled()) return result;
     if (result.relation.relation != mesh_relation::separate) {
         const std::uint32_t f = result.relation.face_a, g = result.relation.face_b;
@@ -113,8 +115,8 @@ std::optional<mesh_measure> measure(mesh_view a, const tree<3>& tree_a, mesh_vie
         }
     }
     const bool separate = result.relation.relation == mesh_relation::separate;
-    const auto nearest = mesh_distance(
-        a, tree_a, b, tree_b, separate ? options.radius : std::numeric_limits<double>::infinity());
+    const auto nearest = mesh_distance(a, of_a.faces(), b, of_b.faces(),
+                                       separate ? radius : std::numeric_limits<double>::infinity());
     work.reach(1.0);
     if (!nearest) return std::nullopt;
     result.surface_distance = nearest->distance;
@@ -124,8 +126,17 @@ std::optional<mesh_measure> measure(mesh_view a, const tree<3>& tree_a, mesh_vie
     return result;
 }
 
-std::optional<mesh_measure> measure(mesh_view a, mesh_view b) {
-    return measure(a, face_tree(a), b, face_tree(b));
+std::optional<mesh_measure> measure(const prepared_mesh& a, const prepared_mesh& b,
+                                    const measure_options& options) {
+    detail::place::check_operand("measure", "a", a.view());
+    detail::place::check_operand("measure", "b", b.view());
+    return detail::place::measure_of(detail::place::shape(a, options.vertices),
+                                     detail::place::shape(b, options.vertices), options.radius,
+                                     options.progress);
+}
+
+std::optional<mesh_measure> measure(mesh_view a, mesh_view b, const measure_options& options) {
+    return measure(prepared_mesh::borrow(a), prepared_mesh::borrow(b), options);
 }
 
 }  // namespace treeform

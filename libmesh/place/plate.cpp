@@ -1,6 +1,7 @@
 #include <libmesh/base/face_tree.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/place/plate.hpp>
+#include <libmesh/place/shape.hpp>
 #include <treeform/mesh/mesh_distance.hpp>
 
 #include <algorithm>
@@ -28,18 +29,8 @@ std::array<double, 2> cosine_and_sine(unsigned turn) {
     return {of(turn), of(turn + 18)};
 }
 
-/// The box of the points that faces use.
-box3 box_of(mesh_view mesh) {
-    const point3& first = mesh.points[mesh.faces[0][0]];
-    box3 box{first, first};
-    for (const face& f : mesh.faces)
-        for (const std::uint32_t i : f)
-            for (std::size_t k = 0; k < 3; ++k) {
-                box.min[k] = std::min(box.min[k], mesh.points[i][k]);
-                box.max[k] = std::max(box.max[k], mesh.points[i][k]);
-            }
-    return box;
-}
+/// \pre it has faces
+box3 box_of(mesh_view mesh) { return *box_of_faces(mesh); }
 
 /// Whether `high` - `low` is `least` or more, exactly; so is one that is `least` or less.
 int compare_difference(double high, double low, double least) {
@@ -63,11 +54,11 @@ bool boxes_apart(const box3& a, const box3& b, double spacing) {
 turned_part::turned_part(mesh_view part, unsigned turn)
     : turn_(turn), faces_(part.faces), axis_(cosine_and_sine(turn)) {
     const box3 box = box_of(part);
-    for (std::size_t k = 0; k < 3; ++k) centre_[k] = 0.5 * box.min[k] + 0.5 * box.max[k];
+    for (std::size_t k = 0; k < 3; ++k) center_[k] = 0.5 * box.min[k] + 0.5 * box.max[k];
     const auto [c, s] = axis_;
     points_.reserve(part.points.size());
     for (const point3& p : part.points) {
-        const double x = p.x - centre_.x, y = p.y - centre_.y;
+        const double x = p.x - center_.x, y = p.y - center_.y;
         points_.push_back({c * x - s * y, s * x + c * y, p.z});
     }
     lowest_ = box_of(mesh()).min;
@@ -85,14 +76,15 @@ turned_part::turned_part(mesh_view part, unsigned turn)
 transform<3> turned_part::matrix(const point3& by) const {
     const auto [c, s] = axis_;
     transform<3> m;
-    m.rows[0] = {c, -s, 0.0, (by.x - lowest_.x) - (c * centre_.x - s * centre_.y)};
-    m.rows[1] = {s, c, 0.0, (by.y - lowest_.y) - (s * centre_.x + c * centre_.y)};
+    m.rows[0] = {c, -s, 0.0, (by.x - lowest_.x) - (c * center_.x - s * center_.y)};
+    m.rows[1] = {s, c, 0.0, (by.y - lowest_.y) - (s * center_.x + c * center_.y)};
     m.rows[2] = {0.0, 0.0, 1.0, by.z - lowest_.z};
     return m;
 }
 
-plate::plate(const arrange_options& options, double cell, bool square)
+plate::plate(const pack_options& options, double cell, bool square)
     : options_(options),
+      single_(options.precision == precision::float32),
       cell_(cell),
       unit_(0.0),
       raster_(cell > 0.0 ? static_cast<std::uint32_t>(options.size.x / cell) + 8 : 1,
@@ -101,7 +93,7 @@ plate::plate(const arrange_options& options, double cell, bool square)
     double largest = 0.0;
     for (std::size_t k = 0; k < 2; ++k)
         largest = std::max(largest, std::abs(options.corner[k]) + options.size[k]);
-    unit_ = std::ldexp(largest, options.to_single ? -23 : -52);
+    unit_ = std::ldexp(largest, options.precision == precision::float32 ? -23 : -52);
 }
 
 plate::resident plate::at(std::uint32_t number, const turned_part& part, const point3& by) const {
@@ -111,7 +103,7 @@ plate::resident plate::at(std::uint32_t number, const turned_part& part, const p
     one.part.points.reserve(part.mesh().points.size());
     for (const point3& p : part.mesh().points) {
         point3 q{p.x + by.x, p.y + by.y, p.z + by.z};
-        if (options_.to_single)
+        if (single_)
             for (std::size_t k = 0; k < 3; ++k) q[k] = base::nearest_float(q[k]);
         one.part.points.push_back(q);
     }
@@ -128,7 +120,7 @@ bool plate::inside(const box3& box) const {
     return true;
 }
 
-/// Either the boxes are apart, exactly; or the faces are by what `mesh_distance` says less its
+/// Either the boxes are apart, exactly; or the faces are by what `distance` says less its
 /// error, 2^-49 of a length that is no more than the diagonal of the box around both.
 bool plate::apart(const resident& a, const resident& b) {
     const double spacing = options_.spacing;
@@ -199,18 +191,17 @@ double plate::free_travel(const turned_part& part, const tree<3>& faces_tree, co
 
 /// The least coordinate to be written that is `spacing` above `below`, exactly.
 double plate::next_above(double below) const {
-    const auto written = [&](double x) { return options_.to_single ? base::nearest_float(x) : x; };
+    const auto written = [&](double x) { return single_ ? base::nearest_float(x) : x; };
     double at = written(below + options_.spacing);
     while (compare_difference(at, below, options_.spacing) < 0)
-        at = options_.to_single
-                 ? static_cast<double>(std::nextafter(static_cast<float>(at),
-                                                      std::numeric_limits<float>::infinity()))
-                 : std::nextafter(at, std::numeric_limits<double>::infinity());
+        at = single_ ? static_cast<double>(std::nextafter(static_cast<float>(at),
+                                                          std::numeric_limits<float>::infinity()))
+                     : std::nextafter(at, std::numeric_limits<double>::infinity());
     return at;
 }
 
-/// A slide ends where rounding has it. Where that is, but for rounding, the spacing above the box
-/// of a part, it is to be that exactly: so that rows of boxes are as long as they should be.
+/// A slide ends where rounding has it. Where that is, except for rounding, the spacing above the
+/// box of a part, it is to be that exactly: so that rows of boxes are as long as they should be.
 double plate::snapped(double at, std::size_t axis) const {
     for (const resident& r : residents_) {
         const double exact = next_above(r.box.max[axis]);
@@ -235,9 +226,9 @@ void plate::slide(const turned_part& part, const tree<3>& faces_tree, point3& by
 
 bool plate::put(std::uint32_t number, mesh_view mesh, unsigned turn, cell_place place) {
     const turned_part part(mesh, turn);
-    const point3 raster_place{
-        options_.corner.x + place.column * cell_, options_.corner.y + place.row * cell_,
-        options_.to_single ? base::nearest_float(options_.corner.z) : options_.corner.z};
+    const point3 raster_place{options_.corner.x + place.column * cell_,
+                              options_.corner.y + place.row * cell_,
+                              not_below(options_.corner.z, options_.precision)};
     const auto settle = [&](const point3& by) {
         resident one = this->at(number, part, by);
         if (!inside(one.box)) return false;
@@ -260,8 +251,8 @@ bool plate::put(std::uint32_t number, mesh_view mesh, unsigned turn, cell_place 
     return settle(raster_place);
 }
 
-std::vector<arranged_part> plate::take_parts(std::span<const mesh_view> parts) {
-    std::vector<arranged_part> result(parts.size());
+std::vector<packed_part> plate::take_parts(std::span<const mesh_view> parts) {
+    std::vector<packed_part> result(parts.size());
     for (resident& r : residents_) result[r.number] = std::move(r.part);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         if (result[i].placed) continue;

@@ -3,9 +3,9 @@
 /// A plate with parts on it, each checked against those that were there before.
 
 #include <libmesh/place/plate_raster.hpp>
-#include <treeform/mesh/arrange.hpp>
 #include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/pack.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <array>
@@ -34,14 +34,14 @@ class turned_part {
     std::span<const face> faces_;
     std::vector<point3> points_;
     std::array<double, 2> axis_{};  ///< cosine and sine
-    point3 centre_;                 ///< of the turn
+    point3 center_;                 ///< of the turn
     point3 lowest_;                 ///< after it, taken off
     point3 size_;
 };
 
 class plate {
   public:
-    plate(const arrange_options& options, double cell, bool square);
+    plate(const pack_options& options, double cell, bool square);
 
     [[nodiscard]] const plate_raster& raster() const { return raster_; }
     [[nodiscard]] std::uint64_t pairs_measured() const { return measured_; }
@@ -51,12 +51,12 @@ class plate {
     bool put(std::uint32_t number, mesh_view part, unsigned turn, cell_place at);
 
     /// What has become of all parts; the plate is no more.
-    [[nodiscard]] std::vector<arranged_part> take_parts(std::span<const mesh_view> parts);
+    [[nodiscard]] std::vector<packed_part> take_parts(std::span<const mesh_view> parts);
 
   private:
     struct resident {
         std::uint32_t number;
-        arranged_part part;
+        packed_part part;
         std::span<const face> faces;
         tree<3> faces_tree;
         box3 box;
@@ -78,7 +78,8 @@ class plate {
     [[nodiscard]] double free_travel(const turned_part& part, const tree<3>& faces_tree,
                                      const point3& by, std::size_t axis) const;
 
-    const arrange_options& options_;
+    const pack_options& options_;
+    bool single_;  ///< whether float32 is written
     double cell_;
     double unit_;  ///< of the last place of coordinates on the plate
     plate_raster raster_;

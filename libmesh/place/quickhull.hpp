@@ -41,7 +41,7 @@ class scaled_points {
     double extent_ = 0.0;
 };
 
-/// Facets are triangles; each knows its neighbours and the points above it that are not yet part
+/// Facets are triangles; each knows its neighbors and the points above it that are not yet part
 /// of the hull, of which each is kept by one facet that it is above of.
 class quickhull {
   public:

@@ -1,10 +1,9 @@
-#include <libmesh/base/face_tree.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/mesh_intersections.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/relation.hpp>
 #include <treeform/mesh/topology.hpp>
 
 #include <array>
@@ -13,6 +12,10 @@
 #include <vector>
 
 namespace treeform {
+
+using detail::place::check_operand;
+using detail::place::shape;
+
 namespace {
 
 std::array<bool, pair_kind_count> only(pair_kind kind) {
@@ -28,25 +31,25 @@ plane_points plane_of(mesh_view mesh, std::uint32_t f) {
 
 /// The first face that passes through one of the other mesh, or that lies on one facing the same
 /// way.
-std::optional<face_pair> crossing_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                        const tree<3>& tree_b, const progress_callback& progress) {
+std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
+                                        const progress_callback& progress) {
     mesh_intersection_options options;
     options.first_only = true;
     options.kinds = only(pair_kind::crossing);
     options.progress = progress;
-    const auto crossing = mesh_intersections(a, tree_a, b, tree_b, options);
+    const auto crossing = mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), options);
     if (!crossing.pairs.empty()) return crossing.pairs[0];
     return std::nullopt;
 }
 
-std::optional<face_pair> same_facing_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                           const tree<3>& tree_b,
+std::optional<face_pair> same_facing_faces(const shape& a, const shape& b,
                                            const progress_callback& progress) {
     mesh_intersection_options options;
     options.kinds = only(pair_kind::overlap);
     options.progress = progress;
-    for (const face_pair& pair : mesh_intersections(a, tree_a, b, tree_b, options).pairs)
-        if (normal_dot(plane_of(a, pair.a), plane_of(b, pair.b)) > 0) return pair;
+    const auto found = mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), options);
+    for (const face_pair& pair : found.pairs)
+        if (normal_dot(plane_of(a.mesh(), pair.a), plane_of(b.mesh(), pair.b)) > 0) return pair;
     return std::nullopt;
 }
 
@@ -69,10 +72,10 @@ std::vector<std::uint32_t> faces_to_locate(mesh_view a, bool touching) {
 }
 
 /// The lowest of these faces with a corner strictly inside the closed mesh `b`.
-std::optional<std::uint32_t> face_inside(mesh_view a, mesh_view b, const tree<3>& tree_b,
-                                         bool touching) {
-    const auto box = bounding_box(b.points);
-    if (!box || find_open_edge(b)) return std::nullopt;
+std::optional<std::uint32_t> face_inside(const shape& of, const shape& solid, bool touching) {
+    const auto box = bounding_box(solid.mesh().points);
+    if (!box || !solid.closed()) return std::nullopt;
+    const mesh_view a = of.joined();
     const auto may_be_inside = [&](const point3& p) {
         for (std::size_t k = 0; k < 3; ++k)
             if (!(box->min[k] < p[k] && p[k] < box->max[k])) return false;
@@ -90,7 +93,7 @@ std::optional<std::uint32_t> face_inside(mesh_view a, mesh_view b, const tree<3>
             points.push_back(a.points[corner]);
         }
     if (points.empty()) return std::nullopt;
-    const auto found = point_locator(b, tree_b).locate(points);
+    const auto found = point_locator(solid.joined(), solid.faces()).locate(points);
     for (std::size_t i = 0; i < found.size(); ++i)
         if (found[i].where == location::inside) return faces[i];
     return std::nullopt;
@@ -98,10 +101,10 @@ std::optional<std::uint32_t> face_inside(mesh_view a, mesh_view b, const tree<3>
 
 }  // namespace
 
-mesh_relation_result relation(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                              const tree<3>& tree_b, const progress_callback& progress) {
+mesh_relation_result detail::place::relation_of(const shape& a, const shape& b,
+                                                const progress_callback& progress) {
     detail::base::work_progress work(progress);
-    const mesh_relation_result cancelled{.cancelled = true};
+    const mesh_relation_result cancelled{.status = status::cancelled};
     mesh_relation_result result;
     const auto penetrating = [&](std::uint32_t face_a, std::uint32_t face_b) {
         result.relation = mesh_relation::penetrating;
@@ -110,29 +113,29 @@ mesh_relation_result relation(mesh_view a, const tree<3>& tree_a, mesh_view b,
         work.reach(1.0);
         return result;
     };
-    const auto crossing = crossing_faces(a, tree_a, b, tree_b, work.part(0.0, 0.3));
+    const auto crossing = crossing_faces(a, b, work.part(0.0, 0.3));
     if (work.cancelled()) return cancelled;
     if (crossing) return penetrating(crossing->a, crossing->b);
 
     mesh_intersection_options first;
     first.first_only = true;
     first.progress = work.part(0.3, 0.6);
-    const auto touch = mesh_intersections(a, tree_a, b, tree_b, first);
+    const auto touch = mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), first);
     if (work.cancelled()) return cancelled;
     const bool touching = !touch.pairs.empty();
     if (touching) {
         result.relation = mesh_relation::touching;
         result.face_a = touch.pairs[0].a;
         result.face_b = touch.pairs[0].b;
-        if (!find_open_edge(a) && !find_open_edge(b)) {
-            const auto pair = same_facing_faces(a, tree_a, b, tree_b, work.part(0.6, 0.8));
+        if (a.closed() && b.closed()) {
+            const auto pair = same_facing_faces(a, b, work.part(0.6, 0.8));
             if (work.cancelled()) return cancelled;
             if (pair) return penetrating(pair->a, pair->b);
         }
     }
-    const auto of_a = face_inside(a, b, tree_b, touching);
+    const auto of_a = face_inside(a, b, touching);
     if (!work.reach(0.9)) return cancelled;
-    const auto of_b = face_inside(b, a, tree_a, touching);
+    const auto of_b = face_inside(b, a, touching);
     if (!of_a && !of_b) {
         work.reach(1.0);
         return result;
@@ -142,8 +145,16 @@ mesh_relation_result relation(mesh_view a, const tree<3>& tree_a, mesh_view b,
     return penetrating(of_a ? *of_a : result.face_a, of_b ? *of_b : result.face_b);
 }
 
-mesh_relation_result relation(mesh_view a, mesh_view b) {
-    return relation(a, face_tree(a), b, face_tree(b));
+mesh_relation_result relation(const prepared_mesh& a, const prepared_mesh& b,
+                              const relation_options& options) {
+    check_operand("relation", "a", a.view());
+    check_operand("relation", "b", b.view());
+    return detail::place::relation_of(shape(a, options.vertices), shape(b, options.vertices),
+                                      options.progress);
+}
+
+mesh_relation_result relation(mesh_view a, mesh_view b, const relation_options& options) {
+    return relation(prepared_mesh::borrow(a), prepared_mesh::borrow(b), options);
 }
 
 }  // namespace treeform

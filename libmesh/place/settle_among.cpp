@@ -2,9 +2,10 @@
 #include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/relation_of.hpp>
+#include <libmesh/place/settle_among.hpp>
 #include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/mesh_distance.hpp>
-#include <treeform/mesh/settle_among.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,21 +13,20 @@
 #include <stdexcept>
 #include <utility>
 
-namespace treeform {
+namespace treeform::detail::place {
 namespace {
-
-bool within(const box3& a, const box3& b, double distance) {
-    for (std::size_t k = 0; k < 3; ++k)
-        if (!(a.min[k] - b.max[k] <= distance && b.min[k] - a.max[k] <= distance)) return false;
-    return true;
-}
 
 class settling {
   public:
-    settling(mesh_view a, std::span<const still_part> parts, const point3& motion,
+    settling(const prepared_mesh& a, std::span<const shape> parts, const point3& motion,
              const settle_among_options& options)
-        : a_(a), parts_(parts), motion_(motion), options_(options), work_(options_.progress) {
-        for (const still_part& part : parts) boxes_.push_back(bounding_box(part.mesh.points));
+        : whose_(a),
+          a_(a.view()),
+          parts_(parts),
+          motion_(motion),
+          options_(options),
+          work_(options_.progress) {
+        for (const shape& part : parts) boxes_.push_back(bounding_box(part.mesh().points));
     }
 
     [[nodiscard]] settled_among at(double time, bool rests) {
@@ -38,9 +38,9 @@ class settling {
             for (std::size_t k = 0; k < 3; ++k) {
                 const double product = time * motion_[k];
                 p[k] += product;
-                if (options_.to_single) p[k] = detail::base::nearest_float(p[k]);
+                if (single()) p[k] = base::nearest_float(p[k]);
             }
-        if (!detail::base::all_finite(one.points)) {
+        if (!base::all_finite(one.points)) {
             one.good = false;
             return one;
         }
@@ -50,10 +50,11 @@ class settling {
     }
 
     [[nodiscard]] bool cancelled() const { return work_.cancelled(); }
+    [[nodiscard]] bool single() const { return options_.precision == precision::float32; }
 
     [[nodiscard]] settled_among finished(settled_among found) {
         work_.reach(1.0);
-        found.cancelled = cancelled();
+        if (cancelled()) found.status = status::cancelled;
         return found;
     }
 
@@ -67,20 +68,20 @@ class settling {
             for (const point3& p : points) largest = std::max(largest, std::abs(p[k]));
         }
         if (largest == 0.0) return std::numeric_limits<double>::denorm_min() / speed;
-        const double unit = std::ldexp(1.0, std::ilogb(largest) - (options_.to_single ? 23 : 52));
+        const double unit = std::ldexp(1.0, std::ilogb(largest) - (single() ? 23 : 52));
         return std::max(unit, std::numeric_limits<double>::denorm_min()) / speed;
     }
 
   private:
     void put_on_floor(std::vector<point3>& points, bool rests) const {
         double level = *options_.floor;
-        const auto box = bounding_box(points);
-        const auto before = bounding_box(a_.points);
+        const auto box = box_of_faces({points, a_.faces});
+        const auto before = box_of_faces(a_);
         if (rests && box && before) {
             double largest = std::abs(level);
             for (const double z : {box->min.z, box->max.z, before->min.z, before->max.z})
                 largest = std::max(largest, std::abs(z));
-            if (box->min.z - level <= std::ldexp(largest, options_.to_single ? -21 : -50))
+            if (box->min.z - level <= std::ldexp(largest, single() ? -21 : -50))
                 level = std::max(level, box->min.z);
         }
         for (point3& p : points)
@@ -94,16 +95,16 @@ class settling {
         if (!box || a_.faces.empty()) return;
         std::optional<tree<3>> faces;
         for (std::size_t i = 0; i < parts_.size(); ++i) {
-            const still_part& part = parts_[i];
-            if (!boxes_[i] || part.mesh.faces.empty()) continue;
+            const shape& part = parts_[i];
+            if (!boxes_[i] || part.mesh().faces.empty()) continue;
             if (!within(*box, *boxes_[i], options_.clearance)) continue;
             const auto go_on = [&](double) { return work_.step(0.0, 0.9, tries_, 4.0); };
             if (!go_on(0.0)) return;
             if (!faces) faces = face_tree(there);
-            const mesh_relation how =
-                relation(there, *faces, part.mesh, *part.faces, go_on).relation;
-            const bool near = how == mesh_relation::separate && options_.clearance > 0.0 &&
-                              nearer(there, *faces, part);
+            const shape moved(whose_, one.points, *faces, part.vertices());
+            const mesh_relation how = relation_of(moved, part, go_on).relation;
+            const bool near =
+                how == mesh_relation::separate && options_.clearance > 0.0 && nearer(moved, part);
             const bool too_near = how == mesh_relation::penetrating || near ||
                                   (options_.clearance > 0.0 && how == mesh_relation::touching);
             if (how > one.relation || (too_near && one.good && how == one.relation)) one.part = i;
@@ -113,16 +114,18 @@ class settling {
         }
     }
 
-    [[nodiscard]] bool nearer(mesh_view there, const tree<3>& faces, const still_part& part) const {
-        const auto pair = mesh_distance(there, faces, part.mesh, *part.faces, options_.clearance);
+    [[nodiscard]] bool nearer(const shape& moved, const shape& part) const {
+        const auto pair = mesh_distance(moved.mesh(), moved.faces(), part.mesh(), part.faces(),
+                                        options_.clearance);
         return pair && pair->distance < options_.clearance;
     }
 
+    const prepared_mesh& whose_;
     mesh_view a_;
-    std::span<const still_part> parts_;
+    std::span<const shape> parts_;
     point3 motion_;
     settle_among_options options_;
-    detail::base::work_progress work_;
+    base::work_progress work_;
     std::size_t tries_ = 0;
     std::vector<std::optional<box3>> boxes_;
 };
@@ -132,23 +135,20 @@ void check(const point3& motion, double time, const settle_among_options& option
     for (std::size_t k = 0; k < 3; ++k)
         speed = std::isnan(motion[k]) ? motion[k] : std::max(speed, std::abs(motion[k]));
     if (!(std::isfinite(speed) && speed > 0.0) || !(time >= 0.0) || !std::isfinite(time))
-        throw std::invalid_argument(
-            "treeform::settle_among: the motion or the time is not finite, or zero");
+        throw std::invalid_argument("treeform: the motion or the time is not finite, or zero");
     if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
-        throw std::invalid_argument(
-            "treeform::settle_among: the clearance is negative or not finite");
+        throw std::invalid_argument("treeform: the clearance is negative or not finite");
 }
 
 }  // namespace
 
-settled_among settle_among(mesh_view a, std::span<const still_part> parts, const point3& motion,
-                           double time, const settle_among_options& options) {
+settled_among settle_among(const prepared_mesh& a, std::span<const shape> parts,
+                           const point3& motion, double time, const settle_among_options& options) {
     check(motion, time, options);
     settling place(a, parts, motion, options);
     settled_among best = place.at(time, true);
-    if (!detail::base::all_finite(best.points))
-        throw std::overflow_error(
-            "treeform::settle_among: the coordinates at the place are too large");
+    if (!base::all_finite(best.points))
+        throw std::overflow_error("treeform: the coordinates at the place are too large");
     const double unit = place.unit_of_time(best.points);
     const auto closed_in = [&](settled_among found) {
         const bool wanted = options.close_in && !options.forward && !(options.clearance > 0.0);
@@ -191,4 +191,4 @@ settled_among settle_among(mesh_view a, std::span<const still_part> parts, const
     return closed_in(std::move(best));
 }
 
-}  // namespace treeform
+}  // namespace treeform::detail::place

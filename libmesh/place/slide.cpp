@@ -1,89 +1,126 @@
-#include <libmesh/base/work_progress.hpp>
-#include <libmesh/place/first_approach.hpp>
+#include <libmesh/place/placing.hpp>
+#include <treeform/mesh/mate.hpp>
+#include <treeform/mesh/separate.hpp>
 #include <treeform/mesh/slide.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
-#include <utility>
 
 namespace treeform {
 namespace {
 
-/// What one part allows.
-struct part_end {
-    motion_end end = motion_end::free;
-    double time = 0.0;
-    sweep_contact exact{};
-    std::vector<face_contact> contacts{};
-    std::uint64_t contact_count = 0;
-    std::uint64_t pairs_tested = 0;
-    predicate_counters predicates{};
-};
+using detail::place::placing;
+using detail::place::placing_options;
 
-part_end end_at(mesh_view a, const tree<3>& tree_a, const still_part& part, const point3& motion,
-                double latest, const slide_options& options, const progress_callback& progress) {
-    if (options.clearance > 0.0) {
-        auto one = first_approach(a, tree_a, part.mesh, *part.faces, motion, options.clearance,
-                                  {.latest = latest, .limit = options.limit, .progress = progress});
-        return {one.end,           one.time,         {}, std::move(one.contacts),
-                one.contact_count, one.pairs_tested, {}};
-    }
-    auto one = first_contact(a, tree_a, part.mesh, *part.faces, motion,
-                             {.latest = latest, .limit = options.limit, .progress = progress});
-    return {one.end,           one.time,         one.exact,     std::move(one.contacts),
-            one.contact_count, one.pairs_tested, one.predicates};
+using many = std::span<const prepared_mesh>;
+
+many one(const prepared_mesh& mesh) { return {&mesh, 1}; }
+
+/// What `drop` is except for its direction; `bed` is the one that there is without fixed meshes.
+slide_options slide_of(const drop_options& o, const std::optional<double>& bed) {
+    return {.clearance = o.clearance,
+            .max_travel = o.max_travel,
+            .precision = o.precision,
+            .bed = o.bed ? o.bed : bed,
+            .limit = o.limit,
+            .vertices = o.vertices,
+            .progress = o.progress};
+}
+
+placement slide_as(const char* function, const prepared_mesh& moving, many fixed,
+                   const point3& direction, const slide_options& o) {
+    placing work(moving, fixed,
+                 {.function = function,
+                  .clearance = o.clearance,
+                  .max_travel = o.max_travel,
+                  .precision = o.precision,
+                  .bed = o.bed,
+                  .close_in = o.close_in,
+                  .along_direction = true,
+                  .limit = o.limit,
+                  .vertices = o.vertices,
+                  .progress = o.progress});
+    return work.run([&](placing& p) { p.slide(direction); });
 }
 
 }  // namespace
 
-slide_result slide(mesh_view a, const tree<3>& tree_a, std::span<const still_part> parts,
-                   const point3& motion, const slide_options& options) {
-    if (!(options.clearance >= 0.0))
-        throw std::invalid_argument("treeform::slide: the clearance is negative or NaN");
-    slide_result result;
-    sweep_contact earliest;
-    double latest = options.latest;
-    detail::base::work_progress work(options.progress);
-    const double share = 1.0 / static_cast<double>(std::max<std::size_t>(parts.size(), 1));
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto before = static_cast<double>(i);
-        part_end one = end_at(a, tree_a, parts[i], motion, latest, options,
-                              work.part(before * share, (before + 1.0) * share));
-        if (work.cancelled()) return {.cancelled = true};
-        result.pairs_tested += one.pairs_tested;
-        result.predicates += one.predicates;
-        if (one.end == motion_end::free) continue;
-        if (one.end == motion_end::at_start) {
-            work.reach(1.0);
-            return {.end = one.end,
-                    .part = i,
-                    .pairs_tested = result.pairs_tested,
-                    .predicates = result.predicates};
-        }
-        int order = -1;
-        if (result.end == motion_end::contact) {
-            order = options.clearance > 0.0 ? (one.time > result.time) - (one.time < result.time)
-                                            : compare(motion, one.exact, earliest);
-        }
-        if (order > 0) continue;
-        if (order < 0) {
-            result.contacts.clear();
-            result.contact_count = 0;
-            result.part = i;
-            result.end = one.end;
-            result.time = one.time;
-            earliest = one.exact;
-        }
-        result.contact_count += one.contact_count;
-        for (const face_contact& c : one.contacts)
-            if (result.contacts.size() < options.limit) result.contacts.push_back({i, c});
-        // The exact time may lie between two doubles.
-        latest =
-            std::min(latest, std::nextafter(result.time, std::numeric_limits<double>::infinity()));
-    }
-    work.reach(1.0);
-    return result;
+placement slide(const prepared_mesh& moving, many fixed, const point3& direction,
+                const slide_options& options) {
+    return slide_as("slide", moving, fixed, direction, options);
+}
+
+placement slide(const prepared_mesh& moving, const prepared_mesh& fixed, const point3& direction,
+                const slide_options& options) {
+    return slide(moving, one(fixed), direction, options);
+}
+
+placement slide(mesh_view moving, mesh_view fixed, const point3& direction,
+                const slide_options& options) {
+    return slide(prepared_mesh::borrow(moving), prepared_mesh::borrow(fixed), direction, options);
+}
+
+placement drop(const prepared_mesh& moving, many fixed, const drop_options& o) {
+    const auto bed = fixed.empty() ? std::optional(0.0) : std::nullopt;
+    return slide_as("drop", moving, fixed, o.direction, slide_of(o, bed));
+}
+
+placement drop(const prepared_mesh& moving, const drop_options& options) {
+    return drop(moving, many{}, options);
+}
+
+placement drop(mesh_view moving, const drop_options& options) {
+    return drop(prepared_mesh::borrow(moving), options);
+}
+
+placement drop(mesh_view moving, mesh_view fixed, const drop_options& options) {
+    const prepared_mesh on = prepared_mesh::borrow(fixed);
+    return drop(prepared_mesh::borrow(moving), one(on), options);
+}
+
+placement mate(const prepared_mesh& moving, many fixed, const mate_options& o) {
+    placing work(moving, fixed,
+                 {.function = "mate",
+                  .clearance = o.clearance,
+                  .max_travel = o.max_travel,
+                  .precision = o.precision,
+                  .limit = o.limit,
+                  .vertices = o.vertices,
+                  .progress = o.progress});
+    return work.run([](placing& p) { p.mate(); });
+}
+
+placement mate(mesh_view moving, mesh_view fixed, const mate_options& options) {
+    const prepared_mesh to = prepared_mesh::borrow(fixed);
+    return mate(prepared_mesh::borrow(moving), one(to), options);
+}
+
+placement separate(const prepared_mesh& moving, many fixed, const separate_options& o) {
+    placing work(moving, fixed,
+                 {.function = "separate",
+                  .clearance = o.clearance,
+                  .max_travel = o.max_travel,
+                  .precision = o.precision,
+                  .normals = o.normals,
+                  .face_pairs = o.face_pairs,
+                  .limit = o.limit,
+                  .vertices = o.vertices,
+                  .progress = o.progress});
+    return work.run([](placing& p) { p.separate(); });
+}
+
+placement separate(mesh_view moving, mesh_view fixed, const separate_options& options) {
+    const prepared_mesh from = prepared_mesh::borrow(fixed);
+    return separate(prepared_mesh::borrow(moving), one(from), options);
+}
+
+placement measure_among(const prepared_mesh& moving, many fixed, const measure_among_options& o) {
+    placing work(moving, fixed,
+                 {.function = "measure_among",
+                  .clearance = o.clearance,
+                  .limit = o.limit,
+                  .vertices = o.vertices,
+                  .progress = o.progress});
+    return work.run([](placing& p) { p.measure(); });
 }
 
 }  // namespace treeform

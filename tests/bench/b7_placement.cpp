@@ -9,10 +9,10 @@
 #include "bench/poses.hpp"
 #include <libmesh/base/face_tree.hpp>
 #include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/first_contact.hpp>
 #include <treeform/mesh/mesh_distance.hpp>
 #include <treeform/mesh/mesh_intersections.hpp>
 #include <treeform/mesh/relation.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/search.hpp>
 
@@ -110,18 +110,18 @@ contest collision_with_trees(const setting& setting, const scene_name& name) {
 
 struct prepared {
     shared_scene given;
-    tree<3> tree_a, tree_b;
+    prepared_mesh a, b;
 };
 
-/// From where the second mesh is towards the centre of the first.
+/// From where the second mesh is towards the center of the first.
 point3 towards_first(const scene& scene, const transform<3>& pose) {
-    const auto centre = [](const mesh& m) {
+    const auto center = [](const mesh& m) {
         const box3 box = bounding_box(m.points).value();
         return point3{0.5 * (box.min.x + box.max.x), 0.5 * (box.min.y + box.max.y),
                       0.5 * (box.min.z + box.max.z)};
     };
-    const point3 to = centre(*scene.a);
-    const point3 from = pose(centre(*scene.b));
+    const point3 to = center(*scene.a);
+    const point3 from = pose(center(*scene.b));
     return {to.x - from.x, to.y - from.y, to.z - from.z};
 }
 
@@ -129,38 +129,38 @@ contest contact_beside_distance(const setting& setting, const scene_name& name) 
     const auto prepare = [=] {
         const shared_scene given = load(setting, name);
         return std::make_shared<const prepared>(
-            prepared{given, face_tree(*given->a), face_tree(*given->b)});
+            prepared{given, prepared_mesh::borrow(*given->a), prepared_mesh::borrow(*given->b)});
     };
     contest contest{.name = name_of(setting, name) + "/first_contact",
                     .size = [=] { return triangles_of(setting, name); },
                     .unit = per_pose(name.poses),
                     .with_memory = false,
                     .long_runs = 3};
-    contest.contestants.push_back(
-        {"treeform", 1, [=] {
-             const auto p = prepare();
-             return make_job([p] {
-                 std::size_t met = 0;
-                 for (const transform<3>& pose : p->given->apart)
-                     met += first_contact(*p->given->b, p->tree_b, *p->given->a, p->tree_a,
-                                          towards_first(*p->given, pose), {.move_a = pose})
-                                .end == motion_end::contact;
-                 return met;
-             });
-         }});
-    contest.contestants.push_back({"treeform one distance", 1, [=] {
+    contest.contestants.push_back({"treeform", 1, [=] {
                                        const auto p = prepare();
                                        return make_job([p] {
-                                           double sum = 0.0;
+                                           std::size_t met = 0;
                                            for (const transform<3>& pose : p->given->apart)
-                                               sum += mesh_distance(*p->given->a, p->tree_a,
-                                                                    *p->given->b,
-                                                                    transformed<3>(p->tree_b, pose))
-                                                          .value()
-                                                          .distance;
-                                           return sum;
+                                               met += time_of_impact(p->b, p->a,
+                                                                     towards_first(*p->given, pose),
+                                                                     {.move_a = pose})
+                                                          .end == motion_end::contact;
+                                           return met;
                                        });
                                    }});
+    contest.contestants.push_back(
+        {"treeform one distance", 1, [=] {
+             const auto p = prepare();
+             return make_job([p] {
+                 double sum = 0.0;
+                 for (const transform<3>& pose : p->given->apart)
+                     sum += mesh_distance(*p->given->a, face_tree(p->a), *p->given->b,
+                                          transformed<3>(face_tree(p->b), pose))
+                                .value()
+                                .distance;
+                 return sum;
+             });
+         }});
     return contest;
 }
 
@@ -202,10 +202,10 @@ std::shared_ptr<const parts_scene> make_parts(const setting& setting) {
 /// How many of the parts the moved one touches or penetrates; trees of parts are made when wanted.
 template <class Parts>
 std::size_t met_by_moved(const parts_scene& scene, const Parts& looked_at) {
-    const tree<3> faces = face_tree(scene.moved);
+    const auto moved = prepared_mesh::borrow(scene.moved);
     std::size_t met = 0;
     for (const std::uint32_t i : looked_at)
-        met += relation(scene.moved, faces, scene.parts[i], face_tree(scene.parts[i])).relation !=
+        met += relation(moved, prepared_mesh::borrow(scene.parts[i])).relation !=
                mesh_relation::separate;
     return met;
 }

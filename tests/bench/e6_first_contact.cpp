@@ -7,7 +7,7 @@
 #include "bench/peers/plain_sweep.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/triangle_askers.hpp"
-#include <treeform/mesh/first_contact.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/mesh/triangle_sweep.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -4,14 +4,13 @@
 
 #include <libmesh/base/face_tree.hpp>
 #include <libmesh/base/nearest_float.hpp>
-#include <libmesh/place/settle.hpp>
-#include <treeform/mesh/arrange.hpp>
 #include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/equal_points.hpp>
-#include <treeform/mesh/first_contact.hpp>
 #include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/relation.hpp>
+#include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -44,7 +43,7 @@ double largest_coordinate(const tf::mesh& mesh) {
     return largest;
 }
 
-/// `a` with its box centred above that of `b`, beyond it by the height of `b`.
+/// `a` with its box centered above that of `b`, beyond it by the height of `b`.
 tf::mesh above(tf::mesh a, const tf::mesh& b) {
     const tf::box3 from = tf::bounding_box(a.points).value();
     const tf::box3 to = tf::bounding_box(b.points).value();
@@ -78,20 +77,20 @@ TEST_CASE("models: what is dropped on another stops outside of it, and not an ul
         CAPTURE(row.text("pair"));
         const tf::mesh b = read(folder / files[1]);
         const tf::mesh a = above(read(folder / files[0]), b);
-        const tf::tree<3> tree_a = tf::face_tree(a), tree_b = tf::face_tree(b);
+        const auto moving = tf::prepared_mesh::borrow(a), fixed = tf::prepared_mesh::borrow(b);
         const tf::point3 down{0.0, 0.0, -1.0};
-        const auto met = tf::first_contact(a, tree_a, b, tree_b, down);
-        if (met.end == tf::motion_end::free) continue;
-        REQUIRE(met.end == tf::motion_end::contact);
         for (const bool to_single : {false, true}) {
             CAPTURE(to_single);
-            const auto settled = tf::settle(a, b, tree_b, down, met.time,
-                                            {.to_single = to_single, .close_in = true});
-            tf::mesh there = a;
-            there.points = settled.points;
-            CHECK(there.points == dropped(a, settled.time, to_single).points);
-            const auto now = tf::relation(there, tf::face_tree(there), b, tree_b).relation;
-            CHECK(now == settled.relation);
+            const auto found = tf::slide(
+                moving, fixed, down,
+                {.precision = to_single ? tf::precision::float32 : tf::precision::float64});
+            if (found.end == tf::placement_end::nothing_met) continue;
+            REQUIRE(found.end == tf::placement_end::contact);
+            const tf::mesh there{found.points, a.faces};
+            CHECK(there.points == dropped(a, found.travel, to_single).points);
+            const auto now = tf::relation(tf::prepared_mesh::borrow(there), fixed).relation;
+            CHECK((now == tf::mesh_relation::touching) ==
+                  (found.at_place == tf::standing::touching));
             CHECK(now != tf::mesh_relation::penetrating);
             ++placed;
             touching += now == tf::mesh_relation::touching;
@@ -99,11 +98,11 @@ TEST_CASE("models: what is dropped on another stops outside of it, and not an ul
             // An ulp of the largest coordinate further it meets.
             double height = 0.0;
             for (const tf::point3& p : there.points) height = std::max(height, std::abs(p.z));
-            const double largest = std::max({largest_coordinate(a), height, settled.time});
+            const double largest = std::max({largest_coordinate(a), height, found.travel});
             const double ulp = to_single ? std::ldexp(1.0, std::ilogb(height) - 23)
                                          : std::ldexp(1.0, std::ilogb(largest) - 52);
-            const tf::mesh further = dropped(a, settled.time + ulp, to_single);
-            CHECK(tf::relation(further, tf::face_tree(further), b, tree_b).relation !=
+            const tf::mesh further = dropped(a, found.travel + ulp, to_single);
+            CHECK(tf::relation(tf::prepared_mesh::borrow(further), fixed).relation !=
                   tf::mesh_relation::separate);
         }
     }
@@ -136,8 +135,8 @@ TEST_CASE("models: fifty parts on a plate keep their distance, and those left ou
     const std::vector<tf::mesh_view> views(parts.begin(), parts.end());
     for (const double side : {600.0, 200.0}) {
         CAPTURE(side);
-        const tf::arrange_options options{.size = {side, side, infinity}, .spacing = 2.0};
-        const auto result = tf::arrange(views, options);
+        const tf::pack_options options{.size = {side, side, infinity}, .spacing = 2.0};
+        const auto result = tf::pack(views, options);
         std::vector<std::uint32_t> left_out;
         std::vector<tf::mesh> placed;
         for (std::uint32_t i = 0; i < parts.size(); ++i) {

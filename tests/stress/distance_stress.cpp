@@ -85,7 +85,7 @@ TEST_CASE("no pose has another distance than all pairs of faces give") {
         const auto by_trees = tf::mesh_distance(a, tree_a, b, tf::transformed<3>(tree_b, pose));
         const auto by_models = tf::mesh_distance(model_a, model_b, {.move_b = pose});
         const auto other_way = tf::mesh_distance(model_b, model_a, {.move_a = pose});
-        const auto measured = tf::measure(a, tree_a, moved, tf::face_tree(moved));
+        const auto measured = tf::measure(a, moved);
         for (const double found : {by_trees->distance, by_models->distance, other_way->distance,
                                    measured->surface_distance}) {
             CHECK((found == 0.0) == (truth == 0.0));

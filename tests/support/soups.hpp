@@ -101,6 +101,17 @@ inline tf::mesh turned(tf::mesh mesh, const tf::point3& axis, double angle) {
     return mesh;
 }
 
+/// Each face with corners of its own, as STL has them.
+inline tf::mesh unjoined(const tf::mesh& mesh) {
+    tf::mesh result;
+    for (const tf::face& f : mesh.faces) {
+        const auto first = static_cast<std::uint32_t>(result.points.size());
+        for (const std::uint32_t corner : f) result.points.push_back(mesh.points[corner]);
+        result.faces.push_back({first, first + 1, first + 2});
+    }
+    return result;
+}
+
 /// With what was inside outside: each face the other way round.
 inline tf::mesh inside_out(tf::mesh mesh) {
     for (tf::face& f : mesh.faces) std::swap(f[1], f[2]);

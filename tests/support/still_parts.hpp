@@ -2,27 +2,27 @@
 /// \file
 /// Meshes that stand still, as what moves among them takes them.
 
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/place/shape.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/still_part.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tf.hpp>
-#include <treeform/tree/tree.hpp>
 
 #include <deque>
 #include <vector>
 
 namespace test {
 
-/// Parts and their trees, kept together.
 struct still_parts {
     std::deque<tf::mesh> meshes;
-    std::deque<tf::tree<3>> trees;
-    std::vector<tf::still_part> parts;
+    std::vector<tf::prepared_mesh> prepared;
 
     void add(const tf::mesh& mesh) {
         meshes.push_back(mesh);
-        trees.push_back(tf::face_tree(meshes.back()));
-        parts.push_back({meshes.back(), &trees.back()});
+        prepared.push_back(tf::prepared_mesh::borrow(meshes.back()));
+    }
+    /// As the functions inside the library take them. \pre nothing is added while they live
+    [[nodiscard]] std::vector<tf::detail::place::shape> parts() const {
+        return {prepared.begin(), prepared.end()};
     }
 };
 

@@ -9,7 +9,6 @@
 #include "tools/tf-place/outputs.hpp"
 #include "tools/tf-place/plate.hpp"
 #include "tools/tf-place/settings.hpp"
-#include "tools/tf-place/words.hpp"
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -235,77 +234,28 @@ void check_settings(const command_line& line, place_settings& s, common_options&
     if (s.mode != place_mode::measure) tools::require_output(line, o);
 }
 
-/// The fixed meshes, read once for all MOVING.
-struct fixed_meshes {
-    std::vector<tools::body> bodies{};
-    tools::json entries = tools::json::array();
-    bool read = false;
-    bool as_single = false;
-};
-
-/// Alignment is to all of a file, which may be a cloud.
-std::vector<tools::body> parts_of(tools::job& work, const std::string& path, tf::mesh_file file,
-                                  place_mode mode) {
-    if (mode != place_mode::fit) return tools::make_parts(work, path, std::move(file));
-    std::vector<tools::body> whole;
-    whole.push_back(tools::make_body(work, path, std::move(file)));
-    return whole;
-}
-
-void read_fixed(tools::job& work, const place_settings& s, bool as_single, fixed_meshes& fixed) {
-    if (fixed.read && fixed.as_single == as_single) return;
-    fixed = {.as_single = as_single};
-    for (const std::string& path : s.fixed) {
-        tools::json about{{"input", path}};
-        tf::mesh_file file = work.read(path, about);
-        for (const tf::io_warning& w : file.warnings)
-            work.warn(w.code, tools::name_of_input(path) + ": " + w.text);
-        const double moved = as_single ? tools::round_to_single(file) : 0.0;
-        if (moved > 0.0)
-            work.warn("rounded", tools::name_of_input(path) +
-                                     ": written in single precision: coordinates move by up to " +
-                                     tools::shortest(moved));
-        for (tools::body& part : parts_of(work, path, std::move(file), s.mode)) {
-            part.file_number = fixed.entries.size();
-            fixed.bodies.push_back(std::move(part));
-        }
-        fixed.entries.push_back(std::move(about));
-    }
-    fixed.read = true;
-}
-
-tools::body read_moving(tools::job& work, const tf::transform<3>& start) {
-    tools::json about;
-    tf::mesh_file file = work.read(work.path, about);
-    for (const char* key : {"format", "sha256", "precision_in"}) work.entry[key] = about[key];
-    for (const tf::io_warning& w : file.warnings) work.warn(w.code, w.text);
-    if (start != tf::transform<3>{})
-        for (tf::point3& p : file.mesh.points) p = start(p);
-    return tools::make_body(work, work.path, std::move(file));
-}
-
-exit_status look_at(tools::job& work, const place_settings& s, fixed_meshes& fixed) {
+exit_status look_at(tools::job& work, const place_settings& s, tools::body_set& fixed) {
     tools::enter_blank_report(work, s);
     tools::check_outputs(work, s);
     const tf::transform<3> start =
         s.start.empty() ? tf::transform<3>{} : tools::read_matrix(s.start);
-    tools::body moving = read_moving(work, start);
-    const bool to_single = tools::writes_single(work, *moving.file);
-    read_fixed(work, s, s.scene && to_single, fixed);
-    work.entry["fixed"] = fixed.entries;
-    tools::surroundings among(fixed.bodies);
-    tools::enter_bodies(work, moving, among);
+    tools::body_set moving;
+    static_cast<void>(tools::read_body(work, work.path, start, moving));
+    const tools::body& one = moving.bodies[0];
+    const tf::precision precision = tools::precision_of(work, *one.file);
+    tools::read_fixed(work, s, s.scene && precision == tf::precision::float32, fixed);
+    tools::enter_bodies(work, one, fixed);
 
-    const tools::placement p = tools::place(work, moving, among, s, to_single);
-    const tf::transform<3> matrix = tf::after(p.matrix, start);
-    work.out.result(work.name + ": " + tools::verdict(moving, p, among, s));
-    tools::say_details(work, p, among);
-    tools::enter_report(work, moving, p, among, matrix);
-    if (!p.placed) return tools::found;
+    const tools::outcome found = tools::place(work, moving, fixed, s, precision);
+    const tf::transform<3> matrix = tf::after(found.at.matrix, start);
+    work.out.result(work.name + ": " + tools::verdict(one, found, fixed, s));
+    tools::say_details(work, found, fixed);
+    tools::enter_report(work, one, found, fixed, s, matrix);
+    if (!found.at) return tools::found;
     const auto timing = work.time("write");
-    if (!s.matrix.empty()) tools::write_matrix(work, s.matrix, matrix);
-    tools::write_result(work, moving, p, among, s, matrix, to_single);
-    return p.complete ? tools::done : tools::found;
+    if (!s.matrix.empty()) tools::write_matrix(work, s.matrix, tools::matrix_text(matrix));
+    tools::write_result(work, moving, found, fixed, s, matrix);
+    return found.complete() ? tools::done : tools::found;
 }
 
 }  // namespace
@@ -315,12 +265,12 @@ int main(int argc, char** argv) {
                       "Find where to put one mesh (or point set) with respect to others.\n"
                       "The result never penetrates: it is checked again in the precision written.");
     place_settings s;
-    fixed_meshes fixed;
+    tools::body_set fixed;
     common_options options;
     options.suffix = "-place";
     line.word("MODE", [&](std::string_view text) {
         s.mode_text = text;
-        options.joined = text == "arrange";  // they go to one plate
+        options.joined = text == "arrange" || text == "pack";  // they go to one plate
     });
     line.inputs(options.inputs,
                 "meshes: STL OBJ PLY OFF GLB/glTF 3MF; points: PLY\n"

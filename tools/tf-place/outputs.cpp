@@ -1,12 +1,11 @@
 #include "tools/tf-place/outputs.hpp"
 
+#include "tools/common/class_colors.hpp"
 #include "tools/common/console.hpp"
-#include "tools/common/material_words.hpp"
+#include "tools/common/folds.hpp"
 #include "tools/common/output_file.hpp"
+#include "tools/common/scene_file.hpp"
 #include "tools/common/written_form.hpp"
-#include "tools/tf-place/marks.hpp"
-#include "tools/tf-place/rounding.hpp"
-#include "tools/tf-place/words.hpp"
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/io_error.hpp>
 #include <treeform/mesh/write.hpp>
@@ -14,194 +13,87 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace tools {
 namespace {
 
-json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
+/// By triangle of a file, of a cloud by point: a `tf::contact_class`.
+using classes = std::vector<std::uint8_t>;
 
-json box_entry(const std::optional<tf::box3>& box) {
-    if (!box) return nullptr;
-    return {{"min", triple(box->min)}, {"max", triple(box->max)}};
+/// Gray, red, yellow, cyan.
+constexpr std::array<const char*, 4> class_colors{"#b4bac2", "#e02020", "#ecd000", "#00a0c0"};
+
+/// Enters the classes of the faces of `b` in those of its file; the gravest stays.
+void enter_classes(classes& of_file, const body& b, const std::vector<tf::contact_class>& faces) {
+    of_file.resize(b.cloud ? b.file->mesh.points.size() : b.file->mesh.faces.size());
+    for (std::uint32_t f = 0; f < faces.size(); ++f)
+        of_file[b.is.triangle(f)] = static_cast<std::uint8_t>(faces[f]);
 }
 
-void extend(std::optional<tf::box3>& box, const std::optional<tf::box3>& more) {
-    if (box && more)
-        box = tf::bounding_box(std::array{box->min, box->max, more->min, more->max});
-    else if (more)
-        box = more;
-}
-
-json side_entry(const body& b, const tf::surface_point& at) {
-    json entry{{"point", triple(at.point)}};
-    entry["face"] = b.cloud ? json(nullptr) : json(b.stored_face(at.face));
-    entry["triangle"] = b.cloud ? json(nullptr) : json(b.triangle(at.face));
-    entry["barycentric"] = b.cloud ? json(nullptr) : json(at.barycentric);
-    entry["vertex"] = b.cloud ? json(b.triangle(at.face)) : json(nullptr);
-    return entry;
-}
-
-json name_entry(const body& b) { return b.part.empty() ? json(nullptr) : json(b.part); }
-
-json closest_entry(const body& moving, const nearest_part& near, const surroundings& among) {
-    const body& part = among.all()[near.part];
-    json fixed = side_entry(part, near.how.on_b);
-    fixed["file"] = part.path;
-    fixed["part"] = part.file_number;
-    fixed["name"] = name_entry(part);
-    return {{"moving", side_entry(moving, near.how.on_a)}, {"fixed", std::move(fixed)}};
-}
-
-json contacts_entry(const body& moving, const std::vector<contact_row>& contacts,
-                    const surroundings& among) {
-    json rows = json::array();
-    for (const contact_row& c : contacts) {
-        const body* const part = c.fixed ? &among.all()[c.part] : nullptr;
-        rows.push_back({{"point", triple(c.point)},
-                        {"normal", triple(c.normal)},
-                        {"moving", moving.stored_face(c.moving)},
-                        {"fixed", part ? json(part->stored_face(*c.fixed)) : json(nullptr)},
-                        {"part", part ? json(part->file_number) : json("bed")},
-                        {"name", part ? name_entry(*part) : json(nullptr)}});
+/// The gravest class of the triangles of each face as stored.
+classes by_stored_face(const tf::mesh_file& file, const classes& triangles) {
+    if (file.stored_face.empty()) return triangles;
+    classes stored(file.stored_faces);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        std::uint8_t& present = stored[file.stored_face[t]];
+        if (triangles[t] != 0 && (present == 0 || triangles[t] < present)) present = triangles[t];
     }
-    return rows;
+    return stored;
 }
 
-json matrix_entry(const tf::transform<3>& matrix) {
-    json rows = json::array();
-    for (const auto& row : matrix.rows) rows.push_back(row);
-    rows.push_back({0.0, 0.0, 0.0, 1.0});
-    return rows;
-}
-
-json inside_entry(const placement& p) {
-    if (!p.nearest) return nullptr;
-    const auto& how = p.nearest->how.relation;
-    return how.a_inside_b ? json("moving") : how.b_inside_a ? json("fixed") : json(nullptr);
-}
-
-/// The faces were not looked at: nothing is said of how they lie to each other.
-void enter_fit(job& work, const tf::fit_result& fit) {
-    json& entry = work.entry;
-    for (const char* key : {"status", "status_at_start", "contact_count"}) entry[key] = nullptr;
-    for (const char* key : {"travel", "backed_off"}) entry[key] = nullptr;
-    entry["fit"] = {{"rms", fit.rms},
-                    {"rms_at_start", fit.rms_at_start},
-                    {"overlap", fit.overlap},
-                    {"scale", fit.scale},
-                    {"converged", fit.converged},
-                    {"iterations", fit.iterations},
-                    {"pivot", triple(fit.pivot)},
-                    {"pivot_moved", triple(fit.pivot_moved)}};
-}
-
-/// The parts of a body's file in a scene, to be known there by the names they have, or by the
-/// file's where it has one part.
-std::vector<tf::part> parts_in_scene(const body& b, std::vector<tf::part> parts) {
-    const std::string file_name = std::filesystem::path(b.name()).stem().string();
-    const bool one = std::all_of(parts.begin(), parts.end(), [&](const tf::part& p) {
-        return p.object == parts[0].object && p.group == parts[0].group;
+/// Gives the rows of an element, "face" or "vertex", the property tf_class, and the colors of their
+/// classes unless `keep_colors` and the file has some.
+void set_classes(tf::mesh_file& file, const char* element, const classes& all, bool keep_colors) {
+    const auto& elements = file.attributes.elements;
+    const bool colored = std::any_of(elements.begin(), elements.end(), [](const tf::element& e) {
+        return tf::find_column(e, "red") != nullptr;
     });
-    for (tf::part& p : parts)
-        if (one) p = {.object = file_name, .material = p.material, .first_face = p.first_face};
-    if (parts.empty() || parts[0].first_face > 0)
-        parts.insert(parts.begin(), {.object = file_name});
-    if (one)
-        parts.erase(std::unique(parts.begin(), parts.end(),
-                                [](const tf::part& p, const tf::part& q) {
-                                    return p.material == q.material;
-                                }),
-                    parts.end());
-    return parts;
+    tf::element& rows = tf::obtain_element(file.attributes, element, all.size());
+    if (!colored || !keep_colors) set_colors(rows, all, class_colors);
+    const std::vector<std::int32_t> numbers(all.begin(), all.end());
+    tf::set_column(rows, tf::make_column<std::int32_t>("tf_class", numbers));
 }
 
-/// What a scene takes of a body's file, but for points and faces.
-tf::mesh_file described(const body& b) {
-    tf::mesh_file one{.stored_face = b.file->stored_face, .stored_faces = b.file->stored_faces};
-    const tf::attributes& all = b.file->attributes;
-    one.attributes = {.corners = all.corners,
-                      .parts = all.parts,
-                      .material_files = all.material_files,
-                      .texture_files = all.texture_files};
-    if (const tf::column* numbers = tf::texture_numbers(*b.file))
-        one.attributes.elements = {{"face", one.stored_faces, {*numbers}}};
-    return one;
-}
-
-/// The files of `bodies` with one list of texture files.
-std::vector<tf::mesh_file> described(job& work, const std::vector<const body*>& bodies,
-                                     const std::string& format) {
-    std::vector<tf::mesh_file> all;
-    std::vector<std::string> names;
-    for (const body* b : bodies) {
-        all.push_back(described(*b));
-        names.push_back(name_of_input(b->path));
+/// Of a scene, the classes of all files follow each other as its faces do; clouds have none there.
+void color_scene(tf::mesh_file& file, const body& moving, const body_set& fixed,
+                 const tf::contact_classes& found) {
+    classes all;
+    if (!moving.cloud) enter_classes(all, moving, found.moving);
+    classes of_file;
+    for (std::size_t i = 0; i < fixed.bodies.size(); ++i) {
+        const body& b = fixed.bodies[i];
+        enter_classes(of_file, b, found.fixed[i]);
+        const bool last =
+            i + 1 == fixed.bodies.size() || fixed.bodies[i + 1].file_number != b.file_number;
+        if (!last) continue;
+        if (!b.cloud) all.insert(all.end(), of_file.begin(), of_file.end());
+        of_file.clear();
     }
-    std::vector<tf::mesh_file*> files;
-    for (tf::mesh_file& one : all) files.push_back(&one);
-    for (const tf::io_warning& w : tf::unite_textures(files, names)) work.warn(w.code, w.text);
-    if (format == "obj")
-        warn_of_ambiguous_materials(work,
-                                    std::vector<const tf::mesh_file*>(files.begin(), files.end()));
-    return all;
+    set_classes(file, "face", all, false);
 }
 
-/// Gives the faces of `scene` that come next, `faces` in number, the numbers of `one`.
-void append_texture_numbers(tf::mesh_file& scene, const tf::mesh_file& one, std::size_t faces) {
-    const tf::column* const more = tf::texture_numbers(one);
-    if (more == nullptr || scene.attributes.texture_files.empty()) return;
-    tf::element& rows = tf::obtain_element(scene.attributes, "face", 0);
-    rows.rows += faces;
-    if (rows.columns.empty()) return rows.columns.push_back(*more);
-    auto& values = rows.columns[0].values;
-    values.insert(values.end(), more->values.begin(), more->values.end());
-}
-
-/// All together, with the parts of their files, what their corners have, its materials and
-/// textures. Other properties are left out.
-tf::mesh_file scene_of(job& work, const std::vector<const body*>& bodies,
-                       const std::string& format) {
-    tf::mesh_file scene;
-    scene.format = bodies[0]->file->format;
-    scene.stored_as = bodies[0]->file->stored_as;
-    const auto add = [&](const body& b, tf::mesh_file one) {
-        const tf::mesh& mesh = b.file->mesh;
-        tf::split_polygons(one);
-        append_texture_numbers(scene, one, mesh.faces.size());
-        const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
-        const auto first_face = static_cast<std::uint32_t>(scene.mesh.faces.size());
-        for (tf::part& p : parts_in_scene(b, std::move(one.attributes.parts))) {
-            p.first_face += first_face;
-            scene.attributes.parts.push_back(std::move(p));
-        }
-        tf::append(scene.attributes.corners, first_face, one.attributes.corners, mesh.faces.size());
-        auto& names = scene.attributes.material_files;
-        for (const std::string& name : one.attributes.material_files)
-            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-        scene.mesh.points.insert(scene.mesh.points.end(), mesh.points.begin(), mesh.points.end());
-        for (const tf::face& f : mesh.faces)
-            scene.mesh.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
-    };
-    std::vector<tf::mesh_file> files = described(work, bodies, format);
-    scene.attributes.texture_files = files[0].attributes.texture_files;
-    for (std::size_t i = 0; i < bodies.size(); ++i) add(*bodies[i], std::move(files[i]));
-    scene.stored_faces = scene.mesh.faces.size();
-    return scene;
+/// What `measure` writes is a picture: every triangle has its own color. What has been moved stays
+/// what it is, with its polygons, and its colors where it has some.
+void color_moving(tf::mesh_file& file, const body& moving, const tf::contact_classes& found,
+                  bool picture) {
+    classes all;
+    enter_classes(all, moving, found.moving);
+    if (moving.cloud) return set_classes(file, "vertex", all, !picture);
+    if (!picture) return set_classes(file, "face", by_stored_face(file, all), true);
+    tf::split_polygons(file);
+    set_classes(file, "face", all, false);
 }
 
 /// Writes `file` and says so in the report.
 void write_file(job& work, const tf::mesh_file& file, const std::filesystem::path& path,
-                const written_form& form, bool to_single, bool scene) {
+                const written_form& form, tf::precision precision, bool scene) {
     const common_options& o = work.options;
-    const tf::write_options options{
-        .format = form.format,
-        .ascii = form.ascii,
-        .precision = to_single ? tf::precision::float32 : tf::precision::float64};
     output_place place(path, o.force || o.in_place, work.keeper);
     tf::write_result written;
     try {
-        written = tf::write_mesh(place.writable(), file, options);
+        written =
+            tf::write_mesh(place.writable(), file,
+                           {.format = form.format, .ascii = form.ascii, .precision = precision});
     } catch (const tf::io_error& error) {
         throw failure(bad_output, "output", place.said_of_path(error.what()));
     }
@@ -218,38 +110,6 @@ void write_file(job& work, const tf::mesh_file& file, const std::filesystem::pat
                                  shortest(written.largest_move));
 }
 
-/// Of a scene, the classes of all files follow each other as its faces do; clouds have none there.
-void color_scene(tf::mesh_file& file, const body& moving, const std::vector<body>& fixed,
-                 const all_classes& classes) {
-    face_classes all;
-    const auto add = [&](const body& b, const face_classes& more) {
-        if (!b.cloud) all.insert(all.end(), more.begin(), more.end());
-    };
-    add(moving, classes.moving);
-    for (std::size_t i = 0; i < fixed.size(); ++i)
-        if (i == 0 || fixed[i].file_number != fixed[i - 1].file_number)
-            add(fixed[i], classes.fixed[fixed[i].file_number]);
-    set_classes(file, "face", all, false);
-}
-
-/// What `measure` writes is a picture: every triangle has its own colour. What has been moved stays
-/// what it is, with its polygons, and its colours where it has some.
-void color_moving(tf::mesh_file& file, bool cloud, const face_classes& classes, bool picture) {
-    if (cloud) return set_classes(file, "vertex", classes, !picture);
-    if (picture) {
-        tf::split_polygons(file);
-        set_classes(file, "face", classes, false);
-    } else {
-        set_classes(file, "face", by_stored_face(file, classes), true);
-    }
-}
-
-/// `fit` looks at no faces, and without fixed meshes there is nothing to meet.
-bool has_classes(const place_settings& settings, const std::string& format) {
-    return !settings.fixed.empty() && settings.mode != place_mode::fit &&
-           (format == "ply" || format == "glb");
-}
-
 }  // namespace
 
 void check_outputs(const job& work, const place_settings& settings) {
@@ -259,163 +119,109 @@ void check_outputs(const job& work, const place_settings& settings) {
     if (const auto path = mesh_output(o, work.path)) check_output(*path, o.force || o.in_place);
 }
 
-bool writes_single(const job& work, const tf::mesh_file& file) {
+tf::precision precision_of(const job& work, const tf::mesh_file& file) {
     const auto path = mesh_output(work.options, work.path);
     const tf::mesh_file* const input = &file;
-    return path && writes_single(work.options, form_of(work, file, *path), {&input, 1});
+    const bool single =
+        path && writes_single(work.options, form_of(work, file, *path), {&input, 1});
+    return single ? tf::precision::float32 : tf::precision::float64;
 }
 
-void enter_blank_report(job& work, const place_settings& settings) {
-    json& entry = work.entry;
-    for (const char* key : {"format", "sha256", "precision_in", "faces", "triangles", "box"})
-        entry[key] = nullptr;
-    entry["mode"] = name_of(settings.mode);
-    entry["fixed"] = json::array();
-    entry["skipped"] = {{"non_finite", nullptr},          {"parts_not_loaded", 0},
-                        {"parts_not_indexed", nullptr},   {"primitives_not_indexed", nullptr},
-                        {"pairs_culled_by_box", nullptr}, {"face_pairs_in_motion", nullptr},
-                        {"filter_calls", nullptr},        {"exact_calls", nullptr}};
-    entry["clearance"] = {{"given", settings.clearance.given}, {"used", nullptr}};
-    entry["max_travel"] = settings.max_travel ? json(settings.max_travel->given) : json(nullptr);
-    for (const char* key :
-         {"bed", "placed", "reason", "status_at_start", "status", "inside", "distance",
-          "surface_distance", "closest", "direction", "travel", "backed_off", "matrix"})
-        entry[key] = nullptr;
-    entry["contacts"] = json::array();
-    entry["contact_count"] = nullptr;
-    entry["sides"] = json::array();
-    for (const char* key : {"chosen", "corrected", "fit", "fits"}) entry[key] = nullptr;
-    entry["tolerance"] = {
-        {"given", settings.mode == place_mode::lay ? json(settings.flatness.given) : json(nullptr)},
-        {"used", nullptr}};
-    entry["parts"] = json::array();
-    entry["not_placed"] = json::array();
-    entry["rounding"] = nullptr;
-    entry["matrix_file"] = settings.matrix.empty() ? json(nullptr) : json(settings.matrix.string());
-    entry["output"] = nullptr;
-}
-
-void enter_bodies(job& work, const body& moving, const surroundings& among) {
-    json& entry = work.entry;
-    entry["faces"] = moving.file->stored_faces;
-    entry["triangles"] = moving.file->mesh.faces.size();
-    entry["box"] = box_entry(moving.box);
-    std::uint64_t non_finite = moving.non_finite;
-    std::vector<std::optional<tf::box3>> boxes(entry["fixed"].size());
-    for (const body& part : among.all()) {
-        json& one = entry["fixed"][part.file_number];
-        one["faces"] = part.file->stored_faces;
-        extend(boxes[part.file_number], part.box);
-        one["box"] = box_entry(boxes[part.file_number]);
-        non_finite += part.non_finite;
-    }
-    entry["skipped"]["non_finite"] = non_finite;
-}
-
-void enter_report(job& work, const body& moving, const placement& p, const surroundings& among,
-                  const tf::transform<3>& matrix) {
-    json& entry = work.entry;
-    const std::uint64_t parts = among.all().size();
-    entry["skipped"]["parts_not_indexed"] = parts - among.indexed();
-    std::uint64_t faces = 0;
-    for (const body& part : among.all())
-        if (!part.tree) faces += part.face_count();
-    entry["skipped"]["primitives_not_indexed"] = faces;
-    entry["skipped"]["pairs_culled_by_box"] = p.skipped.parts_culled;
-    entry["skipped"]["face_pairs_in_motion"] = p.skipped.pairs_tested;
-    entry["skipped"]["filter_calls"] = p.skipped.predicates.calls;
-    entry["skipped"]["exact_calls"] = p.skipped.predicates.undecided;
-    for (json& one : entry["fixed"]) {
-        one["indexed"] = false;
-        one["parts"] = json::array();
-    }
-    for (const body& part : among.all()) {
-        json& one = entry["fixed"][part.file_number];
-        const bool indexed = part.tree != nullptr;
-        if (indexed) one["indexed"] = true;
-        if (part.part.empty()) continue;
-        one["parts"].push_back({{"name", part.part},
-                                {"triangles", part.face_count()},
-                                {"box", box_entry(part.box)},
-                                {"indexed", indexed}});
-    }
-    entry["clearance"]["used"] = p.clearance;
-    if (p.bed)
-        entry["bed"] = {{"given", p.bed->given}, {"used", p.bed->used}, {"reached", p.on_bed}};
-    entry["placed"] = p.placed;
-    if (!p.placed) entry["reason"] = p.reason;
-    entry["status_at_start"] = name_of(p.status_at_start);
-    entry["status"] = name_of(p.status);
-    entry["inside"] = inside_entry(p);
-    entry["contacts"] = contacts_entry(moving, p.contacts, among);
-    entry["contact_count"] = p.contact_count;
-    if (p.nearest) {
-        entry["distance"] = p.nearest->how.distance;
-        entry["surface_distance"] = p.nearest->how.surface_distance;
-        entry["closest"] = closest_entry(moving, *p.nearest, among);
-    }
-    if (!p.placed) {
-        entry["not_placed"].push_back(work.entry["input"]);
-        return;
-    }
-    entry["direction"] = p.travel > 0.0 ? triple(p.direction) : json(nullptr);
-    entry["travel"] = p.travel;
-    entry["backed_off"] = p.backed_off;
-    entry["matrix"] = matrix_entry(matrix);
-    for (const tf::hull_side& side : p.sides)
-        entry["sides"].push_back({{"normal", triple(side.normal)},
-                                  {"area", side.area},
-                                  {"center", triple(side.centre)}});
-    if (!p.sides.empty()) {
-        entry["chosen"] = p.chosen;
-        entry["tolerance"]["used"] = p.tolerance;
-        entry["corrected"] = p.corrected;
-    }
-    if (p.fit) enter_fit(work, *p.fit);
-}
-
-void write_matrix(const job& work, const std::filesystem::path& path,
-                  const tf::transform<3>& matrix) {
+void write_matrix(const job& work, const std::filesystem::path& path, const std::string& text) {
     output_file file(path, work.options.force, work.keeper);
-    file.write(matrix_text(matrix));
+    file.write(text);
     file.commit();
 }
 
-void write_result(job& work, body& moving, const placement& p, const surroundings& among,
-                  const place_settings& settings, const tf::transform<3>& all_moves,
-                  bool to_single) {
-    const common_options& o = work.options;
-    const auto path = mesh_output(o, work.path);
-    if (!path) return;
-    if (settings.mode != place_mode::measure)
-        enter_rounding(work, {look_at_rounding(work, moving, p.matrix, p.points, to_single)},
-                       to_single);
-    if (o.dry_run) return;
-    const written_form form = form_of(work, *moving.file, *path);
-    std::optional<all_classes> classes;
-    if (has_classes(settings, form.format)) classes = classify_faces(moving, among, p);
-    take_places(moving, p.points, p.matrix, to_single);
-    tf::transform_normals(*moving.file, all_moves);
-    std::vector<const body*> bodies{&moving};
-    for (const body& part : among.all())
-        if (part.file != bodies.back()->file) bodies.push_back(&part);
-    tf::mesh_file file = settings.scene ? scene_of(work, bodies, form.format) : *moving.file;
-    if (classes && settings.scene) color_scene(file, moving, among.all(), *classes);
-    if (classes && !settings.scene)
-        color_moving(file, moving.cloud, classes->moving, settings.mode == place_mode::measure);
-    write_file(work, file, *path, form, to_single, settings.scene);
+tf::rounding_effects look_at_rounding(job& work, const body_set& moving, std::size_t i,
+                                      const tf::transform<3>& matrix, tf::points_view placed,
+                                      tf::precision precision) {
+    const auto timing = work.time("settle");
+    const bool was_single = is_single(*moving.bodies[i].file);
+    const auto found = tf::effects_of_rounding(
+        moving.shapes[i], matrix, placed,
+        {.before = was_single ? tf::precision::float32 : tf::precision::float64,
+         .after = precision,
+         .progress = work.progress("rounding")});
+    work.out.end_progress();
+    work.keeper.check();
+    return found;
 }
 
-void write_plate(job& work, const std::vector<body>& bodies, const std::vector<bool>& placed,
-                 bool to_single) {
+void enter_rounding(job& work, std::span<const tf::rounding_effects> all, tf::precision precision) {
+    tf::rounding_effects sum;
+    for (const tf::rounding_effects& one : all) {
+        sum.max_displacement = std::max(sum.max_displacement, one.max_displacement);
+        sum.step = std::max(sum.step, one.step);
+        sum.noticeable = sum.noticeable || one.noticeable;
+        sum.compared = sum.compared || one.compared;
+        sum.collapsed += one.collapsed;
+        sum.meeting += one.meeting;
+    }
+    const bool single = precision == tf::precision::float32;
+    work.entry["rounding"] = {
+        {"max_move", sum.max_displacement},
+        {"step", sum.step},
+        {"collapsed_faces", sum.compared ? json(sum.collapsed) : json(nullptr)},
+        {"new_pairs", sum.compared ? json(sum.meeting) : json(nullptr)}};
+    if (sum.noticeable)
+        work.warn("rounded", std::string(single ? "written in single precision: " : "") +
+                                 "coordinates move by up to " + shortest(sum.max_displacement));
+    if (sum.compared)
+        warn_of_folds(work, {.collapsed = sum.collapsed, .meeting = sum.meeting}, single);
+}
+
+void put_back(body_set& moving, std::size_t i, tf::points_view placed,
+              const tf::transform<3>& matrix, const tf::transform<3>& all_moves,
+              tf::precision precision) {
+    tf::mesh_file& file = *moving.bodies[i].file;
+    tf::put_back(file, moving.bodies[i].is, moving.shapes[i], placed, matrix, precision);
+    tf::transform_normals(file, all_moves);
+}
+
+void write_result(job& work, body_set& moving, const outcome& found, const body_set& fixed,
+                  const place_settings& settings, const tf::transform<3>& all_moves) {
+    const auto path = mesh_output(work.options, work.path);
+    if (!path) return;
+    const body& one = moving.bodies[0];
+    const tf::placement& p = found.at;
+    const bool picture = settings.mode == place_mode::measure;
+    if (!picture)
+        enter_rounding(
+            work,
+            std::array{look_at_rounding(work, moving, 0, p.matrix, p.points, found.precision)},
+            found.precision);
+    if (work.options.dry_run) return;
+    const written_form form = form_of(work, *one.file, *path);
+    // `fit` looks at no faces, and without fixed meshes there is nothing to meet.
+    const bool colors = !settings.fixed.empty() && settings.mode != place_mode::fit &&
+                        (form.format == "ply" || form.format == "glb");
+    tf::contact_classes met;
+    if (colors) met = tf::classify_contacts(moving.shapes[0], fixed.shapes, p);
+    put_back(moving, 0, p.points, p.matrix, all_moves, found.precision);
+    if (!settings.scene) {
+        tf::mesh_file file = *one.file;
+        if (colors) color_moving(file, one, met, picture);
+        return write_file(work, file, *path, form, found.precision, false);
+    }
+    std::vector<scene_input> all{{one.path, one.file.get()}};
+    for (const body& part : fixed.bodies)
+        if (part.file.get() != all.back().file) all.push_back({part.path, part.file.get()});
+    tf::mesh_file file = scene_of(work, all, form.format);
+    if (colors) color_scene(file, one, fixed, met);
+    write_file(work, file, *path, form, found.precision, true);
+}
+
+void write_plate(job& work, const body_set& parts, const std::vector<bool>& placed,
+                 tf::precision precision) {
     const auto path = mesh_output(work.options, work.path);
     if (!path || work.options.dry_run) return;
-    std::vector<const body*> there;
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        if (placed[i]) there.push_back(&bodies[i]);
+    std::vector<scene_input> there;
+    for (std::size_t i = 0; i < parts.bodies.size(); ++i)
+        if (placed[i]) there.push_back({parts.bodies[i].path, parts.bodies[i].file.get()});
     if (there.empty()) return;
-    const written_form form = form_of(work, *there[0]->file, *path);
-    write_file(work, scene_of(work, there, form.format), *path, form, to_single, true);
+    const written_form form = form_of(work, *there[0].file, *path);
+    write_file(work, scene_of(work, there, form.format), *path, form, precision, true);
 }
 
 }  // namespace tools

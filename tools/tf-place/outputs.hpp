@@ -3,35 +3,52 @@
 /// What a placement is written to: the report, the matrix, the mesh.
 
 #include "tools/tf-place/move.hpp"
+#include <treeform/mesh/rounding_effects.hpp>
 #include <treeform/tf.hpp>
 
 #include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace tools {
 
 /// Looks at the outputs before the work, so that it is not lost in the end. \throws failure
 void check_outputs(const job& work, const place_settings& settings);
 
-/// Whether the mesh made of `file` will be written as float32.
-[[nodiscard]] bool writes_single(const job& work, const tf::mesh_file& file);
+/// With what numbers the mesh made of `file` will be written.
+[[nodiscard]] tf::precision precision_of(const job& work, const tf::mesh_file& file);
 
 /// The keys of a report's file, each with nothing in it.
 void enter_blank_report(job& work, const place_settings& settings);
-void enter_bodies(job& work, const body& moving, const surroundings& among);
-void enter_report(job& work, const body& moving, const placement& p, const surroundings& among,
-                  const tf::transform<3>& matrix);
+void enter_bodies(job& work, const body& moving, const body_set& fixed);
+void enter_report(job& work, const body& moving, const outcome& found, const body_set& fixed,
+                  const place_settings& settings, const tf::transform<3>& matrix);
+/// A matrix, as in reports.
+[[nodiscard]] json rows_of(const tf::transform<3>& matrix);
 
-void write_matrix(const job& work, const std::filesystem::path& path,
-                  const tf::transform<3>& matrix);
+void write_matrix(const job& work, const std::filesystem::path& path, const std::string& text);
 
-/// MOVING at its place, with --scene the fixed meshes too, with the faces coloured by what they
-/// meet where the format has colours. Normals turn as `all_moves` does.
-void write_result(job& work, body& moving, const placement& p, const surroundings& among,
-                  const place_settings& settings, const tf::transform<3>& all_moves,
-                  bool to_single);
+/// What the points of body `i`, moved by `matrix`, have lost.
+[[nodiscard]] tf::rounding_effects look_at_rounding(job& work, const body_set& moving,
+                                                    std::size_t i, const tf::transform<3>& matrix,
+                                                    tf::points_view placed,
+                                                    tf::precision precision);
+/// Enters them, as one, in the report, and says what is noticeable or harmful.
+void enter_rounding(job& work, std::span<const tf::rounding_effects> all, tf::precision precision);
+
+/// Puts body `i` at its place in its file; normals turn as `all_moves` does.
+void put_back(body_set& moving, std::size_t i, tf::points_view placed,
+              const tf::transform<3>& matrix, const tf::transform<3>& all_moves,
+              tf::precision precision);
+
+/// MOVING at its place, with --scene the fixed meshes too, with the faces colored by what they
+/// meet where the format has colors.
+void write_result(job& work, body_set& moving, const outcome& found, const body_set& fixed,
+                  const place_settings& settings, const tf::transform<3>& all_moves);
 
 /// The parts that were placed, together in one file.
-void write_plate(job& work, const std::vector<body>& bodies, const std::vector<bool>& placed,
-                 bool to_single);
+void write_plate(job& work, const body_set& parts, const std::vector<bool>& placed,
+                 tf::precision precision);
 
 }  // namespace tools

@@ -1,64 +1,61 @@
 #include "tools/tf-place/plate.hpp"
 
 #include "tools/common/console.hpp"
-#include "tools/common/output_file.hpp"
-#include "tools/tf-place/move.hpp"
 #include "tools/tf-place/outputs.hpp"
-#include "tools/tf-place/rounding.hpp"
-#include <treeform/mesh/arrange.hpp>
-#include <treeform/mesh/carry.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
-#include <cstdint>
-#include <utility>
+#include <vector>
 
 namespace tools {
 namespace {
 
-std::vector<body> read_all(job& work, const tf::transform<3>& start) {
-    std::vector<body> bodies;
+body_set read_all(job& work, const tf::transform<3>& start) {
+    body_set parts;
     std::uint64_t non_finite = 0;
     for (const std::string& path : work.options.inputs) {
-        json about{{"input", path}};
-        tf::mesh_file file = work.read(path, about);
-        for (const tf::io_warning& w : file.warnings)
-            work.warn(w.code, name_of_input(path) + ": " + w.text);
-        if (start != tf::transform<3>{})
-            for (tf::point3& p : file.mesh.points) p = start(p);
-        bodies.push_back(make_body(work, path, std::move(file)));
-        if (bodies.back().cloud)
-            throw failure(
-                bad_usage, "usage",
-                bodies.back().label() + ": is a cloud of points; arrange takes meshes only");
-        about["faces"] = bodies.back().file->stored_faces;
-        non_finite += bodies.back().non_finite;
+        json about = read_body(work, path, start, parts);
+        const body& one = parts.bodies.back();
+        if (one.cloud)
+            throw failure(bad_usage, "usage",
+                          one.label() + ": is a cloud of points; arrange takes meshes only");
+        about["faces"] = one.file->stored_faces;
+        non_finite += one.non_finite;
         work.entry["parts"].push_back(std::move(about));
     }
     work.entry["skipped"]["non_finite"] = non_finite;
-    return bodies;
+    return parts;
 }
 
-json rows_of(const tf::transform<3>& matrix) {
-    json rows = json::array();
-    for (const auto& row : matrix.rows) rows.push_back(row);
-    rows.push_back({0.0, 0.0, 0.0, 1.0});
-    return rows;
-}
-
-void enter_places(job& work, const std::vector<body>& bodies, const tf::arrangement& found,
+void enter_places(job& work, const body_set& parts, const tf::packing& found,
                   const std::vector<tf::transform<3>>& matrices) {
     json& entry = work.entry;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::uint64_t count = parts.bodies.size();
+    for (std::size_t i = 0; i < count; ++i) {
         entry["parts"][i]["placed"] = found.parts[i].placed;
         entry["parts"][i]["matrix"] = found.parts[i].placed ? rows_of(matrices[i]) : json(nullptr);
     }
-    for (const std::uint32_t i : found.not_placed) entry["not_placed"].push_back(bodies[i].path);
+    for (const std::uint32_t i : found.not_placed)
+        entry["not_placed"].push_back(parts.bodies[i].path);
     entry["fits"] = found.not_placed.empty();
     entry["placed"] = found.not_placed.empty();
-    const std::uint64_t pairs = bodies.size() * (bodies.size() - 1) / 2;
+    const std::uint64_t pairs = count * (count - 1) / 2;
     entry["skipped"]["pairs_culled_by_box"] =
         pairs - std::min<std::uint64_t>(pairs, found.pairs_measured);
+}
+
+tf::packing find_places(job& work, const body_set& parts, const place_settings& settings,
+                        tf::precision precision) {
+    tf::pack_options options = settings.arrange;
+    options.corner.z = settings.bed.value_or(0.0);
+    check_bed(options.corner.z, precision);
+    options.precision = precision;
+    options.progress = work.progress("search");
+    const auto timing = work.time("search");
+    tf::packing found = tf::pack(parts.shapes, options);
+    work.out.end_progress();
+    work.keeper.check();
+    return found;
 }
 
 }  // namespace
@@ -68,55 +65,39 @@ exit_status arrange_all(job& work, const place_settings& settings) {
     check_outputs(work, settings);
     const tf::transform<3> start =
         settings.start.empty() ? tf::transform<3>{} : read_matrix(settings.start);
-    std::vector<body> bodies = read_all(work, start);
-    const bool to_single = std::all_of(bodies.begin(), bodies.end(),
-                                       [&](const body& b) { return writes_single(work, *b.file); });
-    tf::arrange_options options = settings.arrange;
-    const double bed = settings.bed.value_or(0.0);
-    options.corner.z = bed_to_write(bed, to_single);
-    options.to_single = to_single;
-    std::vector<tf::mesh_view> views;
-    for (const body& b : bodies) views.push_back(b.mesh);
-    options.progress = work.progress("search");
-    tf::arrangement found;
-    {
-        const auto timing = work.time("search");
-        found = tf::arrange(views, options);
-    }
-    work.out.end_progress();
-    work.keeper.check();
+    body_set parts = read_all(work, start);
+    const bool all_single = std::all_of(
+        parts.bodies.begin(), parts.bodies.end(),
+        [&](const body& b) { return precision_of(work, *b.file) == tf::precision::float32; });
+    const auto precision = all_single ? tf::precision::float32 : tf::precision::float64;
+    const tf::packing found = find_places(work, parts, settings, precision);
 
     std::vector<tf::transform<3>> matrices;
     std::vector<bool> placed;
-    std::vector<rounding> roundings;
+    std::vector<tf::rounding_effects> roundings;
     std::string matrix_lines;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        matrices.push_back(tf::after(found.parts[i].matrix, start));
-        placed.push_back(found.parts[i].placed);
-        if (placed[i]) {
-            const tf::arranged_part& at = found.parts[i];
-            if (wants_mesh(work.options))
-                roundings.push_back(
-                    look_at_rounding(work, bodies[i], at.matrix, at.points, to_single));
-            take_places(bodies[i], at.points, at.matrix, to_single);
-            tf::transform_normals(*bodies[i].file, matrices[i]);
-        }
+    for (std::size_t i = 0; i < parts.bodies.size(); ++i) {
+        const tf::packed_part& at = found.parts[i];
+        matrices.push_back(tf::after(at.matrix, start));
+        placed.push_back(at.placed);
         matrix_lines += matrix_text(matrices[i]);
+        if (!at.placed) continue;
+        if (wants_mesh(work.options))
+            roundings.push_back(look_at_rounding(work, parts, i, at.matrix, at.points, precision));
+        put_back(parts, i, at.points, at.matrix, matrices[i], precision);
     }
-    enter_places(work, bodies, found, matrices);
-    work.entry["bed"] = {{"given", bed}, {"used", options.corner.z}, {"reached", true}};
-    std::string words = std::to_string(bodies.size() - found.not_placed.size()) + " of " +
-                        counted(bodies.size(), "part", "parts") + " placed";
-    for (const std::uint32_t i : found.not_placed) words += "; no place for " + bodies[i].label();
+    enter_places(work, parts, found, matrices);
+    work.entry["bed"] = {
+        {"given", settings.bed.value_or(0.0)}, {"used", found.bed}, {"reached", true}};
+    std::string words = std::to_string(parts.bodies.size() - found.not_placed.size()) + " of " +
+                        counted(parts.bodies.size(), "part", "parts") + " placed";
+    for (const std::uint32_t i : found.not_placed)
+        words += "; no place for " + parts.bodies[i].label();
     work.out.result(work.name + ": " + words);
-    if (!roundings.empty()) enter_rounding(work, roundings, to_single);
+    if (!roundings.empty()) enter_rounding(work, roundings, precision);
     const auto timing = work.time("write");
-    if (!settings.matrix.empty()) {
-        output_file file(settings.matrix, work.options.force, work.keeper);
-        file.write(matrix_lines);
-        file.commit();
-    }
-    write_plate(work, bodies, placed, to_single);
+    if (!settings.matrix.empty()) write_matrix(work, settings.matrix, matrix_lines);
+    write_plate(work, parts, placed, precision);
     return found.not_placed.empty() ? done : tools::found;
 }
 

@@ -2,7 +2,7 @@
 /// \file
 /// All MOVING put beside each other on a plate: the mode arrange.
 
-#include "tools/tf-place/body.hpp"
+#include "tools/common/run.hpp"
 #include "tools/tf-place/settings.hpp"
 
 namespace tools {

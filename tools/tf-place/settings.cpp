@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace tools {
 namespace {
@@ -16,6 +15,9 @@ constexpr std::array<const char*, 8> mode_names{"drop",  "lay",     "slide",   "
 }  // namespace
 
 place_mode parse_mode(std::string_view text) {
+    if (text == "pack") return place_mode::arrange;
+    if (text == "align") return place_mode::fit;
+    if (text == "separate") return place_mode::clear;
     for (std::size_t i = 0; i < mode_names.size(); ++i)
         if (text == mode_names[i]) return static_cast<place_mode>(i);
     std::string list;
@@ -35,7 +37,7 @@ tf::plate_turns parse_turns(std::string_view text) {
 tf::point3 parse_size3(std::string_view text) {
     const bool flat = std::count(text.begin(), text.end(), ',') < 2;
     const auto v = parse_numbers("--size", text, flat ? 2 : 3);
-    const tf::point3 size{v[0], v[1], flat ? tf::arrange_options{}.size.z : v[2]};
+    const tf::point3 size{v[0], v[1], flat ? tf::pack_options{}.size.z : v[2]};
     if (!(size.x > 0.0 && size.y > 0.0 && size.z > 0.0))
         throw failure(bad_usage, "usage",
                       "--size " + std::string(text) + ": expected lengths greater than 0");
@@ -52,22 +54,5 @@ tf::point3 parse_direction(std::string_view option, std::string_view text) {
                       std::string(option) + " " + std::string(text) + ": has no direction");
     return direction;
 }
-
-tf::point3 in_range(const tf::point3& direction) {
-    double largest = 0.0;
-    int axes = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        largest = std::max(largest, std::abs(direction[k]));
-        axes += direction[k] != 0.0;
-    }
-    tf::point3 scaled = direction;
-    for (std::size_t k = 0; k < 3; ++k)
-        if (direction[k] != 0.0)
-            scaled[k] = axes == 1 ? std::copysign(1.0, direction[k])
-                                  : std::ldexp(direction[k], -std::ilogb(largest));
-    return scaled;
-}
-
-double length(const tf::point3& v) { return std::hypot(v.x, v.y, v.z); }
 
 }  // namespace tools

@@ -4,9 +4,9 @@
 
 #include "tools/common/matrix_file.hpp"
 #include "tools/common/parse_value.hpp"
-#include <treeform/mesh/arrange.hpp>
-#include <treeform/mesh/fit.hpp>
-#include <treeform/mesh/lay.hpp>
+#include <treeform/mesh/align.hpp>
+#include <treeform/mesh/lay_flat.hpp>
+#include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/point.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/transform.hpp>
@@ -32,14 +32,14 @@ struct place_settings {
     std::filesystem::path start{};
     std::filesystem::path matrix{};
     bool scene = false;
-    tf::fit_options fit{};
+    tf::align_options fit{};
     std::optional<distance> max_distance{};
     bool fit_options_given = false;
-    tf::arrange_options arrange{};
+    tf::pack_options arrange{};
     bool size_given = false;
     bool arrange_options_given = false;
-    tf::lay_options lay{};  ///< which side, and the spin
-    int sides_chosen = 0;   ///< options given that choose a side
+    tf::lay_flat_options lay{};  ///< which side, and the spin
+    int sides_chosen = 0;        ///< options given that choose a side
     /// Flat faces that were turned and rounded, to float32 mostly, are one side of the hull again.
     distance flatness{.given = "0.0001%", .value = 1e-6, .relative = true};
     bool flatness_given = false;
@@ -53,6 +53,7 @@ struct place_settings {
     }
 };
 
+/// Takes "pack", "align" and "separate" for arrange, fit and clear.
 /// \throws failure (bad_usage) for a word that is no mode
 [[nodiscard]] place_mode parse_mode(std::string_view text);
 [[nodiscard]] const char* name_of(place_mode mode);
@@ -64,9 +65,5 @@ struct place_settings {
 
 /// Three numbers, not all 0. \throws failure (bad_usage)
 [[nodiscard]] tf::point3 parse_direction(std::string_view option, std::string_view text);
-
-/// The same direction, exactly: along an axis of length 1, else scaled by a power of two.
-[[nodiscard]] tf::point3 in_range(const tf::point3& direction);
-[[nodiscard]] double length(const tf::point3& v);
 
 }  // namespace tools

@@ -2,6 +2,7 @@
 /// \file
 /// The convex hull of points, exactly, and its flat sides.
 
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/points.hpp>
 #include <treeform/tree/export.hpp>
@@ -21,7 +22,7 @@ struct hull_side {
     std::uint32_t face_count = 0;
     double area = 0.0;  ///< rounded; infinite where no double holds it
     point3 normal;      ///< outward, of length 1, rounded
-    point3 centre;      ///< of area, rounded
+    point3 center;      ///< of area, rounded
     friend bool operator==(const hull_side&, const hull_side&) = default;
 };
 
@@ -33,7 +34,7 @@ struct convex_hull_result {
     /// sides of the same triangles, one facing either way; of fewer dimensions there are none.
     std::vector<face> faces{};
     std::vector<hull_side> sides{};
-    bool cancelled = false;  ///< `progress` said stop; the rest is empty
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is empty
 
     /// The triangles of a side.
     [[nodiscard]] std::span<const face> faces_of(const hull_side& side) const {

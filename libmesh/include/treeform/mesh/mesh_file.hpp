@@ -27,7 +27,7 @@ struct mesh_file {
     std::vector<std::uint32_t> stored_face{};
     std::size_t stored_faces = 0;  ///< faces in the file
     bool indexed = true;           ///< the format numbers its vertices (STL does not)
-    /// single_: every coordinate is a float32 value, or was one before the transform of its node.
+    /// float32: every coordinate is a float32 value, or was one before the transform of its node.
     precision stored_as = precision::float64;
     std::string format{};  ///< "stl-binary", "ply-ascii", "obj", ...
     std::vector<io_warning> warnings{};

@@ -39,7 +39,7 @@ class TREEFORM_API point_reader {
     point_reader& operator=(point_reader&&) noexcept;
 
     /// Format, precision, comments and columns (without rows) of the file; no points. `stored_as`
-    /// is what the types in the file can hold, `double_` for text. Text without a header (XYZ, CSV)
+    /// is what the types in the file can hold, `float64` for text. Text without a header (XYZ, CSV)
     /// is gone through once for its number of lines and for whether they are alike. What is to be
     /// said about the end of the file is among the warnings when `read` has returned false.
     [[nodiscard]] const mesh_file& header() const;
@@ -60,7 +60,7 @@ class TREEFORM_API point_writer {
   public:
     /// `header` as `point_reader::header` gives it, with columns added or removed; `count` points
     /// will come. Coordinates are written with the types of their columns in "vertex", in binary as
-    /// doubles where all of these are at most float32 and `stored_as` says double_.
+    /// doubles where all of these are at most float32 and `stored_as` says float64.
     ///
     /// \throws io_error as `write_mesh`; also for a format other than ply, pcd, xyz and csv
     point_writer(const std::filesystem::path& path, const mesh_file& header, std::uint64_t count,

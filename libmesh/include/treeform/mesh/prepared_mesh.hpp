@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace treeform {
 
@@ -32,11 +33,20 @@ class TREEFORM_API prepared_mesh {
     /// Refers to arrays of the caller, who keeps them, unchanged, while this lives.
     [[nodiscard]] static prepared_mesh borrow(mesh_view view);
 
+    /// A cloud: each point is a face of that corner alone, so that clouds are related, measured,
+    /// slid and separated as meshes are, and face numbers are those of the points. A cloud bounds
+    /// nothing: it penetrates a mesh when a point lies strictly inside of the solid that the mesh
+    /// bounds, and touches it when one is on a face.
+    [[nodiscard]] static prepared_mesh cloud(std::vector<point3>&& owned);
+    /// The same of points of the caller, who keeps them.
+    [[nodiscard]] static prepared_mesh borrow_cloud(points_view points);
+
     ~prepared_mesh();
     prepared_mesh(prepared_mesh&&) noexcept;
     prepared_mesh& operator=(prepared_mesh&&) noexcept;
 
     [[nodiscard]] mesh_view view() const { return view_; }
+    [[nodiscard]] bool is_cloud() const { return cloud_; }
 
     /// Indexes built so far: a second query of a kind leaves it as it was.
     [[nodiscard]] std::uint64_t indexes_built() const;
@@ -46,6 +56,7 @@ class TREEFORM_API prepared_mesh {
     struct state;
 
     mesh_view view_{};
+    bool cloud_ = false;
     std::unique_ptr<state> state_;
 };
 

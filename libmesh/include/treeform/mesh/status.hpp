@@ -18,6 +18,7 @@ enum class status : std::uint8_t {
     vanished,        ///< nothing is left: the result is thinner than the coordinates tell apart,
                      ///< or faces cancel each other out
     out_of_range,    ///< a coordinate of the result is beyond the numbers asked for
+    no_place,        ///< of a placement: there is no such place, and its `end` says why
     cancelled        ///< `progress` said stop; nothing is returned
 };
 

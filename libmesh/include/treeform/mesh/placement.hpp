@@ -1,0 +1,136 @@
+#pragma once
+/// \file
+/// Where a mesh goes: what `slide`, `drop`, `mate` and `separate` return.
+
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/counters.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/tree/export.hpp>
+#include <treeform/tree/progress.hpp>
+#include <treeform/tree/transform.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace treeform {
+
+/// How a mesh lies to all that is fixed. Without a clearance the last two do not occur.
+enum class standing : std::uint8_t {
+    separate,
+    touching,
+    penetrating,
+    closer_than_clearance,
+    clear  ///< separate, by the clearance or more
+};
+
+/// What has ended a placement.
+enum class placement_end : std::uint8_t {
+    contact,             ///< something fixed, or the clearance from it
+    bed,                 ///< the bed, or the clearance over it
+    stays,               ///< nothing: it may be where it is
+    moved_apart,         ///< of `separate`: it is out of what was in its way
+    nothing_met,         ///< no place: nothing is in the way, or within the largest travel
+    too_far,             ///< no place: it is further away than the largest travel
+    starts_penetrating,  ///< no place: it penetrates something where it is
+    starts_too_near,     ///< no place: it is nearer than the clearance to something where it is
+    starts_touching,     ///< no place: it touches something where it is, and a clearance is asked
+    starts_below_bed,    ///< no place: it would have to go up to the bed, past what is fixed
+    no_coordinates,      ///< no place in coordinates that can be written
+    out_of_range,        ///< no place: coordinates are beyond the range of the numbers asked for
+    cancelled            ///< `progress` said stop; the rest means nothing
+};
+
+/// A pair of faces that meet at the place, or keep the clearance there.
+struct placement_contact {
+    point3 point{};
+    point3 normal{};  ///< of length 1, from what is fixed to what moves; 0 where there is none
+    std::uint32_t moving = 0;                   ///< face of the mesh that moves
+    std::optional<std::uint32_t> fixed_face{};  ///< none: it is the bed
+    std::size_t fixed = 0;                      ///< number of the fixed mesh
+};
+
+/// The fixed mesh that matters most to another one: one that it penetrates, else one that it
+/// touches, else the nearest.
+struct nearest_fixed {
+    std::size_t fixed = 0;  ///< its number; of several the lowest
+    mesh_measure how{};     ///< `a` is the mesh that moves
+};
+
+struct placement_statistics {
+    unsigned backed_off = 0;          ///< steps taken back from what rounding made penetrate
+    std::uint64_t fixed_culled = 0;   ///< fixed meshes whose box told that they cannot matter
+    std::uint64_t pairs_tested = 0;   ///< of faces in motion
+    predicate_counters predicates{};  ///< that these took
+};
+
+/// "At the place" is where the mesh goes, or where it is if it goes nowhere.
+struct placement {
+    /// ok: the mesh has a place; `points` were looked at there, exactly, as they are. Else it is
+    /// `no_place`, `not_certified` (no_coordinates), `out_of_range` or `cancelled`.
+    treeform::status status = treeform::status::ok;
+    placement_end end = placement_end::stays;
+    std::vector<point3> points{};  ///< [V] at the place, as they are to be written
+    /// new = M * old: a translation. `points` are that, rounded once, except for what is put on the
+    /// bed.
+    transform<3> matrix{};
+    point3 direction{};           ///< of the travel, of length 1; 0 when there is none
+    double travel = 0.0;          ///< a length; of `too_far` the one that it would take
+    double clearance = 0.0;       ///< that was asked for
+    std::optional<double> bed{};  ///< z of what it may rest on, as written; with the clearance
+    double below_bed = 0.0;       ///< how far it reached below that at the start
+    bool on_bed = false;          ///< it was the bed that stopped it
+    standing at_start = standing::separate;
+    standing at_place = standing::separate;
+    std::optional<nearest_fixed> nearest{};  ///< at the place; none too far away to matter
+    std::vector<placement_contact> contacts{};
+    std::uint64_t contact_count = 0;  ///< of all, listed or not
+    placement_statistics statistics{};
+
+    explicit operator bool() const { return status == treeform::status::ok; }
+};
+
+struct measure_among_options {
+    double clearance = 0.0;    ///< distances below it are `closer_than_clearance`
+    std::size_t limit = 1000;  ///< contacts listed of each fixed mesh
+    vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
+    progress_callback progress{};
+};
+
+/// How `moving` lies to all of `fixed` where it is: a placement that moves nothing.
+///
+/// \throws std::invalid_argument as `slide`
+/// \cost   `measure` for the fixed meshes that may be the nearest, and the pairs of faces that meet
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API placement measure_among(const prepared_mesh& moving,
+                                                   std::span<const prepared_mesh> fixed,
+                                                   const measure_among_options& options = {});
+
+/// What a face has to do with the other meshes, the gravest first.
+enum class contact_class : std::uint8_t {
+    none,
+    penetrating,
+    touching,
+    near  ///< closer than the clearance, or where the mesh stopped at it
+};
+
+struct contact_classes {
+    std::vector<contact_class> moving{};              ///< [F] of its faces
+    std::vector<std::vector<contact_class>> fixed{};  ///< by mesh: [F], or empty: none of them
+};
+
+/// The class of each face, with `moving` at the place. The contacts of the placement count, also
+/// where rounding has left a gap.
+///
+/// \pre    `at` is what a placement of `moving` among `fixed` has returned
+/// \cost   all pairs of faces within the clearance of each other
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API contact_classes classify_contacts(const prepared_mesh& moving,
+                                                             std::span<const prepared_mesh> fixed,
+                                                             const placement& at);
+
+}  // namespace treeform

@@ -1,0 +1,22 @@
+#pragma once
+/// \file
+/// When a mesh in motion meets another, or comes near it, with the trees of both.
+
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
+#include <treeform/tree/tree.hpp>
+
+namespace treeform::detail::place {
+
+/// As `time_of_impact`. \pre the trees are those of the meshes
+[[nodiscard]] TREEFORM_API impact impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                            const tree<3>& tree_b, const point3& motion,
+                                            const impact_options& options = {});
+
+/// As `time_to_distance`. \pre the trees are those of the meshes
+[[nodiscard]] TREEFORM_API approach approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                                const tree<3>& tree_b, const point3& motion,
+                                                double distance,
+                                                const approach_options& options = {});
+
+}  // namespace treeform::detail::place

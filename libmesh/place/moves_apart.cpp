@@ -1,0 +1,319 @@
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/moves_apart.hpp>
+#include <libmesh/place/relation_of.hpp>
+#include <libmesh/place/sweep_among.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/tree/transformed.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace treeform::detail::place {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double dot(const point3& a, const point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+point3 cross(const point3& u, const point3& v) {
+    return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+}
+point3 scaled(const point3& v, double by) { return {v.x * by, v.y * by, v.z * by}; }
+point3 sum(const point3& a, const point3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+
+/// Of length 1; none of a vector too short to have a direction.
+std::optional<point3> direction_of(point3 v) {
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (!(largest > 0.0) || !std::isfinite(largest)) return std::nullopt;
+    v = {v.x / largest, v.y / largest, v.z / largest};
+    const double length = std::sqrt(dot(v, v));
+    return point3{v.x / length, v.y / length, v.z / length};
+}
+
+std::optional<point3> normal_of(mesh_view mesh, std::uint32_t f) {
+    const face& corners = mesh.faces[f];
+    const point3 &p = mesh.points[corners[0]], &q = mesh.points[corners[1]],
+                 &r = mesh.points[corners[2]];
+    const point3 u{q.x - p.x, q.y - p.y, q.z - p.z}, v{r.x - p.x, r.y - p.y, r.z - p.z};
+    return direction_of(cross(u, v));
+}
+
+class clearing {
+  public:
+    clearing(const shape& a, std::span<const shape> parts, const apart_options& options)
+        : shape_(a),
+          a_(a.mesh()),
+          tree_(a.faces()),
+          options_(options),
+          work_(options_.progress),
+          box_(bounding_box(a_.points)) {
+        for (const shape& part : parts) {
+            const auto box = bounding_box(part.mesh().points);
+            if (!box || part.mesh().faces.empty()) continue;
+            parts_.push_back(part);
+            boxes_.push_back(*box);
+        }
+    }
+
+    [[nodiscard]] moves_apart moves() {
+        std::vector<move_apart> found;
+        const bool stays = a_.faces.empty() || !box_ || is_clear({});
+        if (!stays && !work_.cancelled()) found = moves_out();
+        work_.reach(1.0);
+        if (work_.cancelled()) return {.status = status::cancelled};
+        std::stable_sort(found.begin(), found.end(),
+                         [](const auto& x, const auto& y) { return x.time < y.time; });
+        return {.moves = std::move(found)};
+    }
+
+  private:
+    [[nodiscard]] std::vector<move_apart> moves_out() {
+        std::vector<move_apart> found;
+        const auto pair = nearest({});
+        const double lacking = pair ? options_.clearance - pair->distance : 0.0;
+        move_apart best{{}, infinity};
+        const auto look = [&](const std::optional<point3>& direction) {
+            ++looked_;
+            if (!direction || !go_on()) return;
+            const auto time = way_out(*direction, lacking, best.time);
+            if (!time) return;
+            found.push_back({*direction, *time});
+            if (*time < best.time) best = found.back();
+        };
+        for (const point3& direction : directions()) look(direction);
+        for (const double tilt : {0.5, 0.25, 0.125, 0.0625})
+            for (const point3& aside : around(best.direction))
+                look(direction_of(sum(best.direction, scaled(aside, tilt))));
+        return found;
+    }
+
+    /// Asked of each place: the share is that of the directions, of which some fifty are looked at.
+    bool go_on() { return work_.step(0.0, 0.95, looked_, 25.0); }
+
+    /// Six directions at right angles to one.
+    [[nodiscard]] static std::vector<point3> around(const point3& d) {
+        const std::size_t k = std::abs(d.x) > std::abs(d.y) ? 1 : 0;
+        point3 axis{};
+        axis[k] = 1.0;
+        const auto u = direction_of(cross(d, axis));
+        if (!u) return {};
+        const point3 v = cross(d, *u);
+        const double half = std::sqrt(0.75);
+        std::vector<point3> all;
+        for (const auto& [x, y] :
+             {std::pair(1.0, 0.0), std::pair(0.5, half), std::pair(-0.5, half),
+              std::pair(-1.0, 0.0), std::pair(-0.5, -half), std::pair(0.5, -half)})
+            all.push_back(sum(scaled(*u, x), scaled(v, y)));
+        return all;
+    }
+
+    [[nodiscard]] bool boxes_within(std::size_t i, const point3& offset) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double c = options_.clearance;
+            if (!(box_->min[k] + offset[k] - boxes_[i].max[k] <= c &&
+                  boxes_[i].min[k] - box_->max[k] - offset[k] <= c))
+                return false;
+        }
+        return true;
+    }
+
+    [[nodiscard]] std::vector<point3> points_at(const point3& offset) const {
+        std::vector<point3> points(a_.points.begin(), a_.points.end());
+        for (point3& p : points) p = sum(p, offset);
+        return points;
+    }
+
+    /// The nearest pair at the offset within the clearance, over all parts.
+    [[nodiscard]] std::optional<mesh_pair> nearest(const point3& offset) const {
+        std::optional<mesh_pair> best;
+        const transformed<3> there(tree_, translation<3>(offset));
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            if (!boxes_within(i, offset)) continue;
+            const double radius = best ? best->distance : options_.clearance;
+            const auto one = mesh_distance(a_, there, parts_[i].mesh(), parts_[i].faces(), radius);
+            if (one && (!best || one->distance < best->distance)) best = one;
+        }
+        return best;
+    }
+
+    /// False, too, beyond the range of doubles and when it is to stop.
+    [[nodiscard]] bool is_clear(const point3& offset) {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (!std::isfinite(box_->min[k] + offset[k]) ||
+                !std::isfinite(box_->max[k] + offset[k]))
+                return false;
+        std::vector<std::size_t> close;
+        for (std::size_t i = 0; i < parts_.size(); ++i)
+            if (boxes_within(i, offset)) close.push_back(i);
+        if (close.empty()) return true;
+        if (!go_on()) return false;
+        if (options_.clearance > 0.0) {
+            const auto pair = nearest(offset);
+            if (pair && pair->distance < options_.clearance) return false;
+        }
+        // What penetrates with its faces is found without a tree for the place.
+        const std::vector<point3> points = points_at(offset);
+        const mesh_view there{points, a_.faces};
+        mesh_intersection_options crossing{.move_a = translation<3>(offset), .first_only = true};
+        crossing.progress = asking_;
+        crossing.kinds = {};
+        crossing.kinds[static_cast<std::size_t>(pair_kind::crossing)] = true;
+        for (const std::size_t i : close)
+            if (!mesh_intersections(a_, tree_, parts_[i].mesh(), parts_[i].faces(), crossing)
+                     .pairs.empty())
+                return false;
+        const tree<3> faces = face_tree(there);
+        for (const std::size_t i : close)
+            if (relation_of(shape(shape_.whose(), points, faces, parts_[i].vertices()), parts_[i],
+                            asking_)
+                    .relation == mesh_relation::penetrating)
+                return false;
+        return !work_.cancelled();
+    }
+
+    /// So far along `direction` that the box of a part is just left by the clearance.
+    [[nodiscard]] double beyond_box(const box3& other, const point3& direction) const {
+        double least = infinity;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (direction[k] == 0.0) continue;
+            const double gap =
+                direction[k] > 0.0 ? other.max[k] - box_->min[k] : box_->max[k] - other.min[k];
+            least = std::min(least, (gap + options_.clearance) / std::abs(direction[k]));
+        }
+        return std::max(least, 0.0);
+    }
+
+    /// The length of a free way back from the first free place along `direction`.
+    [[nodiscard]] std::optional<double> way_out(const point3& direction, double lacking,
+                                                double best) {
+        std::vector<double> times;
+        double out = 0.0;
+        for (std::size_t i = 0; i < boxes_.size(); ++i) {
+            const double beyond = beyond_box(boxes_[i], direction);
+            if (boxes_within(i, {})) times.push_back(beyond);
+            out = std::max(out, beyond * (1.0 + 0x1p-20));
+        }
+        if (!std::isfinite(out)) return std::nullopt;
+        for (int k = 12; k >= 0; --k) times.push_back(std::ldexp(out, -k));
+        if (lacking > 0.0) times.push_back(lacking * (1.0 + 0x1p-40));
+        std::sort(times.begin(), times.end());
+        double occupied = 0.0;
+        for (const double time : times) {
+            if (occupied >= best || work_.cancelled()) return std::nullopt;
+            if (is_clear(scaled(direction, time))) return slid_back(direction, time, occupied);
+            occupied = time;
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] double slid_back(const point3& direction, double time, double occupied) {
+        const std::vector<point3> points = points_at(scaled(direction, time));
+        const mesh_view there{points, a_.faces};
+        const tree<3> faces = face_tree(there);
+        const auto back =
+            sweep_among(shape(shape_.whose(), points, faces), parts_, scaled(direction, -1.0),
+                        {.clearance = options_.clearance,
+                         .latest = time - occupied,
+                         .limit = 1,
+                         .progress = asking_});
+        return back.end == motion_end::contact ? time - back.time : time;
+    }
+
+    [[nodiscard]] std::vector<point3> directions() {
+        std::vector<point3> found;
+        const auto offer = [&](const std::optional<point3>& d) {
+            if (!d) return;
+            for (const point3& known : found)
+                if (dot(known, *d) > 1.0 - 0x1p-30) return;
+            found.push_back(*d);
+        };
+        for (std::size_t k = 0; k < 3; ++k)
+            for (const double sign : {1.0, -1.0}) {
+                point3 axis{};
+                axis[k] = sign;
+                offer(axis);
+            }
+        offer_nearest(offer);
+        const std::size_t most = found.size() + options_.normals;
+        point3 all{};
+        for (std::size_t i = 0; i < parts_.size(); ++i)
+            for (const face_pair& pair : touching_pairs(i)) {
+                const auto out_of_b = normal_of(parts_[i].mesh(), pair.b);
+                auto out_of_a = normal_of(a_, pair.a);
+                if (out_of_a) out_of_a = scaled(*out_of_a, -1.0);
+                for (const auto& d : {out_of_b, out_of_a}) {
+                    if (d) all = sum(all, *d);
+                    if (found.size() < most) offer(d);
+                }
+            }
+        offer(direction_of(all));
+        if (all == point3{}) offer_through_walls(offer);
+        return found;
+    }
+
+    [[nodiscard]] std::vector<face_pair> touching_pairs(std::size_t i) {
+        if (!boxes_within(i, {})) return {};
+        return mesh_intersections(a_, tree_, parts_[i].mesh(), parts_[i].faces(),
+                                  {.limit = options_.face_pairs, .progress = asking_})
+            .pairs;
+    }
+
+    /// Of a mesh inside another that it does not meet: both ways along the nearest line.
+    template <class Offer>
+    void offer_through_walls(const Offer& offer) const {
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            if (!boxes_within(i, {})) continue;
+            const auto pair = mesh_distance(a_, tree_, parts_[i].mesh(), parts_[i].faces());
+            const point3 line{pair->on_b.x - pair->on_a.x, pair->on_b.y - pair->on_a.y,
+                              pair->on_b.z - pair->on_a.z};
+            offer(direction_of(line));
+            offer(direction_of(scaled(line, -1.0)));
+        }
+    }
+
+    /// Away from the nearest part; and where a walk gets to that always steps away from it.
+    template <class Offer>
+    void offer_nearest(const Offer& offer) const {
+        constexpr double beyond = 1.0 + 0x1p-10;
+        point3 offset{};
+        for (int step = 0; step < 64; ++step) {
+            const auto pair = nearest(offset);
+            if (!pair || pair->distance >= options_.clearance || pair->distance == 0.0) break;
+            const auto away =
+                direction_of({pair->on_a.x - pair->on_b.x, pair->on_a.y - pair->on_b.y,
+                              pair->on_a.z - pair->on_b.z});
+            if (!away) break;
+            if (step == 0) offer(away);
+            offset = sum(offset, scaled(*away, options_.clearance * beyond - pair->distance));
+        }
+        offer(direction_of(offset));
+    }
+
+    const shape& shape_;
+    mesh_view a_;
+    const tree<3>& tree_;
+    apart_options options_;
+    base::work_progress work_;
+    std::size_t looked_ = 0;  ///< directions
+    progress_callback asking_ = [this](double) { return go_on(); };
+    std::optional<box3> box_;
+    std::vector<shape> parts_;
+    std::vector<box3> boxes_;
+};
+
+}  // namespace
+
+moves_apart find_moves_apart(const shape& a, std::span<const shape> parts,
+                             const apart_options& options) {
+    if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
+        throw std::invalid_argument("treeform::separate: the clearance is negative or not finite");
+    return clearing(a, parts, options).moves();
+}
+
+}  // namespace treeform::detail::place

@@ -1,0 +1,343 @@
+#include <libmesh/base/finite.hpp>
+#include <libmesh/place/contacts.hpp>
+#include <libmesh/place/mate_motion.hpp>
+#include <libmesh/place/moves_apart.hpp>
+#include <libmesh/place/placing.hpp>
+#include <libmesh/place/settle_among.hpp>
+#include <libmesh/place/sweep_among.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace treeform::detail::place {
+namespace {
+
+double length(const point3& v) { return std::hypot(v.x, v.y, v.z); }
+
+/// The same direction, exactly: along an axis of length 1, else scaled by a power of two.
+point3 in_range_of_doubles(const point3& direction) {
+    double largest = 0.0;
+    int axes = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        largest = std::max(largest, std::abs(direction[k]));
+        axes += direction[k] != 0.0;
+    }
+    point3 scaled = direction;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (direction[k] != 0.0)
+            scaled[k] = axes == 1 ? std::copysign(1.0, direction[k])
+                                  : std::ldexp(direction[k], -std::ilogb(largest));
+    return scaled;
+}
+
+[[noreturn]] void refuse(const placing_options& o, const char* what) {
+    throw std::invalid_argument("treeform::" + std::string(o.function) + ": " + what);
+}
+
+void check(const placing_options& o) {
+    if (!(o.clearance >= 0.0) || !std::isfinite(o.clearance))
+        refuse(o, "the clearance is negative or not finite");
+    if (o.max_travel && !(*o.max_travel >= 0.0)) refuse(o, "the largest travel is negative or NaN");
+    if (o.bed && !std::isfinite(not_below(*o.bed + o.clearance, o.precision)))
+        refuse(o, "no coordinate that can be written is as high as the bed");
+}
+
+}  // namespace
+
+placing::placing(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
+                 const placing_options& options)
+    : whose_(moving),
+      moving_(moving, options.vertices),
+      among_(fixed, options.vertices),
+      options_(options),
+      work_(options_.progress) {
+    check(options);
+    check_operand(options.function, "moving", moving.view());
+    for (std::size_t i = 0; i < fixed.size(); ++i)
+        check_operand(options.function, "fixed " + std::to_string(i), fixed[i].view());
+    box_ = box_of_faces(moving.view());
+    if (options.max_travel) longest_ = *options.max_travel;
+    result_.clearance = options.clearance;
+    result_.points.assign(moving.view().points.begin(), moving.view().points.end());
+    if (options.bed) result_.bed = not_below(*options.bed + options.clearance, options.precision);
+}
+
+void placing::in_range(const function_ref<void()>& find) {
+    bool fits = true;
+    try {
+        if (box_)
+            find();
+        else
+            result_.end = placement_end::nothing_met;
+    } catch (const std::overflow_error&) {
+        fits = false;
+    }
+    if (fits && (!placed() || !box_ || base::all_finite(result_.points))) return;
+    forget_place();
+    result_.end = placement_end::out_of_range;
+}
+
+placement placing::finished() {
+    switch (result_.end) {
+        case placement_end::no_coordinates:
+            result_.status = status::not_certified;
+            break;
+        case placement_end::out_of_range:
+            result_.status = status::out_of_range;
+            break;
+        default:
+            result_.status = placed() ? status::ok : status::no_place;
+            break;
+    }
+    return std::move(result_);
+}
+
+standing placing::standing_of(const std::optional<nearest_fixed>& near) const {
+    const double c = options_.clearance;
+    if (!near) return c > 0.0 ? standing::clear : standing::separate;
+    switch (near->how.relation.relation) {
+        case mesh_relation::penetrating:
+            return standing::penetrating;
+        case mesh_relation::touching:
+            return standing::touching;
+        default:
+            break;
+    }
+    if (!(c > 0.0)) return standing::separate;
+    return near->how.distance < c ? standing::closer_than_clearance : standing::clear;
+}
+
+void placing::look_at_start() {
+    if (!among_.empty() && box_)
+        result_.nearest = among_.nearest(moving_, *box_, radius(0.0), work_.part(0.0, 0.2));
+    over();
+    result_.at_start = result_.at_place = standing_of(result_.nearest);
+}
+
+/// How far to look for the nearest mesh. On the way along a direction only those matter that are
+/// met; others need not even be indexed.
+double placing::radius(double more) const {
+    return options_.along_direction ? options_.clearance + more
+                                    : std::numeric_limits<double>::infinity();
+}
+
+bool placing::stuck_at_start() {
+    switch (result_.at_start) {
+        case standing::penetrating:
+            result_.end = placement_end::starts_penetrating;
+            return true;
+        case standing::closer_than_clearance:
+            result_.end = placement_end::starts_too_near;
+            return true;
+        case standing::touching:
+            if (options_.clearance > 0.0)
+                result_.end = placement_end::starts_touching;
+            else
+                stay();
+            return true;
+        default:
+            return false;
+    }
+}
+
+void placing::stay() { settle({}, {0.0, 0.0, -1.0}, 0.0, placement_end::stays); }
+
+/// Writes the place down: `end` is what it is then, if it can be written.
+void placing::settle(const chosen_parts& known, const point3& motion, double time,
+                     placement_end end, bool forward, bool close_in) {
+    const chosen_parts parts =
+        known.parts.empty() ? among_.on_the_way(*box_, motion, time, options_.clearance) : known;
+    settle_among_options options{.precision = options_.precision,
+                                 .clearance = options_.clearance,
+                                 .forward = forward,
+                                 .close_in = close_in,
+                                 .progress = work_.part(0.6, 0.85)};
+    if (result_.bed && end != placement_end::stays && !forward) options.floor = result_.bed;
+    auto settled = settle_among(whose_, parts.parts, motion, time, options);
+    over();
+    result_.statistics.backed_off = settled.backed_off;
+    if (!settled.good) {
+        result_.end = placement_end::no_coordinates;
+        return;
+    }
+    result_.end = end;
+    result_.points = std::move(settled.points);
+    for (std::size_t k = 0; k < 3; ++k)
+        result_.matrix.rows[k][3] = settled.time * motion[k] + 0.0;  // no -0
+    result_.travel = settled.time * length(motion);
+    if (result_.travel > 0.0) {
+        const double size = length(motion);
+        result_.direction = {motion.x / size, motion.y / size, motion.z / size};
+    }
+}
+
+void placing::slide(const point3& direction) {
+    if (!base::is_finite(direction) || direction == point3{})
+        refuse(options_, "the direction is zero or not finite");
+    const point3 motion = in_range_of_doubles(direction);
+    double bed_time = std::numeric_limits<double>::infinity();
+    if (result_.bed) {
+        if (!(motion.z < 0.0)) refuse(options_, "the direction does not lead down to the bed");
+        const double above = box_->min.z - *result_.bed;
+        if (above < 0.0) return lift(motion, above);
+        bed_time = above / -motion.z;
+    }
+    if (stuck_at_start()) return;
+    const double allowed = longest_ / length(motion);
+    const double latest = std::min(bed_time, allowed);
+    const chosen_parts parts = among_.on_the_way(*box_, motion, latest, options_.clearance);
+    result_.statistics.fixed_culled = among_.size() - parts.parts.size();
+    sweep_result met;
+    if (!parts.parts.empty())
+        met = sweep_among(moving_, parts.parts, motion,
+                          {.clearance = options_.clearance,
+                           .latest = latest,
+                           .limit = options_.limit,
+                           .progress = work_.part(0.2, 0.6)});
+    over();
+    result_.statistics.pairs_tested = met.pairs_tested;
+    result_.statistics.predicates = met.predicates;
+    if (met.end == motion_end::contact) {
+        result_.contacts = contacts_of(moving_, parts, met, motion);
+        result_.contact_count = met.contact_count;
+        settle(parts, motion, met.time, placement_end::contact, false, options_.close_in);
+    } else if (std::isfinite(bed_time) && bed_time <= allowed) {
+        result_.on_bed = true;
+        settle(parts, motion, bed_time, placement_end::bed);
+    } else {
+        result_.end = placement_end::nothing_met;
+    }
+}
+
+/// From below the bed, back along the direction up to it, where nothing can be in the way.
+void placing::lift(const point3& motion, double above) {
+    const bool below = box_->min.z < *options_.bed;
+    result_.at_start = below ? standing::penetrating : standing::closer_than_clearance;
+    result_.at_place = result_.at_start;
+    result_.below_bed = -above;
+    if (!among_.empty()) {
+        result_.end = placement_end::starts_below_bed;
+        return;
+    }
+    const double time = above / motion.z;
+    if (time > longest_ / length(motion)) {
+        result_.end = placement_end::too_far;
+        return;
+    }
+    result_.on_bed = true;
+    settle({}, {0.0 - motion.x, 0.0 - motion.y, 0.0 - motion.z}, time, placement_end::bed);
+}
+
+void placing::mate() {
+    if (!result_.nearest) {
+        result_.end = placement_end::nothing_met;
+        return;
+    }
+    if (stuck_at_start()) return;
+    const mesh_measure near = result_.nearest->how;
+    const point3 way = way_between(near);
+    if (way == point3{}) return stay();
+    const chosen_parts parts = among_.on_the_way(*box_, way, 1.0 + 0x1p-20, options_.clearance);
+    result_.statistics.fixed_culled = among_.size() - parts.parts.size();
+    const mate_motion found = motion_to_mate(near, moving_, parts.parts,
+                                             {.clearance = options_.clearance,
+                                              .limit = options_.limit,
+                                              .progress = work_.part(0.2, 0.6)});
+    over();
+    result_.statistics.pairs_tested = found.met.pairs_tested;
+    result_.statistics.predicates = found.met.predicates;
+    result_.contacts = contacts_of(moving_, parts, found.met, way);
+    result_.contact_count = found.met.contact_count;
+    if (found.time * length(way) > longest_) {
+        result_.end = placement_end::too_far;
+        return;
+    }
+    settle(parts, way, found.time, placement_end::contact);
+}
+
+void placing::separate() {
+    const bool near = result_.at_start == standing::penetrating ||
+                      (options_.clearance > 0.0 && result_.at_start != standing::clear);
+    if (!near) return stay();
+    // The way out of what is near, if nothing else is there; else out of more.
+    double reach = options_.clearance;
+    while (true) {
+        const chosen_parts parts = among_.around(*box_, reach);
+        result_.statistics.fixed_culled = among_.size() - parts.parts.size();
+        leave(parts);
+        if (!placed()) return;
+        const box3 there = *box_of_faces({result_.points, whose_.view().faces});
+        if (!among_.others_around(there, options_.clearance, parts)) return;
+        reach =
+            std::max({2.0 * reach, result_.travel + options_.clearance, diagonal(*box_) * 0x1p-6});
+        forget_place();
+    }
+}
+
+/// To the first place that can be written at which the mesh is clear of these.
+void placing::leave(const chosen_parts& parts) {
+    const moves_apart found = find_moves_apart(moving_, parts.parts,
+                                               {.clearance = options_.clearance,
+                                                .normals = options_.normals,
+                                                .face_pairs = options_.face_pairs,
+                                                .progress = work_.part(0.2, 0.6)});
+    over();
+    bool tried = false;
+    for (const move_apart& move : found.moves) {
+        if (move.time > longest_) break;
+        tried = true;
+        settle(parts, move.direction, move.time, placement_end::moved_apart, true);
+        if (placed()) return;
+    }
+    if (found.moves.empty()) return stay();
+    if (tried) return;
+    result_.end = placement_end::too_far;
+    result_.travel = found.moves[0].time;
+}
+
+void placing::forget_place() {
+    result_.end = placement_end::stays;
+    result_.on_bed = false;
+    result_.contacts.clear();
+    result_.contact_count = 0;
+    result_.points.assign(whose_.view().points.begin(), whose_.view().points.end());
+    result_.matrix = {};
+    result_.direction = {};
+    result_.travel = 0.0;
+}
+
+/// What is true at the place, in the coordinates that are written.
+void placing::look_at_place() {
+    const mesh_view here = whose_.view();
+    const mesh_view there{result_.points, here.faces};
+    const bool moved = !std::equal(here.points.begin(), here.points.end(), result_.points.begin());
+    std::optional<tree<3>> own;
+    if (moved && !among_.empty()) own = face_tree(there);
+    const shape at = own ? shape(whose_, result_.points, *own, options_.vertices) : moving_;
+    if (moved) {
+        if (!among_.empty()) {
+            const box3 box = *box_of_faces(there);
+            result_.nearest =
+                among_.nearest(at, box, radius(diagonal(box) * 0x1p-10), work_.part(0.85, 1.0));
+            over();
+        }
+        result_.at_place = standing_of(result_.nearest);
+    }
+    if (result_.on_bed) on_bed_at_place(there);
+    if (among_.empty() || !result_.contacts.empty()) return;
+    if (result_.at_place == standing::touching || result_.at_place == standing::penetrating)
+        result_.contacts = contacts_at(at, among_, options_.limit, result_.contact_count);
+}
+
+void placing::on_bed_at_place(mesh_view there) {
+    if (const auto contact = contact_with_bed(there)) {
+        result_.contacts.push_back(*contact);
+        ++result_.contact_count;
+    }
+    if (result_.at_place == standing::separate) result_.at_place = standing::touching;
+}
+
+}  // namespace treeform::detail::place

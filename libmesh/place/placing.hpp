@@ -1,0 +1,95 @@
+#pragma once
+/// \file
+/// One placement of one mesh among others: what `slide`, `drop`, `mate` and `separate` share.
+
+#include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/shape.hpp>
+#include <libmesh/place/surroundings.hpp>
+#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
+#include <treeform/tree/progress.hpp>
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+
+namespace treeform::detail::place {
+
+/// What the options of all of them come to.
+struct placing_options {
+    const char* function = "";  ///< that was called, for what is refused
+    double clearance = 0.0;
+    std::optional<double> max_travel{};
+    treeform::precision precision = treeform::precision::float64;
+    std::optional<double> bed{};
+    bool close_in = false;
+    bool along_direction = false;  ///< what is met on the way matters, and nothing else
+    std::size_t normals = 24;
+    std::size_t face_pairs = 64;
+    std::size_t limit = 1000;
+    vertex_identity vertices = vertex_identity::by_coordinates;
+    progress_callback progress{};
+};
+
+class placing {
+  public:
+    /// \throws std::invalid_argument for options or operands that cannot be meant
+    placing(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
+            const placing_options& options);
+
+    /// Looks where the mesh is, finds its place by `find`, and looks at that.
+    template <class Find>
+    [[nodiscard]] placement run(const Find& find) {
+        try {
+            look_at_start();
+            in_range([&] { find(*this); });
+            look_at_place();
+            work_.reach(1.0);
+            over();
+        } catch (const stopped&) {
+            return {.status = status::cancelled, .end = placement_end::cancelled};
+        }
+        return finished();
+    }
+
+    void slide(const point3& direction);
+    void mate();
+    void separate();
+    /// The place is where the mesh is, if that can be written.
+    void stay();
+    void measure() { result_.end = placement_end::stays; }
+
+  private:
+    struct stopped {};
+
+    void over() const {
+        if (work_.cancelled()) throw stopped{};
+    }
+    void in_range(const function_ref<void()>& find);
+    [[nodiscard]] placement finished();
+    [[nodiscard]] standing standing_of(const std::optional<nearest_fixed>& near) const;
+    [[nodiscard]] double radius(double more) const;
+    [[nodiscard]] bool placed() const { return result_.end <= placement_end::moved_apart; }
+    void look_at_start();
+    void look_at_place();
+    void on_bed_at_place(mesh_view there);
+    [[nodiscard]] bool stuck_at_start();
+    void settle(const chosen_parts& known, const point3& motion, double time, placement_end end,
+                bool forward = false, bool close_in = false);
+    void lift(const point3& motion, double above);
+    void leave(const chosen_parts& parts);
+    void forget_place();
+
+    const prepared_mesh& whose_;
+    shape moving_;
+    surroundings among_;
+    placing_options options_;
+    base::work_progress work_;
+    std::optional<box3> box_;
+    double longest_ = std::numeric_limits<double>::infinity();
+    placement result_{};
+};
+
+}  // namespace treeform::detail::place

@@ -1,0 +1,87 @@
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/prepared_slots.hpp>
+#include <libmesh/place/shape.hpp>
+#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/point_location.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+namespace treeform::detail::place {
+
+const std::vector<face>& joined_corners(const prepared_mesh& mesh) {
+    constexpr base::slot<std::vector<face>> slot{base::slot_name::joined_corners};
+    return base::prepared_slots::get(mesh, slot, [&] {
+        const mesh_view given = mesh.view();
+        std::vector<face> faces(given.faces.begin(), given.faces.end());
+        if (mesh.is_cloud()) return faces;
+        const equal_points equal = find_equal_points(given.points);
+        if (equal.first_of_new.size() == given.points.size()) return faces;
+        for (face& f : faces)
+            for (std::uint32_t& corner : f) corner = equal.first_of_new[equal.new_of_old[corner]];
+        return faces;
+    });
+}
+
+mesh_view shape::joined() const {
+    if (vertices_ == vertex_identity::by_index) return mesh();
+    return {points_, joined_corners(*whose_)};
+}
+
+bool shape::closed() const {
+    if (vertices_ == vertex_identity::by_index) return !find_open_edge(mesh());
+    constexpr base::slot<bool> slot{base::slot_name::open_edge};
+    return base::prepared_slots::get(*whose_, slot, [&] {
+        return !find_open_edge({whose_->view().points, joined_corners(*whose_)});
+    });
+}
+
+void check_operand(const std::string& function, const std::string& operand, mesh_view mesh) {
+    const std::string name = function + ": " + operand;
+    base::check_faces(name.c_str(), mesh.points.size(), mesh.faces);
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        for (const std::uint32_t corner : mesh.faces[f])
+            if (!base::is_finite(mesh.points[corner]))
+                throw std::invalid_argument("treeform::" + name + ": face " + std::to_string(f) +
+                                            " has a corner that is not finite");
+}
+
+void check_motion(const std::string& function, const point3& motion) {
+    if (!base::is_finite(motion) || motion == point3{})
+        throw std::invalid_argument("treeform::" + function + ": the motion is zero or not finite");
+}
+
+std::optional<box3> box_of_faces(mesh_view mesh) {
+    if (mesh.faces.empty()) return std::nullopt;
+    const point3& first = mesh.points[mesh.faces[0][0]];
+    box3 box{first, first};
+    for (const face& f : mesh.faces)
+        for (const std::uint32_t i : f)
+            for (std::size_t k = 0; k < 3; ++k) {
+                box.min[k] = std::min(box.min[k], mesh.points[i][k]);
+                box.max[k] = std::max(box.max[k], mesh.points[i][k]);
+            }
+    return box;
+}
+
+double not_below(double x, precision of) {
+    if (of == precision::float64) return x;
+    const double nearest = base::nearest_float(x);
+    if (nearest >= x) return nearest;
+    return static_cast<double>(
+        std::nextafterf(static_cast<float>(nearest), std::numeric_limits<float>::infinity()));
+}
+
+bool within(const box3& a, const box3& b, double distance) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!(a.min[k] - b.max[k] <= distance && b.min[k] - a.max[k] <= distance)) return false;
+    return true;
+}
+
+}  // namespace treeform::detail::place

@@ -1,0 +1,66 @@
+#pragma once
+/// \file
+/// A mesh at some place, as the queries of this room take it.
+
+#include <libmesh/base/face_tree.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace treeform::detail::place {
+
+/// The faces of `mesh` with each corner that of the lowest number at its coordinates. Kept there.
+/// Those of a cloud are as they are: they bound nothing, joined or not.
+[[nodiscard]] const std::vector<face>& joined_corners(const prepared_mesh& mesh);
+
+/// A handle: a mesh where it is, or the same mesh with its points elsewhere. What depends on how
+/// its faces hang together is found once, of the mesh where it is.
+class shape {
+  public:
+    explicit shape(const prepared_mesh& mesh,
+                   vertex_identity vertices = vertex_identity::by_coordinates)
+        : whose_(&mesh), points_(mesh.view().points), vertices_(vertices) {}
+    /// `mesh` with its points `there`. \pre `faces` is `face_tree` of that
+    shape(const prepared_mesh& mesh, points_view there, const tree<3>& faces,
+          vertex_identity vertices = vertex_identity::by_coordinates)
+        : whose_(&mesh), points_(there), faces_(&faces), vertices_(vertices) {}
+
+    [[nodiscard]] mesh_view mesh() const { return {points_, whose_->view().faces}; }
+    [[nodiscard]] const tree<3>& faces() const { return faces_ ? *faces_ : face_tree(*whose_); }
+    /// The mesh with corners that are one vertex by one number.
+    [[nodiscard]] mesh_view joined() const;
+    /// Whether each edge has as many faces one way as the other (`find_open_edge`).
+    [[nodiscard]] bool closed() const;
+    [[nodiscard]] vertex_identity vertices() const { return vertices_; }
+    [[nodiscard]] const prepared_mesh& whose() const { return *whose_; }
+
+  private:
+    const prepared_mesh* whose_;
+    points_view points_;
+    const tree<3>* faces_ = nullptr;
+    vertex_identity vertices_;
+};
+
+/// \throws std::invalid_argument naming the lowest face of `mesh` with a corner that is no point or
+///         not finite; `function` is "slide", the message "treeform::slide: fixed 3: face 5 ..."
+void check_operand(const std::string& function, const std::string& operand, mesh_view mesh);
+
+/// \throws std::invalid_argument for a motion that is zero or not finite
+void check_motion(const std::string& function, const point3& motion);
+
+/// The box of the points that faces use; none without faces.
+[[nodiscard]] std::optional<box3> box_of_faces(mesh_view mesh);
+
+/// The least value of that precision that is not below `x`; infinite where there is none.
+[[nodiscard]] double not_below(double x, precision of);
+
+/// Whether the boxes are within `distance` of each other along each axis.
+[[nodiscard]] bool within(const box3& a, const box3& b, double distance);
+
+}  // namespace treeform::detail::place

@@ -1,0 +1,69 @@
+#pragma once
+/// \file
+/// The fixed meshes: those that matter for a motion are indexed, no others.
+
+#include <libmesh/place/shape.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/tree/progress.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::place {
+
+/// A few of the fixed meshes, with their numbers among all.
+struct chosen_parts {
+    std::vector<shape> parts{};
+    std::vector<std::size_t> number{};
+};
+
+class surroundings {
+  public:
+    /// Meshes without faces are passed over.
+    surroundings(std::span<const prepared_mesh> all, vertex_identity vertices);
+
+    [[nodiscard]] bool empty() const { return number_.empty(); }
+    [[nodiscard]] std::size_t size() const { return number_.size(); }
+    [[nodiscard]] std::span<const prepared_mesh> all() const { return all_; }
+    /// Those whose boxes come within `reach` of `box` when it is moved by up to `latest` times
+    /// `motion`; a little more is allowed for rounding.
+    [[nodiscard]] chosen_parts on_the_way(const box3& box, const point3& motion, double latest,
+                                          double reach) const;
+    /// Those whose boxes come within `reach` of `box`, and a little more.
+    [[nodiscard]] chosen_parts around(const box3& box, double reach) const;
+    /// Whether there are such beside those of `known`; none is indexed for this.
+    [[nodiscard]] bool others_around(const box3& box, double reach,
+                                     const chosen_parts& known) const;
+    /// The mesh that `a` penetrates, else one that it touches, else the nearest one; of several the
+    /// lowest. None when there is no mesh within `radius`; those whose boxes are further away are
+    /// not indexed for this.
+    [[nodiscard]] std::optional<nearest_fixed> nearest(const shape& a, const box3& box,
+                                                       double radius,
+                                                       const progress_callback& progress) const;
+    /// Of mesh `number` among all; it has faces.
+    [[nodiscard]] const std::optional<box3>& box_of(std::size_t number) const {
+        return box_of_all_[number];
+    }
+    [[nodiscard]] shape shape_of(std::size_t number) const {
+        return shape(all_[number], vertices_);
+    }
+
+  private:
+    [[nodiscard]] chosen_parts choose(const std::vector<std::uint32_t>& found) const;
+    [[nodiscard]] std::vector<std::uint32_t> met_on_the_way(const box3& box, const point3& motion,
+                                                            double latest, double reach) const;
+
+    std::span<const prepared_mesh> all_;
+    vertex_identity vertices_;
+    std::vector<std::optional<box3>> box_of_all_;
+    std::vector<std::uint32_t> number_;  ///< of those that have faces
+    tree<3> boxes_;                      ///< of these
+};
+
+}  // namespace treeform::detail::place

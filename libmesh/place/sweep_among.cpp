@@ -1,0 +1,90 @@
+#include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/impact_of.hpp>
+#include <libmesh/place/sweep_among.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace treeform::detail::place {
+namespace {
+
+/// What one part allows.
+struct part_end {
+    motion_end end = motion_end::free;
+    double time = 0.0;
+    sweep_contact exact{};
+    std::vector<face_contact> contacts{};
+    std::uint64_t contact_count = 0;
+    std::uint64_t pairs_tested = 0;
+    predicate_counters predicates{};
+};
+
+part_end end_at(const shape& a, const shape& part, const point3& motion, double latest,
+                const sweep_options& options, const progress_callback& progress) {
+    if (options.clearance > 0.0) {
+        auto one =
+            approach_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion, options.clearance,
+                        {.latest = latest, .limit = options.limit, .progress = progress});
+        return {one.end,           one.time,         {}, std::move(one.contacts),
+                one.contact_count, one.pairs_tested, {}};
+    }
+    auto one = impact_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion,
+                         {.latest = latest, .limit = options.limit, .progress = progress});
+    return {one.end,           one.time,         one.exact,     std::move(one.contacts),
+            one.contact_count, one.pairs_tested, one.predicates};
+}
+
+}  // namespace
+
+sweep_result sweep_among(const shape& a, std::span<const shape> parts, const point3& motion,
+                         const sweep_options& options) {
+    if (!(options.clearance >= 0.0))
+        throw std::invalid_argument("treeform::slide: the clearance is negative or NaN");
+    sweep_result result;
+    sweep_contact earliest;
+    double latest = options.latest;
+    base::work_progress work(options.progress);
+    const double share = 1.0 / static_cast<double>(std::max<std::size_t>(parts.size(), 1));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto before = static_cast<double>(i);
+        part_end one = end_at(a, parts[i], motion, latest, options,
+                              work.part(before * share, (before + 1.0) * share));
+        if (work.cancelled()) return {.status = status::cancelled};
+        result.pairs_tested += one.pairs_tested;
+        result.predicates += one.predicates;
+        if (one.end == motion_end::free) continue;
+        if (one.end == motion_end::at_start) {
+            work.reach(1.0);
+            return {.end = one.end,
+                    .part = i,
+                    .pairs_tested = result.pairs_tested,
+                    .predicates = result.predicates};
+        }
+        int order = -1;
+        if (result.end == motion_end::contact) {
+            order = options.clearance > 0.0 ? (one.time > result.time) - (one.time < result.time)
+                                            : compare(motion, one.exact, earliest);
+        }
+        if (order > 0) continue;
+        if (order < 0) {
+            result.contacts.clear();
+            result.contact_count = 0;
+            result.part = i;
+            result.end = one.end;
+            result.time = one.time;
+            earliest = one.exact;
+        }
+        result.contact_count += one.contact_count;
+        for (const face_contact& c : one.contacts)
+            if (result.contacts.size() < options.limit) result.contacts.push_back({i, c});
+        // The exact time may lie between two doubles.
+        latest =
+            std::min(latest, std::nextafter(result.time, std::numeric_limits<double>::infinity()));
+    }
+    work.reach(1.0);
+    return result;
+}
+
+}  // namespace treeform::detail::place

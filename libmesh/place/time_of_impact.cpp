@@ -1,0 +1,145 @@
+#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/place/impact_of.hpp>
+#include <libmesh/place/shape.hpp>
+#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/tree/sweep.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace treeform {
+namespace {
+
+triangle3 triangle_of(mesh_view mesh, std::uint32_t face, const transform<3>& by, bool moves) {
+    triangle3 t;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const point3& p = mesh.points[mesh.faces[face][i]];
+        t[i] = moves ? by(p) : p;
+    }
+    return t;
+}
+
+/// The pairs of faces with the least time so far.
+struct earliest {
+    struct pair {
+        std::uint32_t a, b;
+        contact at;
+    };
+    std::optional<sweep_contact> first;
+    std::vector<pair> pairs;
+
+    void offer(const point3& motion, std::uint32_t a, std::uint32_t b, const sweep_contact& one,
+               predicate_counters& counters) {
+        const int order = first ? compare(motion, one, *first, &counters) : -1;
+        if (order > 0) return;
+        if (order < 0) pairs.clear();
+        pairs.push_back({a, b, one.at});
+        // Of equal times, which plane stands for them depends on no order of search.
+        if (order < 0 || std::pair(a, b) < lowest_) {
+            first = one;
+            lowest_ = {a, b};
+        }
+    }
+
+  private:
+    std::pair<std::uint32_t, std::uint32_t> lowest_{};
+};
+
+}  // namespace
+
+double time_not_beyond(const sweep_contact& contact, const point3& motion) {
+    const auto beyond = [&](double time) {
+        return compare_cut(contact.from, motion, contact.until, time) < 0;
+    };
+    constexpr double largest = std::numeric_limits<double>::max();
+    // The rounded time is off by at most 2^-40 of the exact one, or by a few denormals.
+    double low = std::clamp(contact.time * (1.0 - 0x1p-39) - 0x1p-1060, 0.0, largest);
+    double high = std::min(contact.time * (1.0 + 0x1p-39) + 0x1p-1060, largest);
+    if (!beyond(high)) return high;
+    if (beyond(low)) low = 0.0;
+    while (true) {
+        const double middle = low + (high - low) / 2;
+        if (middle <= low || middle >= high) return low;
+        (beyond(middle) ? high : low) = middle;
+    }
+}
+
+impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                const tree<3>& tree_b, const point3& motion,
+                                const impact_options& options) {
+    impact result;
+    if (!(options.latest >= 0.0))
+        throw std::invalid_argument("treeform::time_of_impact: the latest time is negative or NaN");
+    detail::base::work_progress work(options.progress);
+    if (intersects(a, tree_a, b, tree_b, {options.move_a, options.move_b})) {
+        result.end = motion_end::at_start;
+        work.reach(1.0);
+        return result;
+    }
+    if (!work.reach(0.4)) return {.status = status::cancelled};
+    const auto go_on = [&, usual = static_cast<double>(a.faces.size() + b.faces.size())] {
+        return result.pairs_tested % 1024 != 0 || work.step(0.4, 0.9, result.pairs_tested, usual);
+    };
+    const transformed<3> moving(tree_a, options.move_a);
+    const transformed<3> still(tree_b, options.move_b);
+    const auto face_a = [&](std::uint32_t f) {
+        return triangle_of(a, f, options.move_a, moving.moves());
+    };
+    const auto face_b = [&](std::uint32_t f) {
+        return triangle_of(b, f, options.move_b, still.moves());
+    };
+
+    earliest found;
+    visit_swept(
+        moving, still, motion,
+        [&](std::uint32_t i, std::uint32_t j) {
+            ++result.pairs_tested;
+            if (!go_on()) return -1.0;
+            if (const auto one = first_contact(face_a(i), face_b(j), motion, &result.predicates))
+                found.offer(motion, i, j, *one, result.predicates);
+            return found.first ? found.first->time * (1.0 + 0x1p-38) : options.latest;
+        },
+        options.latest);
+    if (work.cancelled() || !work.reach(1.0)) return {.status = status::cancelled};
+    if (!found.first) return result;
+    if (std::isfinite(options.latest) &&
+        compare_cut(found.first->from, motion, found.first->until, options.latest) > 0)
+        return result;
+
+    result.end = motion_end::contact;
+    result.exact = *found.first;
+    result.time = time_not_beyond(*found.first, motion);
+    result.contact_count = found.pairs.size();
+    std::sort(found.pairs.begin(), found.pairs.end(), [](const auto& x, const auto& y) {
+        return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+    });
+    found.pairs.resize(std::min(found.pairs.size(), options.limit));
+    for (const auto& pair : found.pairs) {
+        triangle3 t = face_a(pair.a);
+        for (point3& p : t)
+            for (std::size_t k = 0; k < 3; ++k) p[k] += result.time * motion[k];
+        result.contacts.push_back(
+            {pair.a, pair.b, pair.at, closest_points(t, face_b(pair.b)).on_b});
+    }
+    return result;
+}
+
+impact time_of_impact(const prepared_mesh& a, const prepared_mesh& b, const point3& motion,
+                      const impact_options& options) {
+    detail::place::check_operand("time_of_impact", "a", a.view());
+    detail::place::check_operand("time_of_impact", "b", b.view());
+    detail::place::check_motion("time_of_impact", motion);
+    return detail::place::impact_of(a.view(), face_tree(a), b.view(), face_tree(b), motion,
+                                    options);
+}
+
+impact time_of_impact(mesh_view a, mesh_view b, const point3& motion,
+                      const impact_options& options) {
+    return time_of_impact(prepared_mesh::borrow(a), prepared_mesh::borrow(b), motion, options);
+}
+
+}  // namespace treeform

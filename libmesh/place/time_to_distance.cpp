@@ -1,0 +1,153 @@
+#include <libmesh/base/work_progress.hpp>
+#include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/place/impact_of.hpp>
+#include <libmesh/place/shape.hpp>
+#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/sweep.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace treeform {
+namespace {
+
+triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
+    const face& corners = mesh.faces[f];
+    return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
+}
+
+triangle3 moved(triangle3 t, const point3& motion, double time) {
+    for (point3& p : t)
+        for (std::size_t k = 0; k < 3; ++k) p[k] += time * motion[k];
+    return t;
+}
+
+/// Two faces, one of them in motion.
+struct moving_pair {
+    triangle3 a, b;
+    point3 motion;
+
+    /// The first time at which they are not further apart than `level`; none before `latest`.
+    [[nodiscard]] std::optional<double> time_within(double level, double latest) const {
+        double time = 0.0;
+        for (int step = 0; step < 200; ++step) {
+            const auto at = closest_points(moved(a, motion, time), b);
+            const double apart = std::sqrt(at.squared_distance);
+            if (apart <= level) return time;
+            double slope = 0.0;
+            for (std::size_t k = 0; k < 3; ++k)
+                slope += (at.on_a[k] - at.on_b[k]) / apart * motion[k];
+            if (!(slope < 0.0)) return std::nullopt;  // convex: it will not come nearer
+            const double next = time + (apart - level) / -slope;
+            if (!(next <= latest)) return std::nullopt;
+            if (!(next > time)) return time;
+            time = next;
+        }
+        return time;
+    }
+
+    /// What the rounding of coordinates and distances may come to.
+    [[nodiscard]] double slack(double distance) const {
+        double largest = distance;
+        for (const triangle3* t : {&a, &b})
+            for (const point3& p : *t)
+                for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, std::abs(p[k]));
+        return largest * 0x1p-48;
+    }
+};
+
+tree<3> widened_tree(mesh_view mesh, double by) {
+    return build(mesh.faces, [&](const face& f) {
+        aabb<double, 3> box;
+        for (const std::uint32_t corner : f) box.include(mesh.points[corner]);
+        constexpr double most = std::numeric_limits<double>::max();  // trees have finite boxes
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.min[k] = std::nextafter(std::max(box.min[k] - by, -most), -most);
+            box.max[k] = std::nextafter(std::min(box.max[k] + by, most), most);
+        }
+        return box;
+    });
+}
+
+using pair_of_faces = std::pair<std::uint32_t, std::uint32_t>;
+
+}  // namespace
+
+approach detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                    const tree<3>& tree_b, const point3& motion, double distance,
+                                    const approach_options& options) {
+    if (!(distance > 0.0) || !std::isfinite(distance))
+        throw std::invalid_argument(
+            "treeform::time_to_distance: the distance is not positive or infinite");
+    if (!(options.latest >= 0.0))
+        throw std::invalid_argument(
+            "treeform::time_to_distance: the latest time is negative or NaN");
+    approach result;
+    const auto near = mesh_distance(a, tree_a, b, tree_b, distance);
+    detail::base::work_progress work(options.progress);
+    if (near && near->distance < distance) {
+        result.end = motion_end::at_start;
+        work.reach(1.0);
+        return result;
+    }
+    if (!work.reach(0.4)) return {.status = status::cancelled};
+    const auto go_on = [&, usual = static_cast<double>(a.faces.size() + b.faces.size())] {
+        return result.pairs_tested % 1024 != 0 || work.step(0.4, 0.9, result.pairs_tested, usual);
+    };
+    double latest = options.latest;
+    std::vector<pair_of_faces> pairs;
+    const tree<3> wide = widened_tree(a, distance);
+    visit_swept(
+        wide, tree_b, motion,
+        [&](std::uint32_t i, std::uint32_t j) {
+            ++result.pairs_tested;
+            if (!go_on()) return -1.0;
+            const moving_pair pair{triangle_of(a, i), triangle_of(b, j), motion};
+            const double below = std::max(0.0, distance - pair.slack(distance));
+            const auto time = pair.time_within(distance, latest);
+            if (!time || !pair.time_within(below, std::numeric_limits<double>::infinity()))
+                return latest;
+            if (pairs.empty() || *time < result.time) pairs.clear();
+            result.time = *time;
+            latest = *time;
+            pairs.emplace_back(i, j);
+            return latest;
+        },
+        options.latest);
+    if (work.cancelled() || !work.reach(1.0)) return {.status = status::cancelled};
+    if (pairs.empty()) return result;
+
+    result.end = motion_end::contact;
+    result.contact_count = pairs.size();
+    std::sort(pairs.begin(), pairs.end());
+    pairs.resize(std::min(pairs.size(), options.limit));
+    for (const auto& [i, j] : pairs)
+        result.contacts.push_back(
+            {i,
+             j,
+             {feature::v0, feature::v0},
+             closest_points(moved(triangle_of(a, i), motion, result.time), triangle_of(b, j))
+                 .on_b});
+    return result;
+}
+
+approach time_to_distance(const prepared_mesh& a, const prepared_mesh& b, const point3& motion,
+                          double distance, const approach_options& options) {
+    detail::place::check_operand("time_to_distance", "a", a.view());
+    detail::place::check_operand("time_to_distance", "b", b.view());
+    detail::place::check_motion("time_to_distance", motion);
+    return detail::place::approach_of(a.view(), face_tree(a), b.view(), face_tree(b), motion,
+                                      distance, options);
+}
+
+approach time_to_distance(mesh_view a, mesh_view b, const point3& motion, double distance,
+                          const approach_options& options) {
+    return time_to_distance(prepared_mesh::borrow(a), prepared_mesh::borrow(b), motion, distance,
+                            options);
+}
+
+}  // namespace treeform

@@ -1,0 +1,38 @@
+#include <libmesh/round/rounding_harm.hpp>
+#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/rounding_effects.hpp>
+
+#include <stdexcept>
+
+namespace treeform {
+rounding_effects effects_of_rounding(const prepared_mesh& mesh, const transform<3>& by,
+                                     points_view placed, const rounding_options& options) {
+    const mesh_view moving = mesh.view();
+    if (placed.size() != moving.points.size())
+        throw std::invalid_argument(
+            "treeform::effects_of_rounding: as many points placed as there are is needed");
+    const bool was_single = options.before == precision::float32;
+    const bool is_single = options.after == precision::float32;
+    rounding_effects found;
+    found.max_displacement = largest_move(moving.points, by, placed);
+    found.step = coordinate_step(placed, is_single);
+    const auto box = bounding_box(moving.points);
+    found.noticeable =
+        found.max_displacement > 0.0 &&
+        ((is_single && !was_single) || found.max_displacement > 1e-6 * (box ? diagonal(*box) : 0));
+    const bool coarser = found.step > coordinate_step(moving.points, was_single);
+    if (!coarser || !(found.max_displacement > 0.0) || mesh.is_cloud()) return found;
+    const rounding_harm harm = harm_of_rounding(moving, placed, options.progress);
+    found.compared = true;
+    found.collapsed = harm.collapsed;
+    found.meeting = harm.meeting;
+    if (harm.cancelled) found.status = status::cancelled;
+    return found;
+}
+
+rounding_effects effects_of_rounding(mesh_view moving, const transform<3>& by, points_view placed,
+                                     const rounding_options& options) {
+    return effects_of_rounding(prepared_mesh::borrow(moving), by, placed, options);
+}
+
+}  // namespace treeform

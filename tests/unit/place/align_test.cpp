@@ -1,0 +1,291 @@
+#include <treeform/mesh/align.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <doctest/doctest.h>
+#include <support/random.hpp>
+#include <support/solids.hpp>
+#include <support/soups.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+using tf::align_method;
+using tf::point3;
+
+/// A shape that no motion brings onto itself: boxes of three sizes.
+tf::mesh shape() {
+    return test::together(
+        test::together(test::box(3, 2, 1), test::moved(test::box(1, 1, 2), {0.3, 0.4, 1})),
+        test::moved(test::box(0.5, 1.5, 1), {2.2, 0.3, 1}));
+}
+
+/// Points on its faces, at random.
+std::vector<point3> points_on(test::random& source, const tf::mesh& mesh, std::size_t count) {
+    std::vector<point3> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        const tf::face& f = mesh.faces[source.below(mesh.faces.size())];
+        double u = source.unit(), v = source.unit();
+        if (u + v > 1.0) {
+            u = 1.0 - u;
+            v = 1.0 - v;
+        }
+        const point3 &a = mesh.points[f[0]], &b = mesh.points[f[1]], &c = mesh.points[f[2]];
+        point3 p;
+        for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]);
+        points.push_back(p);
+    }
+    return points;
+}
+
+/// A turn by `angle` about (x, y, z) of length 1, growth by `scale`, then a shift.
+tf::transform<3> motion(double angle, double scale, const point3& shift) {
+    const double x = 2.0 / 7, y = 3.0 / 7, z = 6.0 / 7, c = std::cos(angle), s = std::sin(angle);
+    tf::transform<3> m;
+    m.rows = {{{c + x * x * (1 - c), x * y * (1 - c) - z * s, x * z * (1 - c) + y * s, shift.x},
+               {y * x * (1 - c) + z * s, c + y * y * (1 - c), y * z * (1 - c) - x * s, shift.y},
+               {z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c), shift.z}}};
+    for (auto& row : m.rows)
+        for (std::size_t k = 0; k < 3; ++k) row[k] *= scale;
+    return m;
+}
+
+std::vector<point3> moved(std::vector<point3> points, const tf::transform<3>& by) {
+    for (point3& p : points) p = by(p);
+    return points;
+}
+
+double distance(const point3& a, const point3& b) {
+    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+double largest_difference(const std::vector<point3>& a, const std::vector<point3>& b) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, distance(a[i], b[i]));
+    return most;
+}
+
+}  // namespace
+
+TEST_CASE("align: a known motion is found to the last digits, on planes and on points") {
+    test::random source(1);
+    const tf::mesh fixed = shape();
+    const std::vector<point3> home = points_on(source, fixed, 3000);
+    for (int round = 0; round < 6; ++round) {
+        CAPTURE(round);
+        const auto away =
+            motion(source.in(-0.1, 0.1), 1.0, {source.in(-0.1, 0.1), source.in(-0.1, 0.1), 0.05});
+        const std::vector<point3> there = moved(home, away);
+        const auto on_planes = tf::align(there, fixed);
+        CHECK(on_planes.converged);
+        CHECK(largest_difference(moved(there, on_planes.matrix), home) < 1e-12);
+        CHECK(on_planes.rms < 1e-12);
+        CHECK(on_planes.rms_at_start > 1e-3);
+        CHECK(on_planes.overlap == 1.0);
+        CHECK(on_planes.iterations < 30);
+        CHECK(on_planes.scale == 1.0);
+        CHECK(distance(on_planes.matrix(on_planes.pivot), on_planes.pivot_moved) < 1e-14);
+        // a cloud, so near that most points have the right partner
+        const std::vector<point3> near = moved(home, motion(0.004, 1.0, {0.004, -0.002, 0.003}));
+        const auto on_points = tf::align(near, {home, {}});
+        CHECK(on_points.converged);
+        CHECK(largest_difference(moved(near, on_points.matrix), home) < 1e-12);
+    }
+}
+
+TEST_CASE("align: a third of the points are somewhere else, and are trimmed") {
+    test::random source(2);
+    const tf::mesh fixed = shape();
+    for (int round = 0; round < 4; ++round) {
+        std::vector<point3> home = points_on(source, fixed, 2000);
+        const auto away = motion(0.06, 1.0, {0.05, -0.06, 0.04});
+        std::vector<point3> there = moved(home, away);
+        const std::size_t good = there.size();
+        for (std::size_t i = 0; i < good * 3 / 7; ++i)
+            there.push_back({source.in(-2, 5), source.in(-2, 4), source.in(4, 6)});
+        source.shuffle(there);
+        const auto found = tf::align(there, fixed, {.overlap = 0.7});
+        CHECK(found.converged);
+        CHECK(largest_difference(moved(moved(home, away), found.matrix), home) < 1e-12);
+        CHECK(found.rms < 1e-12);
+        // or by their distance
+        const auto near = tf::align(there, fixed, {.max_distance = 0.5});
+        CHECK(largest_difference(moved(moved(home, away), near.matrix), home) < 1e-12);
+        CHECK(near.overlap == doctest::Approx(0.7).epsilon(0.01));
+        // with all of them it is another place
+        const auto all = tf::align(there, fixed);
+        CHECK(largest_difference(moved(moved(home, away), all.matrix), home) > 1e-3);
+    }
+}
+
+TEST_CASE("align: far from the origin as well as the coordinates there allow, and in any unit") {
+    test::random source(3);
+    const point3 offset{1e6, -2e6, 1e6};
+    const tf::mesh fixed = test::moved(shape(), offset);
+    const std::vector<point3> home = points_on(source, fixed, 3000);
+    const auto about = [&](const tf::transform<3>& m) {
+        return tf::after(tf::translation<3>(offset),
+                         tf::after(m, tf::translation<3>(point3{-offset.x, -offset.y, -offset.z})));
+    };
+    const std::vector<point3> there = moved(home, about(motion(0.08, 1.0, {0.1, -0.05, 0.06})));
+    const auto found = tf::align(there, fixed);
+    CHECK(found.converged);
+    CHECK(largest_difference(moved(there, found.matrix), home) < 4e-9);
+    // the turn, which no large numbers are part of
+    const auto expected = motion(-0.08, 1.0, {});
+    for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t c = 0; c < 3; ++c)
+            CHECK(std::abs(found.matrix.rows[r][c] - expected.rows[r][c]) < 1e-9);
+
+    const tf::mesh near = shape();
+    const std::vector<point3> points = points_on(source, near, 500);
+    const std::vector<point3> off = moved(points, motion(0.05, 1.0, {0.1, 0.1, 0.1}));
+    const auto plain = tf::align(off, near);
+    for (const double unit : {0x1p-300, 0x1p300}) {
+        std::vector<point3> scaled = off;
+        for (point3& p : scaled) p = {p.x * unit, p.y * unit, p.z * unit};
+        const auto other = tf::align(scaled, test::scaled(near, unit));
+        CHECK(other.matrix.rows[0][0] == plain.matrix.rows[0][0]);
+        CHECK(other.matrix.rows[1][3] == plain.matrix.rows[1][3] * unit);
+    }
+}
+
+TEST_CASE("align: a uniform scale is found when it is asked for, and only then") {
+    test::random source(4);
+    const tf::mesh fixed = shape();
+    const std::vector<point3> home = points_on(source, fixed, 2000);
+    const std::vector<point3> there = moved(home, motion(0.03, 1.03, {0.02, 0.01, -0.02}));
+    const auto found = tf::align(there, fixed, {.scale = true});
+    CHECK(found.scale == doctest::Approx(1.0 / 1.03).epsilon(1e-12));
+    CHECK(largest_difference(moved(there, found.matrix), home) < 1e-12);
+    CHECK(tf::align(there, fixed).scale == 1.0);
+    const std::vector<point3> cloud = moved(home, motion(0.003, 1.002, {0.002, 0.001, 0.002}));
+    const auto points = tf::align(cloud, {home, {}}, {.scale = true});
+    CHECK(largest_difference(moved(cloud, points.matrix), home) < 1e-12);
+}
+
+TEST_CASE("align: a start brings the points near, and is part of the matrix, mirrored or not") {
+    test::random source(5);
+    const tf::mesh fixed = shape();
+    const std::vector<point3> home = points_on(source, fixed, 1000);
+    tf::transform<3> start = motion(2.0, 1.0, {50, 60, -70});
+    for (double& entry : start.rows[1]) entry = -entry;
+    // what start nearly brings home: its inverse is the transposed
+    const auto nearly = moved(home, motion(0.03, 1.0, {0.02, 0.03, 0.01}));
+    std::vector<point3> there;
+    for (const point3& p : nearly) {
+        const point3 d{p.x - start.rows[0][3], p.y - start.rows[1][3], p.z - start.rows[2][3]};
+        point3 q;
+        for (std::size_t k = 0; k < 3; ++k)
+            q[k] = start.rows[0][k] * d.x + start.rows[1][k] * d.y + start.rows[2][k] * d.z;
+        there.push_back(q);
+    }
+    const auto found = tf::align(there, fixed, {.start = start});
+    CHECK(found.converged);
+    CHECK(largest_difference(moved(there, found.matrix), home) < 1e-11);
+}
+
+TEST_CASE("align: never worse than the start, whatever is fitted to what") {
+    test::random source(6);
+    for (int round = 0; round < 40; ++round) {
+        CAPTURE(round);
+        const tf::mesh fixed = round % 2 == 0 ? test::random_soup(source, 20, 0.3)
+                                              : test::lattice_soup(source, 20, 12, 3);
+        std::vector<point3> there;
+        for (int i = 0; i < 60; ++i)
+            there.push_back({source.in(-2, 3), source.in(-2, 3), source.in(-2, 3)});
+        tf::align_options options;
+        options.method = static_cast<align_method>(source.below(2));
+        options.overlap = source.in(0.2, 1.0);
+        options.samples = round % 3 == 0 ? 20 : 0;
+        options.max_iterations = static_cast<unsigned>(source.below(30));
+        const auto found = tf::align(there, fixed, options);
+        CHECK(found.rms <= found.rms_at_start);
+        CHECK(found.iterations <= options.max_iterations);
+        // what is said of it is what one finds there
+        const auto again = tf::align(
+            there, fixed, {.overlap = options.overlap, .max_iterations = 0, .start = found.matrix});
+        CHECK(again.rms_at_start == doctest::Approx(found.rms).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("align: flat on flat slides nowhere, and a mirror image is not mirrored") {
+    test::random source(7);
+    const tf::mesh sheet = test::grid(8);
+    std::vector<point3> there;
+    for (int i = 0; i < 200; ++i) there.push_back({source.in(2, 6), source.in(2, 6), 0.25});
+    const auto found = tf::align(there, sheet);
+    CHECK(found.converged);
+    CHECK(found.rms < 1e-14);
+    for (const point3& p : there) CHECK(distance(found.matrix(p), {p.x, p.y, 0.0}) < 1e-13);
+
+    const std::vector<point3> cloud{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {0, 0, 1}};
+    std::vector<point3> mirrored = cloud;
+    for (point3& p : mirrored) p.z = -p.z;
+    const auto m = tf::align(mirrored, {cloud, {}}).matrix.rows;
+    const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                               m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    CHECK(determinant == doctest::Approx(1.0));
+}
+
+TEST_CASE("align: nothing, one point, and what is there already") {
+    const tf::mesh fixed = shape();
+    const auto none = tf::align(tf::points_view{}, fixed);
+    CHECK_FALSE(none.converged);
+    CHECK(none.matrix == tf::transform<3>{});
+    CHECK_FALSE(tf::align(fixed.points, {}).converged);
+    const std::vector<point3> one{{5, 5, 5}};
+    CHECK(tf::align(one, fixed).rms < 1e-12);
+    const auto there = tf::align(fixed.points, fixed);
+    CHECK(there.converged);
+    CHECK(there.rms == 0.0);
+    CHECK(there.matrix == tf::transform<3>{});
+    const auto out_of_reach = tf::align(one, fixed, {.max_distance = 1e-3});
+    CHECK(out_of_reach.overlap == 0.0);
+    CHECK_FALSE(out_of_reach.converged);
+}
+
+TEST_CASE("align: the same on any number of threads") {
+    test::random source(8);
+    const tf::mesh fixed = shape();
+    const std::vector<point3> there =
+        moved(points_on(source, fixed, 20000), motion(0.05, 1.0, {0.1, 0, 0.1}));
+    const auto one = tf::align(there, fixed, {.overlap = 0.9});
+    for (const unsigned threads : {1U, 2U, 8U}) {
+        const tf::thread_scope scope(threads);
+        const auto other = tf::align(there, fixed, {.overlap = 0.9});
+        CHECK(other.matrix == one.matrix);
+        CHECK(other.rms == one.rms);
+    }
+}
+
+TEST_CASE("align: what cannot be meant is refused") {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    tf::mesh fixed = shape();
+    std::vector<point3> there = fixed.points;
+    const auto refused = [&](const tf::align_options& o) {
+        CHECK_THROWS_AS(static_cast<void>(tf::align(there, fixed, o)), std::invalid_argument);
+    };
+    refused({.overlap = 0.0});
+    refused({.overlap = 1.5});
+    refused({.overlap = nan});
+    refused({.max_distance = -1.0});
+    refused({.tolerance = nan});
+    tf::align_options start;
+    start.start.rows[0][0] = nan;
+    refused(start);
+    there[4].x = 1e200;
+    CHECK_THROWS_WITH_AS(static_cast<void>(tf::align(there, fixed)), doctest::Contains("too large"),
+                         std::overflow_error);
+    there[4].x = nan;
+    CHECK_THROWS_WITH_AS(static_cast<void>(tf::align(there, fixed)),
+                         doctest::Contains("moving point 4"), std::invalid_argument);
+}

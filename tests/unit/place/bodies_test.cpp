@@ -1,0 +1,123 @@
+#include <treeform/mesh/bodies.hpp>
+#include <treeform/mesh/rounding_effects.hpp>
+#include <treeform/mesh/select_faces.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/solids.hpp>
+#include <support/soups.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace {
+
+using test::box;
+using test::moved;
+
+tf::mesh_file file_of(tf::mesh mesh) {
+    tf::mesh_file file;
+    file.stored_faces = mesh.faces.size();
+    file.mesh = std::move(mesh);
+    return file;
+}
+
+}  // namespace
+
+TEST_CASE("bodies: equal corners are one, faces that are not finite are left out") {
+    tf::mesh_file file = file_of(test::unjoined(box(1, 1, 1)));
+    file.mesh.points[3].x = std::numeric_limits<double>::quiet_NaN();
+    const auto found = tf::whole_body(file);
+    REQUIRE(found.bodies.size() == 1);
+    CHECK(found.left_out == 1);
+    CHECK(found.shapes[0].view().points.size() == 8);
+    CHECK(found.shapes[0].view().faces.size() == 11);
+    CHECK(found.bodies[0].triangle(0) == 0);
+    CHECK(found.bodies[0].triangle(1) == 2);
+    CHECK(found.shapes[0].indexes_built() == 0);
+    CHECK(tf::whole_body({}).bodies.empty());
+}
+
+TEST_CASE("bodies: a file without faces is a cloud of its finite points") {
+    tf::mesh_file file = file_of({{{0, 0, 0}, {std::nan(""), 0, 0}, {1, 1, 1}}, {}});
+    const auto found = tf::bodies_of(file);
+    REQUIRE(found.cloud);
+    CHECK(found.left_out == 1);
+    CHECK(found.shapes[0].is_cloud());
+    CHECK(found.bodies[0].triangle(1) == 2);
+    tf::put_back(file, found.bodies[0], found.shapes[0],
+                 std::vector<tf::point3>{{5, 5, 5}, {6, 6, 6}}, tf::transform<3>{},
+                 tf::precision::float64);
+    CHECK(file.mesh.points[0] == tf::point3{5, 5, 5});
+    CHECK(file.mesh.points[2] == tf::point3{6, 6, 6});
+}
+
+TEST_CASE("bodies: each part of a file is the mesh of its faces alone") {
+    const tf::mesh both = test::together(moved(box(1, 1, 1), {5, 0, 0}), box(2, 2, 2));
+    tf::mesh_file file = file_of(both);
+    file.attributes.parts = {{.object = "small", .first_face = 0}, {.first_face = 12}};
+    const auto found = tf::bodies_of(file);
+    REQUIRE(found.bodies.size() == 2);
+    CHECK(found.bodies[0].name == "small");
+    CHECK(found.bodies[1].name == "part 1");
+    for (std::size_t i = 0; i < 2; ++i) {
+        const tf::mesh expected = tf::select_faces(both, found.bodies[i].triangle_of_face);
+        const tf::mesh_view view = found.shapes[i].view();
+        CHECK(tf::mesh{{view.points.begin(), view.points.end()},
+                       {view.faces.begin(), view.faces.end()}} == expected);
+        CHECK(found.bodies[i].stored_face(file, 0) == 12 * i);
+    }
+    file.attributes.parts[1].object = "small";
+    CHECK(tf::bodies_of(file).bodies.size() == 1);
+}
+
+TEST_CASE("bodies: points go back to where they are in the file, others move along") {
+    tf::mesh_file file = file_of(test::unjoined(box(1, 1, 1)));
+    file.mesh.points.push_back({0.1, 7, 7});
+    const auto found = tf::whole_body(file);
+    std::vector<tf::point3> placed(found.shapes[0].view().points.begin(),
+                                   found.shapes[0].view().points.end());
+    for (tf::point3& p : placed) p.z += 4;
+    tf::transform<3> up;
+    up.rows[2][3] = 4;
+    tf::put_back(file, found.bodies[0], found.shapes[0], placed, up, tf::precision::float32);
+    const tf::mesh expected = moved(test::unjoined(box(1, 1, 1)), {0, 0, 4});
+    for (std::size_t i = 0; i < expected.points.size(); ++i)
+        CHECK(file.mesh.points[i] == expected.points[i]);
+    CHECK(file.mesh.points.back() == tf::point3{double{0.1F}, 7, 11});
+    CHECK(tf::round_to_float32(file) == 0.0);
+    file.mesh.points.back().x = 0.1;
+    CHECK(tf::round_to_float32(file) == double{0.1F} - 0.1);
+}
+
+TEST_CASE("rounding effects: far away float32 folds what it has not folded before") {
+    const tf::mesh ball = test::ball(3, 1e-3);
+    tf::transform<3> away;
+    away.rows[0][3] = away.rows[1][3] = 1e4;
+    const auto written = [&](tf::precision precision) {
+        std::vector<tf::point3> placed;
+        for (const tf::point3& p : ball.points) {
+            const double x = p.x + 1e4, y = p.y + 1e4;
+            placed.push_back(precision == tf::precision::float32
+                                 ? tf::point3{double{static_cast<float>(x)},
+                                              double{static_cast<float>(y)},
+                                              double{static_cast<float>(p.z)}}
+                                 : tf::point3{x, y, p.z});
+        }
+        return tf::effects_of_rounding(ball, away, placed, {.after = precision});
+    };
+    const auto exact = written(tf::precision::float64);
+    CHECK_FALSE(exact.noticeable);
+    CHECK(exact.max_displacement < 1e-11);
+    CHECK(exact.compared);
+    CHECK(exact.collapsed == 0);
+    const auto rounded = written(tf::precision::float32);
+    CHECK(rounded.noticeable);
+    CHECK(rounded.compared);
+    CHECK(rounded.collapsed > 0);
+    CHECK(rounded.max_displacement > 1e-5);
+    CHECK_THROWS_AS(static_cast<void>(tf::effects_of_rounding(ball, away, {})),
+                    std::invalid_argument);
+}

@@ -1,0 +1,204 @@
+#include "tools/tf-place/outputs.hpp"
+#include <treeform/tf.hpp>
+
+#include <array>
+#include <utility>
+
+namespace tools {
+namespace {
+
+json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
+
+json box_entry(const std::optional<tf::box3>& box) {
+    if (!box) return nullptr;
+    return {{"min", triple(box->min)}, {"max", triple(box->max)}};
+}
+
+void extend(std::optional<tf::box3>& box, const std::optional<tf::box3>& more) {
+    if (box && more)
+        box = tf::bounding_box(std::array{box->min, box->max, more->min, more->max});
+    else if (more)
+        box = more;
+}
+
+json side_entry(const body& b, const tf::surface_point& at) {
+    json entry{{"point", triple(at.point)}};
+    const json triangle = b.is.triangle(at.face);
+    entry["face"] = b.cloud ? json(nullptr) : json(b.stored_face(at.face));
+    entry["triangle"] = b.cloud ? json(nullptr) : triangle;
+    entry["barycentric"] = b.cloud ? json(nullptr) : json(at.barycentric);
+    entry["vertex"] = b.cloud ? triangle : json(nullptr);
+    return entry;
+}
+
+json name_entry(const body& b) { return b.is.name.empty() ? json(nullptr) : json(b.is.name); }
+
+/// How MOVING lies to what is nearest to it.
+void enter_nearest(json& entry, const body& moving, const tf::nearest_fixed& near,
+                   const body_set& fixed) {
+    const body& part = fixed.bodies[near.fixed];
+    json there = side_entry(part, near.how.on_b);
+    there["file"] = part.path;
+    there["part"] = part.file_number;
+    there["name"] = name_entry(part);
+    entry["distance"] = near.how.distance;
+    entry["surface_distance"] = near.how.surface_distance;
+    entry["closest"] = {{"moving", side_entry(moving, near.how.on_a)}, {"fixed", std::move(there)}};
+    const tf::mesh_relation_result& how = near.how.relation;
+    if (how.a_inside_b || how.b_inside_a) entry["inside"] = how.a_inside_b ? "moving" : "fixed";
+}
+
+json contacts_entry(const body& moving, const tf::placement& p, const body_set& fixed) {
+    json rows = json::array();
+    for (const tf::placement_contact& c : p.contacts) {
+        const body* const part = c.fixed_face ? &fixed.bodies[c.fixed] : nullptr;
+        rows.push_back({{"point", triple(c.point)},
+                        {"normal", triple(c.normal)},
+                        {"moving", moving.stored_face(c.moving)},
+                        {"fixed", part ? json(part->stored_face(*c.fixed_face)) : json(nullptr)},
+                        {"part", part ? json(part->file_number) : json("bed")},
+                        {"name", part ? name_entry(*part) : json(nullptr)}});
+    }
+    return rows;
+}
+
+/// The faces were not looked at: nothing is said of how they lie to each other.
+void enter_fit(json& entry, const tf::align_result& fit) {
+    for (const char* key : {"status", "status_at_start", "contact_count", "travel", "backed_off"})
+        entry[key] = nullptr;
+    entry["fit"] = {{"rms", fit.rms},
+                    {"rms_at_start", fit.rms_at_start},
+                    {"overlap", fit.overlap},
+                    {"scale", fit.scale},
+                    {"converged", fit.converged},
+                    {"iterations", fit.iterations},
+                    {"pivot", triple(fit.pivot)},
+                    {"pivot_moved", triple(fit.pivot_moved)}};
+}
+
+void enter_lay(json& entry, const outcome& found) {
+    for (const tf::hull_side& side : found.laid->sides)
+        entry["sides"].push_back({{"normal", triple(side.normal)},
+                                  {"area", side.area},
+                                  {"center", triple(side.center)}});
+    entry["chosen"] = found.laid->chosen;
+    entry["tolerance"]["used"] = found.flatness;
+    entry["corrected"] = found.laid->corrected;
+}
+
+/// What did not have to be looked at.
+void enter_skipped(json& entry, const tf::placement& p, const body_set& fixed) {
+    std::uint64_t faces = 0;
+    for (json& one : entry["fixed"]) {
+        one["indexed"] = false;
+        one["parts"] = json::array();
+    }
+    for (std::size_t i = 0; i < fixed.bodies.size(); ++i) {
+        const body& part = fixed.bodies[i];
+        json& one = entry["fixed"][part.file_number];
+        const bool indexed = fixed.shapes[i].indexes_built() > 0;
+        if (indexed)
+            one["indexed"] = true;
+        else
+            faces += part.faces;
+        if (part.is.name.empty()) continue;
+        one["parts"].push_back({{"name", part.is.name},
+                                {"triangles", part.faces},
+                                {"box", box_entry(part.box)},
+                                {"indexed", indexed}});
+    }
+    json& skipped = entry["skipped"];
+    skipped["parts_not_indexed"] = fixed.bodies.size() - fixed.indexed();
+    skipped["primitives_not_indexed"] = faces;
+    skipped["pairs_culled_by_box"] = p.statistics.fixed_culled;
+    skipped["face_pairs_in_motion"] = p.statistics.pairs_tested;
+    skipped["filter_calls"] = p.statistics.predicates.calls;
+    skipped["exact_calls"] = p.statistics.predicates.undecided;
+}
+
+}  // namespace
+
+json rows_of(const tf::transform<3>& matrix) {
+    json rows = json::array();
+    for (const auto& row : matrix.rows) rows.push_back(row);
+    rows.push_back({0.0, 0.0, 0.0, 1.0});
+    return rows;
+}
+
+void enter_blank_report(job& work, const place_settings& settings) {
+    json& entry = work.entry;
+    for (const char* key : {"format", "sha256", "precision_in", "faces", "triangles", "box"})
+        entry[key] = nullptr;
+    entry["mode"] = name_of(settings.mode);
+    entry["fixed"] = json::array();
+    entry["skipped"] = {{"non_finite", nullptr},          {"parts_not_loaded", 0},
+                        {"parts_not_indexed", nullptr},   {"primitives_not_indexed", nullptr},
+                        {"pairs_culled_by_box", nullptr}, {"face_pairs_in_motion", nullptr},
+                        {"filter_calls", nullptr},        {"exact_calls", nullptr}};
+    entry["clearance"] = {{"given", settings.clearance.given}, {"used", nullptr}};
+    entry["max_travel"] = settings.max_travel ? json(settings.max_travel->given) : json(nullptr);
+    for (const char* key :
+         {"bed", "placed", "reason", "status_at_start", "status", "inside", "distance",
+          "surface_distance", "closest", "direction", "travel", "backed_off", "matrix"})
+        entry[key] = nullptr;
+    entry["contacts"] = json::array();
+    entry["contact_count"] = nullptr;
+    entry["sides"] = json::array();
+    for (const char* key : {"chosen", "corrected", "fit", "fits"}) entry[key] = nullptr;
+    entry["tolerance"] = {
+        {"given", settings.mode == place_mode::lay ? json(settings.flatness.given) : json(nullptr)},
+        {"used", nullptr}};
+    entry["parts"] = json::array();
+    entry["not_placed"] = json::array();
+    entry["rounding"] = nullptr;
+    entry["matrix_file"] = settings.matrix.empty() ? json(nullptr) : json(settings.matrix.string());
+    entry["output"] = nullptr;
+}
+
+void enter_bodies(job& work, const body& moving, const body_set& fixed) {
+    json& entry = work.entry;
+    entry["fixed"] = fixed.entries;
+    entry["faces"] = moving.file->stored_faces;
+    entry["triangles"] = moving.file->mesh.faces.size();
+    entry["box"] = box_entry(moving.box);
+    std::uint64_t non_finite = moving.non_finite;
+    std::vector<std::optional<tf::box3>> boxes(entry["fixed"].size());
+    for (const body& part : fixed.bodies) {
+        json& one = entry["fixed"][part.file_number];
+        one["faces"] = part.file->stored_faces;
+        extend(boxes[part.file_number], part.box);
+        one["box"] = box_entry(boxes[part.file_number]);
+        non_finite += part.non_finite;
+    }
+    entry["skipped"]["non_finite"] = non_finite;
+}
+
+void enter_report(job& work, const body& moving, const outcome& found, const body_set& fixed,
+                  const place_settings& settings, const tf::transform<3>& matrix) {
+    json& entry = work.entry;
+    const tf::placement& p = found.at;
+    enter_skipped(entry, p, fixed);
+    entry["clearance"]["used"] = p.clearance;
+    if (p.bed)
+        entry["bed"] = {
+            {"given", settings.bed.value_or(0.0)}, {"used", *p.bed}, {"reached", p.on_bed}};
+    entry["placed"] = static_cast<bool>(p);
+    if (!p) entry["reason"] = found.reason;
+    entry["status_at_start"] = name_of(p.at_start);
+    entry["status"] = name_of(p.at_place);
+    entry["contacts"] = contacts_entry(moving, p, fixed);
+    entry["contact_count"] = p.contact_count;
+    if (p.nearest) enter_nearest(entry, moving, *p.nearest, fixed);
+    if (!p) {
+        entry["not_placed"].push_back(work.entry["input"]);
+        return;
+    }
+    entry["direction"] = p.travel > 0.0 ? triple(p.direction) : json(nullptr);
+    entry["travel"] = p.travel;
+    entry["backed_off"] = p.statistics.backed_off;
+    entry["matrix"] = rows_of(matrix);
+    if (found.laid) enter_lay(entry, found);
+    if (found.aligned) enter_fit(entry, *found.aligned);
+}
+
+}  // namespace tools
