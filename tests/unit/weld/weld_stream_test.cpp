@@ -125,6 +125,7 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
         CHECK_THROWS_AS(tf::weld_stream(folder.input(), {}, options), std::invalid_argument);
     }
     options.tolerance = 0.1;
+    CHECK_THROWS_AS(tf::weld_stream(folder.output(), {}, options), tf::io_error);
     fs::create_directory(folder.work());
     std::ofstream(folder.work() / "letter.txt") << "dear";
     try {

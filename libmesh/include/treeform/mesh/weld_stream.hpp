@@ -121,8 +121,8 @@ class TREEFORM_API weld_stream_error : public std::runtime_error {
     std::filesystem::path path_;
 };
 
-/// Welds the cloud at `input` (PLY without faces, PCD, XYZ, CSV) and writes what is asked for.
-/// Outputs appear whole or not at all.
+/// Welds the cloud in the file `input` (PLY without faces, PCD, XYZ, CSV), and writes what is asked
+/// for. Each output appears whole or not at all.
 ///
 /// \throws io_error when `input` cannot be read or an output not be written, weld_stream_error,
 ///         std::invalid_argument for a tolerance that is negative or not finite
