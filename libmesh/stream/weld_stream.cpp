@@ -139,6 +139,13 @@ weld_stream_result weld_stream(const fs::path& input, const weld_stream_outputs&
     return result;
 }
 
+weld_stream_result weld_stream(const fs::path& input, const fs::path& output,
+                               const weld_stream_options& options) {
+    weld_stream_outputs outputs;
+    outputs.welded = {output, {}};
+    return weld_stream(input, outputs, options);
+}
+
 std::uint64_t default_memory() {
     const auto pages = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) / 4 * 3;
