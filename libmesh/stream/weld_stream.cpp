@@ -1,5 +1,6 @@
 #include <libmesh/stream/tile_outputs.hpp>
 #include <libmesh/stream/tile_steps.hpp>
+#include <treeform/mesh/io_error.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tree/version.hpp>
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace treeform {
@@ -20,7 +22,10 @@ std::string identity_of(const fs::path& input, const weld_stream_options& o) {
     detail::stream::state_writer state;
     state.text(version_string());
     state.text(fs::absolute(input).string());
-    state.number(fs::file_size(input));
+    std::error_code error;
+    const std::uint64_t size = fs::file_size(input, error);
+    if (error) throw io_error(input.string() + ": cannot be read: " + error.message());
+    state.number(size);
     state.number(static_cast<std::uint64_t>(fs::last_write_time(input).time_since_epoch().count()));
     state.text(o.format);
     state.number(static_cast<std::uint64_t>(o.rule));
@@ -132,6 +137,13 @@ weld_stream_result weld_stream(const fs::path& input, const weld_stream_outputs&
     result.counts = work.counts();
     result.written = work.written();
     return result;
+}
+
+weld_stream_result weld_stream(const fs::path& input, const fs::path& output,
+                               const weld_stream_options& options) {
+    weld_stream_outputs outputs;
+    outputs.welded = {output, {}};
+    return weld_stream(input, outputs, options);
 }
 
 std::uint64_t default_memory() {

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -57,6 +58,11 @@ class stream_folder {
     std::vector<tf::point3> points_{};
 };
 
+std::string content_of(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
 constexpr tf::weld_rule rules[] = {tf::weld_rule::first, tf::weld_rule::chain};
 
 }  // namespace
@@ -81,6 +87,10 @@ TEST_CASE("weld_stream: files, map and counts are what weld gives") {
         CHECK(map == whole.groups.group_of_point);
         CHECK(tf::read_mesh(folder.output()).mesh.points == whole.points);
         CHECK_FALSE(fs::exists(folder.work()));
+        const std::string bytes = content_of(folder.output());
+        fs::remove(folder.output());
+        tf::weld_stream(folder.input(), folder.output(), folder.options(rule));
+        CHECK(content_of(folder.output()) == bytes);
     }
 }
 
@@ -89,7 +99,7 @@ TEST_CASE("weld_stream: a relative tolerance is a share of the diagonal") {
     tf::weld_stream_options options = folder.options(tf::weld_rule::first);
     options.tolerance = 0.05;
     options.relative = true;
-    const auto streamed = tf::weld_stream(folder.input(), {}, options);
+    const auto streamed = tf::weld_stream(folder.input(), tf::weld_stream_outputs{}, options);
     const double length = 0.05 * tf::diagonal(*tf::bounding_box(folder.points()));
     CHECK(streamed.survey.tolerance == length);
     CHECK(streamed.counts.kept == tf::weld(folder.points(), {.tolerance = length}).points.size());
@@ -122,13 +132,16 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
     tf::weld_stream_options options = folder.options(tf::weld_rule::first);
     for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
         options.tolerance = bad;
-        CHECK_THROWS_AS(tf::weld_stream(folder.input(), {}, options), std::invalid_argument);
+        CHECK_THROWS_AS(tf::weld_stream(folder.input(), tf::weld_stream_outputs{}, options),
+                        std::invalid_argument);
     }
     options.tolerance = 0.1;
+    CHECK_THROWS_AS(tf::weld_stream(folder.output(), tf::weld_stream_outputs{}, options),
+                    tf::io_error);
     fs::create_directory(folder.work());
     std::ofstream(folder.work() / "letter.txt") << "dear";
     try {
-        tf::weld_stream(folder.input(), {}, options);
+        tf::weld_stream(folder.input(), tf::weld_stream_outputs{}, options);
         FAIL("not refused");
     } catch (const tf::weld_stream_error& error) {
         CHECK(error.why() == tf::weld_stream_error::reason::folder_foreign);
@@ -137,7 +150,7 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
     fs::remove_all(folder.work());
     const tf::stream_weld holds(folder.input(), options);
     try {
-        tf::weld_stream(folder.input(), {}, options);
+        tf::weld_stream(folder.input(), tf::weld_stream_outputs{}, options);
         FAIL("not refused");
     } catch (const tf::weld_stream_error& error) {
         CHECK(error.why() == tf::weld_stream_error::reason::folder_in_use);

@@ -92,7 +92,7 @@ decltype(auto) with_type(scalar_type type, F&& f) {
 }
 
 /// What a column stands for. All but `data` hold no values of their own: they keep the type and
-/// the place among their neighbours of what lives in `mesh::points`, `mesh::faces` and, for
+/// the place among their neighbors of what lives in `mesh::points`, `mesh::faces` and, for
 /// `texture`, in `attributes::corners`.
 enum class column_role : std::uint8_t { data, x, y, z, corners, texture };
 
@@ -114,7 +114,7 @@ struct column {
     return c.values.size() / size_of(c.type);
 }
 
-/// Value number `i` as a double: exact, but for whole numbers beyond 2^53, which are rounded.
+/// Value number `i` as a double: exact, except for whole numbers beyond 2^53, which are rounded.
 [[nodiscard]] TREEFORM_API double number_at(const column& c, std::size_t i);
 
 /// A column with one value a row.
@@ -170,7 +170,7 @@ struct attributes {
     /// Of PLY, the lines `comment TextureFile NAME`: what the faces' property "texnumber" counts,
     /// from 0 on; without it, texture coordinates are those of the first.
     std::vector<std::string> texture_files{};
-    std::vector<std::string> comments{};  ///< of PLY, one line each, but for those
+    std::vector<std::string> comments{};  ///< of PLY, one line each, except for those
     std::vector<std::string> obj_info{};  ///< of PLY, one line each
     std::string header{};                 ///< the 80 bytes ahead of a binary STL
 

@@ -19,7 +19,7 @@ struct equal_points {
 ///
 /// Distinct points are numbered in the order of their first appearance. Infinities equal
 /// themselves; points with a NaN coordinate equal nothing, not even themselves. However close
-/// they are, points that differ in one bit (but that of -0) stay distinct.
+/// they are, points that differ in one bit (other than that of -0) stay distinct.
 ///
 /// \throws std::invalid_argument for more than 2^32 - 1 points
 /// \cost   O(V) expected time, also when all points are equal; about 12 bytes a point besides the

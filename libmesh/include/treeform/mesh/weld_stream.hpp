@@ -2,8 +2,7 @@
 /// \file
 /// Clouds larger than memory, welded from file to file.
 ///
-///     tf::weld_stream("scan.ply", {.welded = {{"thin.ply"}}}, {.tolerance = 0.5, .folder =
-///     "work"});
+///     tf::weld_stream("scan.ply", "thin.ply", {.tolerance = 0.5});
 ///
 /// The cloud is read three times: to look at it (its box, how many points, a sample that says where
 /// to cut), to give each tile its points, and to write what is kept. Tiles lie in a folder on the
@@ -121,8 +120,8 @@ class TREEFORM_API weld_stream_error : public std::runtime_error {
     std::filesystem::path path_;
 };
 
-/// Welds the cloud at `input` (PLY without faces, PCD, XYZ, CSV) and writes what is asked for.
-/// Outputs appear whole or not at all.
+/// Welds the cloud in the file `input` (PLY without faces, PCD, XYZ, CSV), and writes what is asked
+/// for. Each output appears whole or not at all.
 ///
 /// \throws io_error when `input` cannot be read or an output not be written, weld_stream_error,
 ///         std::invalid_argument for a tolerance that is negative or not finite
@@ -130,6 +129,11 @@ class TREEFORM_API weld_stream_error : public std::runtime_error {
 /// \same   on any number of threads, with any memory and any folder
 TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
                                             const weld_stream_outputs& outputs,
+                                            const weld_stream_options& options);
+
+/// The same where `output` is all that is asked for.
+TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
+                                            const std::filesystem::path& output,
                                             const weld_stream_options& options);
 
 /// The same step by step, for callers who have something to say or to decide in between: `look`,
