@@ -54,7 +54,7 @@ std::vector<scene_part> scene_parts(mesh_view mesh, std::span<const part> names,
                                     std::span<const std::uint32_t> number) {
     if (!number.empty() && number.size() != mesh.faces.size())
         throw std::invalid_argument("treeform::scene_parts: as many numbers as faces are needed");
-    detail::base::check_faces("treeform::scene_parts", mesh.points.size(), mesh.faces);
+    detail::base::check_faces("scene_parts", mesh.points.size(), mesh.faces);
     const name_table table(names);
     const std::vector<std::uint32_t> name = names_of_faces(mesh.faces.size(), names, number, table);
     detail::base::union_find sets(table.names.size());

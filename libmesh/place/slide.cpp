@@ -72,9 +72,13 @@ placement drop(mesh_view moving, const drop_options& options) {
     return drop(prepared_mesh::borrow(moving), options);
 }
 
+placement drop(const prepared_mesh& moving, const prepared_mesh& fixed,
+               const drop_options& options) {
+    return drop(moving, one(fixed), options);
+}
+
 placement drop(mesh_view moving, mesh_view fixed, const drop_options& options) {
-    const prepared_mesh on = prepared_mesh::borrow(fixed);
-    return drop(prepared_mesh::borrow(moving), one(on), options);
+    return drop(prepared_mesh::borrow(moving), prepared_mesh::borrow(fixed), options);
 }
 
 placement mate(const prepared_mesh& moving, many fixed, const mate_options& o) {
@@ -89,9 +93,13 @@ placement mate(const prepared_mesh& moving, many fixed, const mate_options& o) {
     return work.run([](placing& p) { p.mate(); });
 }
 
+placement mate(const prepared_mesh& moving, const prepared_mesh& fixed,
+               const mate_options& options) {
+    return mate(moving, one(fixed), options);
+}
+
 placement mate(mesh_view moving, mesh_view fixed, const mate_options& options) {
-    const prepared_mesh to = prepared_mesh::borrow(fixed);
-    return mate(prepared_mesh::borrow(moving), one(to), options);
+    return mate(prepared_mesh::borrow(moving), prepared_mesh::borrow(fixed), options);
 }
 
 placement separate(const prepared_mesh& moving, many fixed, const separate_options& o) {
@@ -108,9 +116,13 @@ placement separate(const prepared_mesh& moving, many fixed, const separate_optio
     return work.run([](placing& p) { p.separate(); });
 }
 
+placement separate(const prepared_mesh& moving, const prepared_mesh& fixed,
+                   const separate_options& options) {
+    return separate(moving, one(fixed), options);
+}
+
 placement separate(mesh_view moving, mesh_view fixed, const separate_options& options) {
-    const prepared_mesh from = prepared_mesh::borrow(fixed);
-    return separate(prepared_mesh::borrow(moving), one(from), options);
+    return separate(prepared_mesh::borrow(moving), prepared_mesh::borrow(fixed), options);
 }
 
 placement measure_among(const prepared_mesh& moving, many fixed, const measure_among_options& o) {

@@ -2,9 +2,22 @@
 #include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/rounding_effects.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace treeform {
+
+rounding_effects& rounding_effects::operator+=(const rounding_effects& other) {
+    max_displacement = std::max(max_displacement, other.max_displacement);
+    step = std::max(step, other.step);
+    noticeable = noticeable || other.noticeable;
+    compared = compared || other.compared;
+    collapsed += other.collapsed;
+    meeting += other.meeting;
+    if (status == treeform::status::ok) status = other.status;
+    return *this;
+}
+
 rounding_effects effects_of_rounding(const prepared_mesh& mesh, const transform<3>& by,
                                      points_view placed, const rounding_options& options) {
     const mesh_view moving = mesh.view();

@@ -47,6 +47,14 @@ class Usage(PlaceTest):
                         ["--bed", "low"], ["--clearance", "-1"], ["--max-travel", "x"]):
             self.refused("drop", "a.obj", "-o", "out.obj", *options)
 
+    def test_modes_have_the_names_of_the_library_too(self):
+        fixed = ("--fixed", "floor.obj")
+        for word, other, options in (("clear", "separate", fixed), ("fit", "align", fixed),
+                                     ("arrange", "pack", ("--size", "9,9"))):
+            self.run_tool(word, "a.obj", *options, "-o", "one.obj")
+            self.run_tool(other, "a.obj", *options, "-o", "two.obj")
+            self.assertEqual(self.points("one.obj"), self.points("two.obj"))
+
     def test_what_would_do_nothing_is_refused(self):
         fixed = ("--fixed", "floor.obj")
         self.assertIn("needs --fixed", self.refused("mate", "a.obj"))

@@ -11,7 +11,7 @@
 #include "tools/tf-place/settings.hpp"
 #include <treeform/tf.hpp>
 
-#include <algorithm>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,28 +44,7 @@ void add_modes(command_line& line) {
         {.names = "measure", .text = "move nothing; report distance, contact or\npenetration"});
 }
 
-void add_options(command_line& line, place_settings& s, common_options& options) {
-    line.group("Options");
-    line.repeatable_option(options.also_read,
-                           {"--fixed", "FILE",
-                            "what stays where it is (repeatable); its objects,\n"
-                            "groups or nodes are bodies, but for what has points\n"
-                            "in common"});
-    line.option({"--bed", "Z",
-                 "drop, lay, arrange: height of the bed; drop with\n"
-                 "--fixed has none unless this is given",
-                 "0"},
-                [&s](std::string_view text) { s.bed = tools::parse_number("--bed", text); });
-    line.option(
-        {"-d, --direction", "X,Y,Z", "slide, drop: direction of travel", "0,0,-1"},
-        [&s](std::string_view text) { s.direction = tools::parse_direction("--direction", text); });
-    line.option({"--clearance", "DIST", "gap to leave", "0"}, [&s](std::string_view text) {
-        s.clearance = tools::parse_distance("--clearance", text);
-    });
-    line.option({"--max-travel", "DIST", "give up beyond this travel (exit 1)"},
-                [&s](std::string_view text) {
-                    s.max_travel = tools::parse_distance("--max-travel", text);
-                });
+void add_lay_options(command_line& line, place_settings& s) {
     line.repeatable_flag(s.sides_chosen, {"--largest-face", "",
                                           "lay: on the largest side of the convex hull", "this"});
     line.option({"--face-normal", "X,Y,Z", "lay: on the side whose normal is nearest to this"},
@@ -90,6 +69,9 @@ void add_options(command_line& line, place_settings& s, common_options& options)
                     s.flatness_given = true;
                 });
     line.flag(s.lay.keep_spin, {"--keep-spin", "", "lay: keep the turn about the vertical"});
+}
+
+void add_arrange_and_fit_options(command_line& line, place_settings& s) {
     line.option({"--size", "X,Y[,Z]", "arrange: bed or box size"}, [&s](std::string_view text) {
         s.arrange.size = tools::parse_size3(text);
         s.size_given = s.arrange_options_given = true;
@@ -125,6 +107,32 @@ void add_options(command_line& line, place_settings& s, common_options& options)
                     s.fit_options_given = true;
                 });
     line.flag(s.fit.scale, {"--scale", "", "fit: allow uniform scale"});
+}
+
+void add_options(command_line& line, place_settings& s, common_options& options) {
+    line.group("Options");
+    line.repeatable_option(options.also_read,
+                           {"--fixed", "FILE",
+                            "what stays where it is (repeatable); its objects,\n"
+                            "groups or nodes are bodies, but for what has points\n"
+                            "in common"});
+    line.option({"--bed", "Z",
+                 "drop, lay, arrange: height of the bed; drop with\n"
+                 "--fixed has none unless this is given",
+                 "0"},
+                [&s](std::string_view text) { s.bed = tools::parse_number("--bed", text); });
+    line.option(
+        {"-d, --direction", "X,Y,Z", "slide, drop: direction of travel", "0,0,-1"},
+        [&s](std::string_view text) { s.direction = tools::parse_direction("--direction", text); });
+    line.option({"--clearance", "DIST", "gap to leave", "0"}, [&s](std::string_view text) {
+        s.clearance = tools::parse_distance("--clearance", text);
+    });
+    line.option({"--max-travel", "DIST", "give up beyond this travel (exit 1)"},
+                [&s](std::string_view text) {
+                    s.max_travel = tools::parse_distance("--max-travel", text);
+                });
+    add_lay_options(line, s);
+    add_arrange_and_fit_options(line, s);
     line.option({"--start", "FILE", "4x4 matrix applied to MOVING first"},
                 [&s](std::string_view text) { s.start = text; });
 }
@@ -171,67 +179,48 @@ const char* const epilogue =
     "  the start, not all fit, not converged); 2 usage; 3 input; 4 output;\n"
     "  5 stopped (memory, timeout, signal); 70 bug. Of several inputs, the highest.\n";
 
-[[noreturn]] void refuse(const std::string& text) {
-    throw tools::failure(tools::bad_usage, "usage", text);
-}
-
-void check_lay(const place_settings& s) {
-    if (s.mode != place_mode::lay) {
-        if (s.sides_chosen > 0 || s.lay.keep_spin || s.flatness_given)
-            refuse(
-                "--largest-face, --face-normal, --face-point, --tolerance and --keep-spin are for "
-                "lay");
-        return;
-    }
-    if (s.sides_chosen > 1)
-        refuse("--largest-face, --face-normal and --face-point exclude each other");
-    if (!s.fixed.empty()) refuse("--fixed: lay puts MOVING on the bed alone");
-    if (s.clearance.value > 0.0) refuse("--clearance: lay puts MOVING on the bed");
-    if (s.max_travel) refuse("--max-travel: lay goes to the bed");
-}
-
-void check_arrange_and_fit(const place_settings& s) {
-    const bool arranges = s.mode == place_mode::arrange;
-    const bool fits = s.mode == place_mode::fit;
-    if (!arranges && s.arrange_options_given)
-        refuse("--size, --spacing, --rotate and --seed are for arrange");
-    if (!fits && (s.fit_options_given || s.fit.scale))
-        refuse("--max-distance, --overlap and --scale are for fit");
-    if (arranges && !s.size_given) refuse("arrange needs --size");
-    if (arranges && !s.fixed.empty()) refuse("--fixed: arrange puts MOVING on an empty plate");
-    if (fits && s.fixed.size() > 1) refuse("fit: one --fixed only");
-    if ((arranges || fits) && (s.clearance.value > 0.0 || s.max_travel))
-        refuse("--clearance and --max-travel are not for " + s.mode_text);
-}
-
 /// Options that would do nothing are refused rather than passed over.
 void check_settings(const command_line& line, place_settings& s, common_options& o) {
     s.mode = tools::parse_mode(s.mode_text);
     s.fixed = o.also_read;
     if (!s.start.empty()) o.also_read.push_back(s.start.string());
-    const std::string mode = s.mode_text;
-    check_lay(s);
-    check_arrange_and_fit(s);
-    const bool arranges = s.mode == place_mode::arrange;
-    const bool on_bed = s.mode == place_mode::drop || s.mode == place_mode::lay || arranges;
-    if (s.fixed.empty() && !on_bed) refuse(mode + " needs --fixed");
-    if (s.bed && !on_bed) refuse("--bed: only drop, lay and arrange have one");
-    if (s.direction && !s.moves_along_direction())
-        refuse("--direction: " + mode + " finds its own");
-    if (s.has_bed() && s.direction && !(s.direction->z < 0.0))
-        refuse("--direction: does not lead down to the bed");
-    if (s.max_travel && s.mode == place_mode::measure)
-        refuse("--max-travel: measure moves nothing");
-    if (s.mode == place_mode::measure && !s.matrix.empty())
-        refuse("--matrix: measure moves nothing");
-    const bool mesh = tools::wants_mesh(o);
-    if (s.mode == place_mode::measure && o.in_place) refuse("--in-place: measure moves nothing");
-    if (s.scene && (!mesh || o.in_place)) refuse("--scene needs -o or --output-dir");
-    if (!mesh && (o.ascii || o.binary || o.precision != "keep" || !o.output_format.empty()))
-        refuse(
-            "--output-format, --ascii, --binary and --precision need -o, --output-dir or "
-            "--in-place");
-    if (s.mode != place_mode::measure) tools::require_output(line, o);
+    const std::string& mode = s.mode_text;
+    const bool lays = s.mode == place_mode::lay, arranges = s.mode == place_mode::arrange;
+    const bool fits = s.mode == place_mode::fit, measures = s.mode == place_mode::measure;
+    const bool on_bed = s.mode == place_mode::drop || lays || arranges;
+    const bool clearance = s.clearance.value > 0.0, mesh = tools::wants_mesh(o);
+    const bool form = o.ascii || o.binary || o.precision != "keep" || !o.output_format.empty();
+    const std::initializer_list<std::pair<bool, std::string>> refused{
+        {!lays && (s.sides_chosen > 0 || s.lay.keep_spin || s.flatness_given),
+         "--largest-face, --face-normal, --face-point, --tolerance and --keep-spin are for lay"},
+        {lays && s.sides_chosen > 1,
+         "--largest-face, --face-normal and --face-point exclude each other"},
+        {lays && !s.fixed.empty(), "--fixed: lay puts MOVING on the bed alone"},
+        {lays && clearance, "--clearance: lay puts MOVING on the bed"},
+        {lays && s.max_travel, "--max-travel: lay goes to the bed"},
+        {!arranges && s.arrange_options_given,
+         "--size, --spacing, --rotate and --seed are for arrange"},
+        {!fits && (s.fit_options_given || s.fit.scale),
+         "--max-distance, --overlap and --scale are for fit"},
+        {arranges && !s.size_given, "arrange needs --size"},
+        {arranges && !s.fixed.empty(), "--fixed: arrange puts MOVING on an empty plate"},
+        {fits && s.fixed.size() > 1, "fit: one --fixed only"},
+        {(arranges || fits) && (clearance || s.max_travel),
+         "--clearance and --max-travel are not for " + mode},
+        {s.fixed.empty() && !on_bed, mode + " needs --fixed"},
+        {s.bed && !on_bed, "--bed: only drop, lay and arrange have one"},
+        {s.direction && !s.moves_along_direction(), "--direction: " + mode + " finds its own"},
+        {s.has_bed() && s.direction && !(s.direction->z < 0.0),
+         "--direction: does not lead down to the bed"},
+        {measures && s.max_travel, "--max-travel: measure moves nothing"},
+        {measures && !s.matrix.empty(), "--matrix: measure moves nothing"},
+        {measures && o.in_place, "--in-place: measure moves nothing"},
+        {s.scene && (!mesh || o.in_place), "--scene needs -o or --output-dir"},
+        {!mesh && form,
+         "--output-format, --ascii, --binary and --precision need -o, --output-dir or --in-place"}};
+    for (const auto& [broken, text] : refused)
+        if (broken) throw tools::failure(tools::bad_usage, "usage", text);
+    if (!measures) tools::require_output(line, o);
 }
 
 exit_status look_at(tools::job& work, const place_settings& s, tools::body_set& fixed) {

@@ -1,12 +1,12 @@
 #include "tools/tf-place/outputs.hpp"
 
-#include "tools/common/class_colors.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/folds.hpp"
 #include "tools/common/output_file.hpp"
 #include "tools/common/scene_file.hpp"
 #include "tools/common/written_form.hpp"
 #include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/contact_colors.hpp>
 #include <treeform/mesh/io_error.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
@@ -17,71 +17,25 @@
 namespace tools {
 namespace {
 
-/// By triangle of a file, of a cloud by point: a `tf::contact_class`.
-using classes = std::vector<std::uint8_t>;
-
-/// Gray, red, yellow, cyan.
-constexpr std::array<const char*, 4> class_colors{"#b4bac2", "#e02020", "#ecd000", "#00a0c0"};
-
-/// Enters the classes of the faces of `b` in those of its file; the gravest stays.
-void enter_classes(classes& of_file, const body& b, const std::vector<tf::contact_class>& faces) {
-    of_file.resize(b.cloud ? b.file->mesh.points.size() : b.file->mesh.faces.size());
-    for (std::uint32_t f = 0; f < faces.size(); ++f)
-        of_file[b.is.triangle(f)] = static_cast<std::uint8_t>(faces[f]);
-}
-
-/// The gravest class of the triangles of each face as stored.
-classes by_stored_face(const tf::mesh_file& file, const classes& triangles) {
-    if (file.stored_face.empty()) return triangles;
-    classes stored(file.stored_faces);
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        std::uint8_t& present = stored[file.stored_face[t]];
-        if (triangles[t] != 0 && (present == 0 || triangles[t] < present)) present = triangles[t];
-    }
-    return stored;
-}
-
-/// Gives the rows of an element, "face" or "vertex", the property tf_class, and the colors of their
-/// classes unless `keep_colors` and the file has some.
-void set_classes(tf::mesh_file& file, const char* element, const classes& all, bool keep_colors) {
-    const auto& elements = file.attributes.elements;
-    const bool colored = std::any_of(elements.begin(), elements.end(), [](const tf::element& e) {
-        return tf::find_column(e, "red") != nullptr;
-    });
-    tf::element& rows = tf::obtain_element(file.attributes, element, all.size());
-    if (!colored || !keep_colors) set_colors(rows, all, class_colors);
-    const std::vector<std::int32_t> numbers(all.begin(), all.end());
-    tf::set_column(rows, tf::make_column<std::int32_t>("tf_class", numbers));
+/// Adds the classes of the faces of `b`, whose file's rows follow those in `all` before `first`.
+void add_classes(std::vector<tf::contact_class>& all, std::size_t first, const body& b,
+                 const std::vector<tf::contact_class>& faces) {
+    all.resize(first + (b.cloud ? b.file->mesh.points.size() : b.file->mesh.faces.size()));
+    for (std::uint32_t f = 0; f < faces.size(); ++f) all[first + b.is.triangle(f)] = faces[f];
 }
 
 /// Of a scene, the classes of all files follow each other as its faces do; clouds have none there.
-void color_scene(tf::mesh_file& file, const body& moving, const body_set& fixed,
-                 const tf::contact_classes& found) {
-    classes all;
-    if (!moving.cloud) enter_classes(all, moving, found.moving);
-    classes of_file;
-    for (std::size_t i = 0; i < fixed.bodies.size(); ++i) {
+std::vector<tf::contact_class> classes_of(const body& moving, const body_set& fixed,
+                                          const tf::contact_classes& found, bool scene) {
+    std::vector<tf::contact_class> all;
+    if (!scene || !moving.cloud) add_classes(all, 0, moving, found.moving);
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < fixed.bodies.size() && scene; ++i) {
         const body& b = fixed.bodies[i];
-        enter_classes(of_file, b, found.fixed[i]);
-        const bool last =
-            i + 1 == fixed.bodies.size() || fixed.bodies[i + 1].file_number != b.file_number;
-        if (!last) continue;
-        if (!b.cloud) all.insert(all.end(), of_file.begin(), of_file.end());
-        of_file.clear();
+        if (i == 0 || fixed.bodies[i - 1].file_number != b.file_number) first = all.size();
+        if (!b.cloud) add_classes(all, first, b, found.fixed[i]);
     }
-    set_classes(file, "face", all, false);
-}
-
-/// What `measure` writes is a picture: every triangle has its own color. What has been moved stays
-/// what it is, with its polygons, and its colors where it has some.
-void color_moving(tf::mesh_file& file, const body& moving, const tf::contact_classes& found,
-                  bool picture) {
-    classes all;
-    enter_classes(all, moving, found.moving);
-    if (moving.cloud) return set_classes(file, "vertex", all, !picture);
-    if (!picture) return set_classes(file, "face", by_stored_face(file, all), true);
-    tf::split_polygons(file);
-    set_classes(file, "face", all, false);
+    return all;
 }
 
 /// Writes `file` and says so in the report.
@@ -150,14 +104,7 @@ tf::rounding_effects look_at_rounding(job& work, const body_set& moving, std::si
 
 void enter_rounding(job& work, std::span<const tf::rounding_effects> all, tf::precision precision) {
     tf::rounding_effects sum;
-    for (const tf::rounding_effects& one : all) {
-        sum.max_displacement = std::max(sum.max_displacement, one.max_displacement);
-        sum.step = std::max(sum.step, one.step);
-        sum.noticeable = sum.noticeable || one.noticeable;
-        sum.compared = sum.compared || one.compared;
-        sum.collapsed += one.collapsed;
-        sum.meeting += one.meeting;
-    }
+    for (const tf::rounding_effects& one : all) sum += one;
     const bool single = precision == tf::precision::float32;
     work.entry["rounding"] = {
         {"max_move", sum.max_displacement},
@@ -199,17 +146,16 @@ void write_result(job& work, body_set& moving, const outcome& found, const body_
     tf::contact_classes met;
     if (colors) met = tf::classify_contacts(moving.shapes[0], fixed.shapes, p);
     put_back(moving, 0, p.points, p.matrix, all_moves, found.precision);
-    if (!settings.scene) {
-        tf::mesh_file file = *one.file;
-        if (colors) color_moving(file, one, met, picture);
-        return write_file(work, file, *path, form, found.precision, false);
-    }
     std::vector<scene_input> all{{one.path, one.file.get()}};
     for (const body& part : fixed.bodies)
         if (part.file.get() != all.back().file) all.push_back({part.path, part.file.get()});
-    tf::mesh_file file = scene_of(work, all, form.format);
-    if (colors) color_scene(file, one, fixed, met);
-    write_file(work, file, *path, form, found.precision, true);
+    tf::mesh_file file = settings.scene ? scene_of(work, all, form.format) : *one.file;
+    // What has been moved stays what it is, with its polygons, and its colors where it has some.
+    const bool as_it_is = !picture && !settings.scene;
+    if (colors)
+        tf::color_contacts(file, classes_of(one, fixed, met, settings.scene),
+                           {.split_polygons = picture && !settings.scene, .keep_colors = as_it_is});
+    write_file(work, file, *path, form, found.precision, settings.scene);
 }
 
 void write_plate(job& work, const body_set& parts, const std::vector<bool>& placed,

@@ -1,4 +1,6 @@
+#include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/bodies.hpp>
+#include <treeform/mesh/contact_colors.hpp>
 #include <treeform/mesh/rounding_effects.hpp>
 #include <treeform/mesh/select_faces.hpp>
 #include <treeform/tf.hpp>
@@ -10,6 +12,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -90,6 +94,30 @@ TEST_CASE("bodies: points go back to where they are in the file, others move alo
     CHECK(tf::round_to_float32(file) == 0.0);
     file.mesh.points.back().x = 0.1;
     CHECK(tf::round_to_float32(file) == double{0.1F} - 0.1);
+}
+
+TEST_CASE("contact colors: a stored face has the gravest class of its triangles") {
+    using tf::contact_class;
+    tf::mesh_file file = file_of(box(1, 1, 1));
+    file.stored_face = {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5};
+    file.stored_faces = 6;
+    std::vector<contact_class> classes(12);
+    classes[2] = contact_class::near;
+    classes[3] = contact_class::touching;
+    classes[4] = contact_class::penetrating;
+    tf::mesh_file picture = file;
+    const auto numbers = [](const tf::mesh_file& from) {
+        std::vector<double> found;
+        const tf::element* const rows = tf::find_element(from.attributes, "face");
+        for (std::size_t i = 0; i < rows->rows; ++i)
+            found.push_back(tf::number_at(*tf::find_column(*rows, "tf_class"), i));
+        return found;
+    };
+    tf::color_contacts(file, classes);
+    CHECK(numbers(file) == std::vector<double>{0, 2, 1, 0, 0, 0});
+    tf::color_contacts(picture, classes, {.split_polygons = true});
+    CHECK(numbers(picture) == std::vector<double>{0, 0, 3, 2, 1, 0, 0, 0, 0, 0, 0, 0});
+    CHECK_THROWS_AS(tf::color_contacts(file, {}), std::invalid_argument);
 }
 
 TEST_CASE("rounding effects: far away float32 folds what it has not folded before") {

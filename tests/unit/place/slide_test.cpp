@@ -235,6 +235,17 @@ TEST_CASE("slide and drop: what cannot be meant is refused, and named") {
     CHECK(out.points == huge.points);
 }
 
+TEST_CASE("slide: clouds move, and stand still") {
+    const std::vector<tf::point3> points{{0.25, 0.5, 4}, {0.5, 0.25, 5}};
+    const prepared_mesh cloud = prepared_mesh::borrow_cloud(points);
+    const prepared_mesh floor(box(1, 1, 1));
+    const auto down_to_floor = tf::slide(cloud, floor, down);
+    CHECK(down_to_floor.points == std::vector<tf::point3>{{0.25, 0.5, 1}, {0.5, 0.25, 2}});
+    CHECK(down_to_floor.contacts[0].moving == 0);
+    const auto up_to_cloud = tf::slide(floor, cloud, {0, 0, 1});
+    CHECK(up_to_cloud.points == moved(box(1, 1, 1), {0, 0, 3}).points);
+}
+
 TEST_CASE("contacts are classified as the faces lie at the place") {
     const prepared_mesh floor(box(4, 4, 1));
     const auto classes_at = [&](double z, double clearance) {

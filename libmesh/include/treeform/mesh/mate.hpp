@@ -33,6 +33,8 @@ struct mate_options {
 [[nodiscard]] TREEFORM_API placement mate(const prepared_mesh& moving,
                                           std::span<const prepared_mesh> fixed,
                                           const mate_options& options = {});
+[[nodiscard]] TREEFORM_API placement mate(const prepared_mesh& moving, const prepared_mesh& fixed,
+                                          const mate_options& options = {});
 [[nodiscard]] TREEFORM_API placement mate(mesh_view moving, mesh_view fixed,
                                           const mate_options& options = {});
 

@@ -28,6 +28,9 @@ struct rounding_effects {
     std::uint64_t collapsed = 0;  ///< faces that have no area any more
     std::uint64_t meeting = 0;    ///< pairs of faces that meet, and did not
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
+
+    /// Of both together.
+    TREEFORM_API rounding_effects& operator+=(const rounding_effects& other);
 };
 
 /// Compares `placed` with the points of `moving` moved by `by`, and its faces there with those

@@ -42,6 +42,9 @@ struct separate_options {
 [[nodiscard]] TREEFORM_API placement separate(const prepared_mesh& moving,
                                               std::span<const prepared_mesh> fixed,
                                               const separate_options& options = {});
+[[nodiscard]] TREEFORM_API placement separate(const prepared_mesh& moving,
+                                              const prepared_mesh& fixed,
+                                              const separate_options& options = {});
 [[nodiscard]] TREEFORM_API placement separate(mesh_view moving, mesh_view fixed,
                                               const separate_options& options = {});
 

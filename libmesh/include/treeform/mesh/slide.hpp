@@ -43,8 +43,8 @@ struct slide_options {
 /// \throws std::invalid_argument for a direction that is zero or not finite, a clearance that is
 ///         negative or not finite, a bed that is not finite or that no float32 holds, and naming
 ///         the operand and its lowest face with a corner that is no point or not finite
-/// \cost   that of the search in motion, and of a `face_tree` of `moving` and a `relation` to what
-///         is near for each attempt at coordinates
+/// \cost   O(V + F) of all for the check at the door; that of the search in motion; and for each
+///         attempt at coordinates a `face_tree` of `moving` and a `relation` to what is near
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API placement slide(const prepared_mesh& moving,
                                            std::span<const prepared_mesh> fixed,
@@ -83,6 +83,8 @@ struct drop_options {
 /// reaches below the bed has no place.
 [[nodiscard]] TREEFORM_API placement drop(const prepared_mesh& moving,
                                           std::span<const prepared_mesh> fixed,
+                                          const drop_options& options = {});
+[[nodiscard]] TREEFORM_API placement drop(const prepared_mesh& moving, const prepared_mesh& fixed,
                                           const drop_options& options = {});
 [[nodiscard]] TREEFORM_API placement drop(mesh_view moving, mesh_view fixed,
                                           const drop_options& options = {});

@@ -1,0 +1,61 @@
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/contact_colors.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace treeform {
+namespace {
+
+using row_classes = std::vector<std::uint8_t>;
+
+/// Of none, penetrating, touching, near: gray, red, yellow, cyan.
+constexpr std::array<std::array<std::uint8_t, 4>, 3> channels{
+    {{0xb4, 0xe0, 0xec, 0x00}, {0xba, 0x20, 0xd0, 0xa0}, {0xc2, 0x20, 0x00, 0xc0}}};
+
+/// The gravest class of the triangles of each face as stored.
+row_classes by_stored_face(const mesh_file& file, const row_classes& triangles) {
+    if (file.stored_face.empty()) return triangles;
+    row_classes stored(file.stored_faces);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        std::uint8_t& present = stored[file.stored_face[t]];
+        if (triangles[t] != 0 && (present == 0 || triangles[t] < present)) present = triangles[t];
+    }
+    return stored;
+}
+
+bool has_colors(const mesh_file& file) {
+    const auto& elements = file.attributes.elements;
+    return std::any_of(elements.begin(), elements.end(),
+                       [](const element& e) { return find_column(e, "red") != nullptr; });
+}
+
+}  // namespace
+
+void color_contacts(mesh_file& file, std::span<const contact_class> classes,
+                    const contact_color_options& options) {
+    const bool cloud = file.mesh.faces.empty() && !classes.empty();
+    if (classes.size() != (cloud ? file.mesh.points.size() : file.mesh.faces.size()))
+        throw std::invalid_argument(
+            "treeform::color_contacts: a class for each triangle is needed");
+    if (options.split_polygons && !cloud) split_polygons(file);
+    row_classes of_row;
+    for (const contact_class c : classes) of_row.push_back(static_cast<std::uint8_t>(c));
+    if (!cloud) of_row = by_stored_face(file, of_row);
+    const bool colors = !(options.keep_colors && has_colors(file));
+    element& rows = obtain_element(file.attributes, cloud ? "vertex" : "face", of_row.size());
+    constexpr std::array<const char*, 3> names{"red", "green", "blue"};
+    for (std::size_t k = 0; k < 3 && colors; ++k) {
+        row_classes values;
+        for (const std::uint8_t c : of_row) values.push_back(channels[k][c]);
+        set_column(rows, make_column<std::uint8_t>(names[k], values));
+    }
+    const std::vector<std::int32_t> numbers(of_row.begin(), of_row.end());
+    set_column(rows, make_column<std::int32_t>("tf_class", numbers));
+}
+
+}  // namespace treeform
