@@ -34,12 +34,12 @@ void add_modes(command_line& line) {
                   .text = "translate along --direction until contact (less\n--clearance)"});
     line.mention(
         {.names = "mate", .text = "bring the closest points of MOVING and --fixed\ntogether"});
-    line.mention({.names = "clear",
+    line.mention({.names = "clear, separate",
                   .text = "out of --fixed, or away from it to --clearance: a\n"
                           "short translation, the shortest of many tried"});
-    line.mention(
-        {.names = "arrange", .text = "put all MOVING on the bed or in a box without overlap"});
-    line.mention({.names = "fit", .text = "align by ICP from the present position"});
+    line.mention({.names = "arrange, pack",
+                  .text = "put all MOVING on the bed or in a box without overlap"});
+    line.mention({.names = "fit, align", .text = "align by ICP from the present position"});
     line.mention(
         {.names = "measure", .text = "move nothing; report distance, contact or\npenetration"});
 }
@@ -111,11 +111,10 @@ void add_arrange_and_fit_options(command_line& line, place_settings& s) {
 
 void add_options(command_line& line, place_settings& s, common_options& options) {
     line.group("Options");
-    line.repeatable_option(options.also_read,
-                           {"--fixed", "FILE",
-                            "what stays where it is (repeatable); its objects,\n"
-                            "groups or nodes are bodies, but for what has points\n"
-                            "in common"});
+    line.repeatable_option(options.also_read, {"--fixed", "FILE",
+                                               "what stays where it is (repeatable); its objects,\n"
+                                               "groups or nodes are bodies, except for what has\n"
+                                               "points in common"});
     line.option({"--bed", "Z",
                  "drop, lay, arrange: height of the bed; drop with\n"
                  "--fixed has none unless this is given",
@@ -143,7 +142,7 @@ void add_what_to_give_back(command_line& line, place_settings& s, common_options
                                  "MOVING at its new place; of measure, where it is;\n"
                                  "PLY, GLB: faces that penetrate --fixed are red,\n"
                                  "touching yellow, closer than --clearance or\n"
-                                 "stopped at it cyan (if they had no colours)"});
+                                 "stopped at it cyan (if they had no colors)"});
     line.flag(s.scene, {"--scene", "",
                         "-o and --output-dir: the fixed meshes too, with\n"
                         "the names of their parts"});
@@ -159,12 +158,12 @@ const char* const epilogue =
     "back by units in their last place where rounding made it penetrate. A clearance\n"
     "holds for distances as computed, to their rounding error.\n"
     "\n"
-    "What penetrates at the start is not moved, but by clear; what touches stays.\n"
+    "What penetrates at the start is moved by clear alone; what touches stays.\n"
     "Only closed meshes have an inside. Resting on the bed, the lowest points have\n"
     "exactly its height (a float32 that is not below it, where these are written).\n"
     "Where coordinates are coarser at the place than they were, faces are looked at\n"
     "again; a warning, and \"rounding\" in the report, say what moved and what folds.\n"
-    "With several MOVING each is placed on its own, but by arrange; then -o is the\n"
+    "Several MOVING are placed each on its own; by arrange, together: then -o is the\n"
     "plate, and --matrix has 4 lines for each. Face numbers are those of the\n"
     "files, from 0; of a cloud of points they are those of its points. Clouds bound\n"
     "nothing: they penetrate where a point is inside a closed mesh.\n"
