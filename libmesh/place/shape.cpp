@@ -3,7 +3,7 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/place/shape.hpp>
-#include <treeform/mesh/equal_points.hpp>
+#include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/point_location.hpp>
 
 #include <algorithm>
@@ -15,30 +15,17 @@
 
 namespace treeform::detail::place {
 
-const std::vector<face>& joined_corners(const prepared_mesh& mesh) {
-    constexpr base::slot<std::vector<face>> slot{base::slot_name::joined_corners};
-    return base::prepared_slots::get(mesh, slot, [&] {
-        const mesh_view given = mesh.view();
-        std::vector<face> faces(given.faces.begin(), given.faces.end());
-        if (mesh.is_cloud()) return faces;
-        const equal_points equal = find_equal_points(given.points);
-        if (equal.first_of_new.size() == given.points.size()) return faces;
-        for (face& f : faces)
-            for (std::uint32_t& corner : f) corner = equal.first_of_new[equal.new_of_old[corner]];
-        return faces;
-    });
-}
-
 mesh_view shape::joined() const {
-    if (vertices_ == vertex_identity::by_index) return mesh();
-    return {points_, joined_corners(*whose_)};
+    // A cloud bounds nothing, joined or not.
+    if (vertices_ == vertex_identity::by_index || whose_->is_cloud()) return mesh();
+    return weld::join_faces(*whose_).of(mesh());
 }
 
 bool shape::closed() const {
     if (vertices_ == vertex_identity::by_index) return !find_open_edge(mesh());
     constexpr base::slot<bool> slot{base::slot_name::open_edge};
     return base::prepared_slots::get(*whose_, slot, [&] {
-        return !find_open_edge({whose_->view().points, joined_corners(*whose_)});
+        return !find_open_edge(weld::join_faces(*whose_).of(whose_->view()));
     });
 }
 

@@ -15,10 +15,6 @@
 
 namespace treeform::detail::place {
 
-/// The faces of `mesh` with each corner that of the lowest number at its coordinates. Kept there.
-/// Those of a cloud are as they are: they bound nothing, joined or not.
-[[nodiscard]] const std::vector<face>& joined_corners(const prepared_mesh& mesh);
-
 /// A handle: a mesh where it is, or the same mesh with its points elsewhere. What depends on how
 /// its faces hang together is found once, of the mesh where it is.
 class shape {
