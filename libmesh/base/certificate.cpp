@@ -30,7 +30,7 @@ std::string open_message(const certificate& c) {
 std::string certificate::message() const {
     switch (status) {
         case treeform::status::ok:
-            return "closed, oriented and free of self-intersections";
+            return "checked: all that was promised holds in the coordinates returned";
         case treeform::status::open_input:
             return open_message(*this);
         case treeform::status::sheet:
@@ -44,7 +44,9 @@ std::string certificate::message() const {
                            "pairs of faces still meet") +
                    " in the coordinates of the result";
         case treeform::status::vanished:
-            return "the result is thinner than its coordinates can tell apart";
+            return "nothing is left: the result is thinner than its coordinates can tell apart, or "
+                   "its "
+                   "faces cancel each other out";
         case treeform::status::out_of_range:
             return "coordinates of the result are beyond the range of the numbers asked for";
         case treeform::status::no_place:
