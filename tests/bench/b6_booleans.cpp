@@ -75,7 +75,7 @@ std::vector<figure> figures_of(const mesh& a, const mesh& b, const boolean_resul
                                    m.faces.size() * sizeof(face));
     };
     return {{"faces", static_cast<double>(r.mesh.faces.size())},
-            {"pairs", static_cast<double>(r.pairs)},
+            {"pairs", static_cast<double>(r.statistics.pairs)},
             {"MB in and out", (bytes(a) + bytes(b) + bytes(r.mesh)) / 1e6}};
 }
 
