@@ -31,12 +31,12 @@ void check_tree(const char* function, const char* which, mesh_view mesh, const t
 
 void check_faces_met(const char* function, const detail::intersect::bad_faces& bad) {
     const auto refuse = [&](const char* which, std::uint32_t face) {
-        throw std::invalid_argument(std::string(function) + ": face " + std::to_string(face) +
-                                    " of the " + which +
-                                    " mesh has a corner out of range or not finite");
+        throw std::invalid_argument(std::string(function) + ": " + which + ": face " +
+                                    std::to_string(face) +
+                                    " has a corner out of range or not finite");
     };
-    if (bad.in_a != detail::intersect::bad_faces::none) refuse("first", bad.in_a);
-    if (bad.in_b != detail::intersect::bad_faces::none) refuse("second", bad.in_b);
+    if (bad.in_a != detail::intersect::bad_faces::none) refuse("a", bad.in_a);
+    if (bad.in_b != detail::intersect::bad_faces::none) refuse("b", bad.in_b);
 }
 
 void add(const detail::intersect::bad_faces& more, detail::intersect::bad_faces& bad) {
@@ -97,8 +97,8 @@ mesh_intersection_result detail::intersect::mesh_intersections(
 
 mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepared_mesh& b,
                                             const mesh_intersection_options& options) {
-    const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: the first mesh");
-    const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: the second mesh");
+    const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: a");
+    const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: b");
     const pair_search<3> search(transformed(tree_a, options.move_a),
                                 transformed(tree_b, options.move_b), turned_boxes::both_ways);
     const detail::intersect::block_pair_input input{
@@ -110,9 +110,9 @@ mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepar
 
 mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
                                             const mesh_intersection_options& options) {
-    return detail::intersect::mesh_intersections(
-        a, build_face_tree(a, "mesh_intersections: the first mesh"), b,
-        build_face_tree(b, "mesh_intersections: the second mesh"), options);
+    return detail::intersect::mesh_intersections(a, build_face_tree(a, "mesh_intersections: a"), b,
+                                                 build_face_tree(b, "mesh_intersections: b"),
+                                                 options);
 }
 
 bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
@@ -140,26 +140,25 @@ bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view
 }
 
 bool intersects(const prepared_mesh& a, const prepared_mesh& b, const mesh_positions& positions) {
-    return detail::intersect::intersects(
-        a.view(), build_face_tree(a, "intersects: the first mesh"), b.view(),
-        build_face_tree(b, "intersects: the second mesh"), positions);
+    return detail::intersect::intersects(a.view(), build_face_tree(a, "intersects: a"), b.view(),
+                                         build_face_tree(b, "intersects: b"), positions);
 }
 
 bool intersects(mesh_view a, mesh_view b, const mesh_positions& positions) {
-    constexpr const char* first = "intersects: the first mesh";
-    constexpr const char* second = "intersects: the second mesh";
+    constexpr const char* name_a = "intersects: a";
+    constexpr const char* name_b = "intersects: b";
     if (positions.move_a != transform<3>{} || positions.move_b != transform<3>{})
-        return detail::intersect::intersects(a, build_face_tree(a, first), b,
-                                             build_face_tree(b, second), positions);
-    detail::base::check_faces(first, a.points.size(), a.faces);
-    detail::base::check_faces(second, b.points.size(), b.faces);
+        return detail::intersect::intersects(a, build_face_tree(a, name_a), b,
+                                             build_face_tree(b, name_b), positions);
+    detail::base::check_faces(name_a, a.points.size(), a.faces);
+    detail::base::check_faces(name_b, b.points.size(), b.faces);
     try {
         const auto [tree_a, tree_b] = build_overlap(a.faces, detail::base::face_boxes(a.points),
                                                     b.faces, detail::base::face_boxes(b.points));
         return detail::intersect::intersects(a, tree_a.boxes, b, tree_b.boxes);
     } catch (const std::invalid_argument&) {  // a box, and so a face, that is not finite
-        detail::base::check_finite_faces(first, a);
-        detail::base::check_finite_faces(second, b);
+        detail::base::check_finite_faces(name_a, a);
+        detail::base::check_finite_faces(name_b, b);
         throw;
     }
 }

@@ -83,11 +83,11 @@ TEST_CASE("prepared queries: errors name the verb, the mesh and its face or poin
     tf::mesh wild = good;
     wild.faces[4][2] = 99;
     CHECK_THROWS_WITH_AS((void)tf::intersects(good, bad),
-                         "treeform::intersects: the second mesh: face 0 has a corner that is not "
+                         "treeform::intersects: b: face 0 has a corner that is not "
                          "finite",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tf::intersects(wild, good),
-                         "treeform::intersects: the first mesh: face 4 has a corner out of range",
+                         "treeform::intersects: a: face 4 has a corner out of range",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tf::closest_point(wild, tf::point3{}),
                          "treeform::closest_point: face 4 has a corner out of range",
