@@ -19,7 +19,7 @@ check() {
 
 # What people install, with everything there is to test.
 check release "-DTREEFORM_BUILD_ORACLE_TESTS=ON"
-# Memory and undefined behaviour, of the libraries and of the tools; two minutes of damaged inputs.
+# Memory and undefined behavior, of the libraries and of the tools; two minutes of damaged inputs.
 check asan "-DTREEFORM_BUILD_FUZZERS=ON" -L "unit|cli|fuzz"
 # Races; with the other compiler, so that its warnings are seen too.
 check tsan "-DCMAKE_CXX_COMPILER=clang++" -L unit

@@ -1,8 +1,8 @@
 #include <libmesh/arrange/arrange_pairs.hpp>
 #include <libmesh/arrange/cluster.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/base/at_once.hpp>
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/union_find.hpp>
@@ -130,16 +130,16 @@ clusters gather(std::size_t face_count, const mesh_meetings& met) {
 
 /// Final numbers of the points of all clusters.
 struct numbering {
-    std::vector<constructed_point> constructed;
+    std::vector<implicit_point> constructed;
     std::vector<std::uint32_t> of_item;     ///< [named + made] final number
     std::vector<std::uint32_t> made_begin;  ///< [clusters] item of a cluster's first made point
 };
 
 /// `named` are the points that meetings have.
-numbering number_points(std::size_t given, std::vector<constructed_point> named,
+numbering number_points(std::size_t given, std::vector<implicit_point> named,
                         const std::vector<cut_cluster>& cuts) {
     numbering result;
-    std::vector<constructed_point> items = std::move(named);
+    std::vector<implicit_point> items = std::move(named);
     for (const cut_cluster& c : cuts) {
         result.made_begin.push_back(static_cast<std::uint32_t>(items.size()));
         items.insert(items.end(), c.made.begin(), c.made.end());
@@ -229,9 +229,9 @@ class emitter {
 
     void write(mesh_arrangement& out) const {
         const std::size_t faces = begin_.back().face, covers = begin_.back().cover;
-        detail::base::at_once([&] { out.faces.resize(faces); },
-                              [&] { out.cover_begin.resize(faces + 1); },
-                              [&] { out.covers.resize(covers); }, [&] { out.whole.resize(faces); });
+        detail::base::parallel_invoke(
+            [&] { out.faces.resize(faces); }, [&] { out.cover_begin.resize(faces + 1); },
+            [&] { out.covers.resize(covers); }, [&] { out.whole.resize(faces); });
         for_chunks(mesh_.faces.size(), grain,
                    [&](std::size_t begin, std::size_t end, std::size_t c) {
                        write(begin, end, begin_[c], out);

@@ -103,7 +103,7 @@ class regions {
     detail::base::union_find sets_;
 };
 
-/// Neighbours about an edge look into the region between them.
+/// Neighbors about an edge look into the region between them.
 void join_about_edges(mesh_view mesh, const mesh_arrangement& cut, const surface_patches& patches,
                       regions& joined) {
     std::vector<std::optional<std::array<std::uint32_t, 2>>> broken(patches.junctions.size());
@@ -153,7 +153,7 @@ class winding_flood {
           seen_(cells.count()),
           begin_(cells.count() + 1),
           patches_at_(2 * std::size_t{patches.count()}) {
-        collect_neighbours();
+        collect_neighbors();
     }
 
     /// [C][k] windings, 0 in cell 0.
@@ -184,7 +184,7 @@ class winding_flood {
         return winding_.data() + cell * operands_;
     }
 
-    void collect_neighbours() {
+    void collect_neighbors() {
         for (std::uint32_t p = 0; p < patches_.count(); ++p) {
             ++begin_[front(p)];
             ++begin_[behind(p)];

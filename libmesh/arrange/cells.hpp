@@ -5,7 +5,7 @@
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <array>
 #include <cstddef>
@@ -24,8 +24,8 @@ struct open_arrangement_edge {
     friend bool operator==(const open_arrangement_edge&, const open_arrangement_edge&) = default;
 };
 
-/// Cells are the connected parts of space without the surface, but for faces that bound nothing as
-/// what covers them cancels out: cells that only such faces separate are one. Cell 0 is the
+/// Cells are the connected parts of space without the surface, except for faces that bound nothing
+/// as what covers them cancels out: cells that only such faces separate are one. Cell 0 is the
 /// unbounded one; the others are in the order of the lowest faces next to them.
 struct arrangement_cells {
     /// The number of operands, k.

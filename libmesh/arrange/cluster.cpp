@@ -76,8 +76,8 @@ class cutter {
     }
     /// By far the most are: then all of the triangulation is the face.
     [[nodiscard]] bool is_single() const { return in_.members.size() == 1; }
-    [[nodiscard]] constructed_point point(std::uint32_t id) const {
-        return id < in_.mesh.points.size() ? constructed_point(in_.mesh.points[id])
+    [[nodiscard]] implicit_point point(std::uint32_t id) const {
+        return id < in_.mesh.points.size() ? implicit_point(in_.mesh.points[id])
                                            : in_.met->points[id - in_.mesh.points.size()];
     }
     template <class Visit>
@@ -179,7 +179,7 @@ class cutter {
     planar_triangulation start() {
         // Local numbers in the triangulation: three corners that hold everything, then the points
         // (a corner of a single member being one of those three).
-        vector<constructed_point> points(in_.memory);
+        vector<implicit_point> points(in_.memory);
         vector<vector<std::uint32_t>> lines(in_.memory);
         vertex_of_.assign(points_.size(), none);
         points.reserve(points_.size() + 3);
@@ -214,18 +214,18 @@ class cutter {
         return box.triangle_around(orientation_);
     }
 
-    [[nodiscard]] constructed_point cross(std::uint32_t i, std::uint32_t j) const {
+    [[nodiscard]] implicit_point cross(std::uint32_t i, std::uint32_t j) const {
         const line_name& p = lines_[std::min(i, j)];  // edges come before faces
         const line_name& q = lines_[std::max(i, j)];
         const auto& points = in_.mesh.points;
         if (p.is_face)
-            return constructed_point::where_planes_meet(plane_of(in_.members[0]), plane_of(p.of[0]),
-                                                        plane_of(q.of[0]));
+            return implicit_point::where_planes_meet(plane_of(in_.members[0]), plane_of(p.of[0]),
+                                                     plane_of(q.of[0]));
         if (q.is_face)
-            return constructed_point::where_line_meets(points[p.of[0]], points[p.of[1]],
-                                                       plane_of(q.of[0]));
-        return constructed_point::where_lines_cross(points[p.of[0]], points[p.of[1]],
-                                                    points[q.of[0]], points[q.of[1]]);
+            return implicit_point::where_line_meets(points[p.of[0]], points[p.of[1]],
+                                                    plane_of(q.of[0]));
+        return implicit_point::where_lines_cross(points[p.of[0]], points[p.of[1]], points[q.of[0]],
+                                                 points[q.of[1]]);
     }
 
     void insert_points(planar_triangulation& plane) {

@@ -3,7 +3,7 @@
 /// The common subdivision of input faces that overlap in one plane.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 #include <libmesh/intersect/meetings.hpp>
 #include <treeform/mesh/mesh.hpp>
 
@@ -25,9 +25,9 @@ struct cluster_face {
 };
 
 struct cut_cluster {
-    std::vector<constructed_point> made;  ///< points where lines cross that no two faces name
-    std::vector<cluster_face> faces;      ///< ascending by first cover
-    std::vector<covering_face> covers;    ///< face by face
+    std::vector<implicit_point> made;   ///< points where lines cross that no two faces name
+    std::vector<cluster_face> faces;    ///< ascending by first cover
+    std::vector<covering_face> covers;  ///< face by face
     /// Numbers of points that turned out to be one point.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> same;
 };

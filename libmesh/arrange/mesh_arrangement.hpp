@@ -2,10 +2,10 @@
 /// \file
 /// Triangle meshes cut along each other and along themselves, exactly.
 
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -28,12 +28,12 @@ struct covering_face {
 /// `constructed`, each different from all others. Where faces of the input overlap, the arrangement
 /// has one face for all of them, oriented as the lowest of them.
 struct mesh_arrangement {
-    std::vector<point3> given_points;            ///< [V] the input's
-    std::vector<constructed_point> constructed;  ///< [K]
-    std::vector<face> faces;                     ///< [F'] in the order of their lowest input face
-    std::vector<std::size_t> cover_begin;        ///< [F' + 1] where a face's covers begin
-    std::vector<covering_face> covers;  ///< face by face, ascending by face; the first is the
-                                        ///< lowest and never opposite
+    std::vector<point3> given_points;         ///< [V] the input's
+    std::vector<implicit_point> constructed;  ///< [K]
+    std::vector<face> faces;                  ///< [F'] in the order of their lowest input face
+    std::vector<std::size_t> cover_begin;     ///< [F' + 1] where a face's covers begin
+    std::vector<covering_face> covers;        ///< face by face, ascending by face; the first is the
+                                              ///< lowest and never opposite
     /// [F'] 1 for input faces as they are, that no other cuts or covers. In the coordinates of the
     /// input, they have an area, and two of them meet in common corners or a common edge only.
     std::vector<std::uint8_t> whole{};
@@ -41,8 +41,8 @@ struct mesh_arrangement {
     [[nodiscard]] std::span<const covering_face> covers_of(std::size_t f) const {
         return {covers.data() + cover_begin[f], cover_begin[f + 1] - cover_begin[f]};
     }
-    [[nodiscard]] constructed_point point(std::uint32_t p) const {
-        return p < given_points.size() ? constructed_point(given_points[p])
+    [[nodiscard]] implicit_point point(std::uint32_t p) const {
+        return p < given_points.size() ? implicit_point(given_points[p])
                                        : constructed[p - given_points.size()];
     }
 };
@@ -66,7 +66,7 @@ struct arrange_faces_result {
 /// twice: it comes out as it went in.
 ///
 /// \pre    points that are corners differ from each other
-/// \throws std::invalid_argument naming a face with a corner that is no point, or a point with a
+/// \throws std::invalid_argument naming a face with a corner out of range, or a point with a
 ///         coordinate that is not finite or beyond 2^1000
 /// \cost   as `self_intersections`, and for the k constructed points of a cluster of overlapping
 ///         coplanar faces about O(k^1.5)

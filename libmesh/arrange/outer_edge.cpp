@@ -1,6 +1,6 @@
 #include <libmesh/arrange/outer_edge.hpp>
 #include <libmesh/base/finite.hpp>
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 #include <libmesh/geometry/flat_triangle.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -65,7 +65,7 @@ std::optional<part_extent> extent_of_all(const mesh_arrangement& cut) {
 
 /// Whether the direction of the edge at `v` that leads to `p` is that from v to b. No two edges at
 /// a greatest point run opposite ways.
-bool same_direction(const point3& v, const point3& b, const constructed_point& p) {
+bool same_direction(const point3& v, const point3& b, const implicit_point& p) {
     for (const int axis : {0, 1, 2})
         if (orient2d(axis, v, b, p) != 0) return false;
     return true;
@@ -99,12 +99,12 @@ class edge_finder {
                     if (b != part_.top) visit(b, f);
     }
 
-    /// The faces at the edge from v towards b.
-    [[nodiscard]] std::vector<face_side> sides_towards(std::uint32_t b) const {
-        const std::uint32_t end = first_point_towards(b);
+    /// The faces at the edge from v toward b.
+    [[nodiscard]] std::vector<face_side> sides_toward(std::uint32_t b) const {
+        const std::uint32_t end = first_point_toward(b);
         std::vector<face_side> sides;
         for (const std::uint32_t f : part_.faces_at_top) {
-            const auto [next, last] = neighbours(f);
+            const auto [next, last] = neighbors(f);
             if (next == end) sides.push_back(front_of(f));
             if (last == end) sides.push_back(behind(f));
         }
@@ -120,20 +120,20 @@ class edge_finder {
     }
 
     /// The corners of a face after v and before it.
-    [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> neighbours(std::uint32_t id) const {
+    [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> neighbors(std::uint32_t id) const {
         const face& f = cut_.faces[id];
         const std::size_t i = f[0] == part_.top ? 0 : f[1] == part_.top ? 1 : 2;
         return {f[(i + 1) % 3], f[(i + 2) % 3]};
     }
 
-    /// The point at which the edge from v towards b ends: b, or where it is cut first.
-    [[nodiscard]] std::uint32_t first_point_towards(std::uint32_t b) const {
+    /// The point at which the edge from v toward b ends: b, or where it is cut first.
+    [[nodiscard]] std::uint32_t first_point_toward(std::uint32_t b) const {
         for (const std::uint32_t f : part_.faces_at_top) {
-            const auto [next, last] = neighbours(f);
+            const auto [next, last] = neighbors(f);
             if (next == b || last == b) return b;
         }
         for (const std::uint32_t f : part_.faces_at_top) {
-            const auto [next, last] = neighbours(f);
+            const auto [next, last] = neighbors(f);
             if (same_direction(v_, mesh_.points[b], cut_.point(next))) return next;
             if (same_direction(v_, mesh_.points[b], cut_.point(last))) return last;
         }
@@ -212,7 +212,7 @@ outer_edge find_outer_edge(mesh_view mesh, const mesh_arrangement& cut, const pa
     edge_finder finder(mesh, cut, part);
     const point3& v = mesh.points[part.top];
     if (const auto b = finder.find()) {
-        const auto sides = finder.sides_towards(*b);
+        const auto sides = finder.sides_toward(*b);
         if (sides.empty()) refuse(part.top);
         const auto last = radial.last_before_x(v, mesh.points[*b], sides);
         if (!last) refuse(part.top);

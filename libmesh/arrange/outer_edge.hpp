@@ -28,11 +28,11 @@ struct part_extent {
                                                     const surface_patches& patches,
                                                     const numbered_sets& parts);
 
-/// The edge from a part's greatest point towards another corner of an input face. At its beginning
+/// The edge from a part's greatest point toward another corner of an input face. At its beginning
 /// the part's face `side` looks into the region that reaches infinity, were there no other part.
 struct outer_edge {
     point3 from;
-    point3 towards;  ///< y, or else z, differs from that of `from`
+    point3 toward;  ///< y, or else z, differs from that of `from`
     face_side side;
 };
 

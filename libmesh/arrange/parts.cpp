@@ -1,6 +1,6 @@
-#include <libmesh/arrange/moved_ray.hpp>
 #include <libmesh/arrange/outer_edge.hpp>
 #include <libmesh/arrange/parts.hpp>
+#include <libmesh/arrange/perturbed_ray.hpp>
 #include <libmesh/arrange/radial_order.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -86,7 +86,7 @@ class ray_follower {
     /// The side on which the moved ray from `edge` first meets a face. The edge's own part is
     /// behind it.
     [[nodiscard]] std::optional<face_side> follow(const outer_edge& edge) const {
-        const moved_ray ray(edge.from, edge.towards);
+        const perturbed_ray ray(edge.from, edge.toward);
         std::optional<crossing> first;
         std::uint32_t first_face = 0;
         double distance = infinite;
@@ -117,7 +117,7 @@ class ray_follower {
     }
 
     /// Of the pieces of an input face that the ray passes through, that with the crossing.
-    [[nodiscard]] face_side met_side(const moved_ray& ray, std::uint32_t g) const {
+    [[nodiscard]] face_side met_side(const perturbed_ray& ray, std::uint32_t g) const {
         for (const std::uint32_t f : pieces_[g]) {
             const auto& [a, b, c] = cut_.faces[f];
             const int faces = passes(ray, a, b, c);
@@ -127,7 +127,7 @@ class ray_follower {
                                std::to_string(g));
     }
 
-    [[nodiscard]] int passes(const moved_ray& ray, std::uint32_t a, std::uint32_t b,
+    [[nodiscard]] int passes(const perturbed_ray& ray, std::uint32_t a, std::uint32_t b,
                              std::uint32_t c) const {
         const auto& given = cut_.given_points;
         if (std::max({a, b, c}) < given.size()) return ray.passes(given[a], given[b], given[c]);

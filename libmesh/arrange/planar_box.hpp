@@ -2,7 +2,7 @@
 /// \file
 /// The box of points of a plane as seen along an axis, and a triangle around it.
 
-#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
 
 #include <array>

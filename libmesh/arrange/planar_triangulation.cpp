@@ -9,8 +9,8 @@
 namespace treeform::detail::arrange {
 namespace {
 
-std::array<double, 2> plan_of(const constructed_point& p, int axis) {
-    const point3& c = p.centre();
+std::array<double, 2> plan_of(const implicit_point& p, int axis) {
+    const point3& c = p.center();
     return axis == 0   ? std::array{c.y, c.z}
            : axis == 1 ? std::array{c.z, c.x}
                        : std::array{c.x, c.y};
@@ -19,7 +19,7 @@ std::array<double, 2> plan_of(const constructed_point& p, int axis) {
 }  // namespace
 
 planar_triangulation::planar_triangulation(
-    std::pmr::vector<constructed_point> points,
+    std::pmr::vector<implicit_point> points,
     std::pmr::vector<std::pmr::vector<std::uint32_t>> lines_of, int axis, int orientation,
     crossing cross)
     : points_(std::move(points)),
@@ -39,7 +39,7 @@ planar_triangulation::planar_triangulation(
     // Each point splits a triangle in three, or two in four.
     for (auto* const of_half_edge : {&origin_, &twin_, &line_})
         of_half_edge->reserve(6 * points_.size());
-    for (const constructed_point& p : points_) plan_.push_back(plan_of(p, axis_));
+    for (const implicit_point& p : points_) plan_.push_back(plan_of(p, axis_));
     add_triangle();
     for (std::uint32_t i = 0; i < 3; ++i) set(i, i, none, none);
 }
@@ -133,10 +133,10 @@ std::uint32_t planar_triangulation::left_of(std::uint32_t from, std::uint32_t to
 
 /// The first side of triangle t, from its `first` on, that p lies beyond; none when p is in the
 /// closed triangle, and then `found` says where. p is known not to be beyond side `from`.
-planar_triangulation::half_edge planar_triangulation::side_towards(std::uint32_t t, std::uint32_t p,
-                                                                   std::uint32_t first,
-                                                                   half_edge from,
-                                                                   place& found) const {
+planar_triangulation::half_edge planar_triangulation::side_toward(std::uint32_t t, std::uint32_t p,
+                                                                  std::uint32_t first,
+                                                                  half_edge from,
+                                                                  place& found) const {
     found = {3 * t, 0};
     half_edge zeros[3];
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -160,14 +160,14 @@ planar_triangulation::place planar_triangulation::locate(std::uint32_t p) {
     place found{};
     for (std::size_t steps = 4 * triangle_count() + 16; steps > 0; --steps) {
         first = (first + 1) % 3;
-        const half_edge beyond = side_towards(t, p, first, from, found);
+        const half_edge beyond = side_toward(t, p, first, from, found);
         if (beyond == none) return found;
         from = twin_[beyond];
         if (from == none) break;
         t = from / 3;
     }
     for (t = 0; t < triangle_count(); ++t)
-        if (side_towards(t, p, 0, none, found) == none) return found;
+        if (side_toward(t, p, 0, none, found) == none) return found;
     throw std::logic_error("treeform::planar_triangulation: point " + std::to_string(p) +
                            " is outside of the triangulation");
 }

@@ -2,7 +2,7 @@
 /// \file
 /// A constrained triangulation of points of one plane, some of them constructed.
 
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 
 #include <array>
 #include <cstdint>
@@ -28,7 +28,7 @@ class planar_triangulation {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
     /// The point where two segments of these lines cross.
-    using crossing = std::function<constructed_point(std::uint32_t line, std::uint32_t other)>;
+    using crossing = std::function<implicit_point(std::uint32_t line, std::uint32_t other)>;
 
     /// The triangle of the first three of `points`, which turns left as seen along `axis` times
     /// `orientation` (+1 or -1), and in which or on whose sides all others lie.
@@ -36,7 +36,7 @@ class planar_triangulation {
     /// \param lines_of  which lines each point is known to lie on, ascending
     ///
     /// All memory is that of `points`.
-    planar_triangulation(std::pmr::vector<constructed_point> points,
+    planar_triangulation(std::pmr::vector<implicit_point> points,
                          std::pmr::vector<std::pmr::vector<std::uint32_t>> lines_of, int axis,
                          int orientation, crossing cross);
 
@@ -61,7 +61,7 @@ class planar_triangulation {
     [[nodiscard]] std::uint32_t left_of(std::uint32_t from, std::uint32_t to) const;
 
     /// All points: those given, then those made.
-    [[nodiscard]] std::span<const constructed_point> points() const { return points_; }
+    [[nodiscard]] std::span<const implicit_point> points() const { return points_; }
     /// The two lines whose crossing a made point is. \pre point is not a given one
     [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> made_by(std::uint32_t point) const {
         return made_by_[point - given_];
@@ -87,8 +87,8 @@ class planar_triangulation {
     [[nodiscard]] bool is_ahead(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
     [[nodiscard]] place locate(std::uint32_t p);
-    [[nodiscard]] half_edge side_towards(std::uint32_t t, std::uint32_t p, std::uint32_t first,
-                                         half_edge from, place& found) const;
+    [[nodiscard]] half_edge side_toward(std::uint32_t t, std::uint32_t p, std::uint32_t first,
+                                        half_edge from, place& found) const;
     [[nodiscard]] half_edge find(std::uint32_t from, std::uint32_t to) const;
     [[nodiscard]] half_edge side_between(std::uint32_t u, std::uint32_t v) const;
     template <class Visit>
@@ -109,7 +109,7 @@ class planar_triangulation {
     std::uint32_t advance(std::uint32_t from, std::uint32_t to, std::uint32_t line);
     std::uint32_t make_crossing(half_edge side, std::uint32_t line);
 
-    std::pmr::vector<constructed_point> points_;
+    std::pmr::vector<implicit_point> points_;
     std::pmr::vector<std::array<double, 2>> plan_;  ///< where points are, for choices that are free
     std::pmr::vector<std::pmr::vector<std::uint32_t>> lines_of_;
     std::pmr::vector<std::pair<std::uint32_t, std::uint32_t>> made_by_;

@@ -1,5 +1,5 @@
 #include <libmesh/arrange/radial_order.hpp>
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,10 @@ struct run {
     int sign;  ///< 0 when the ends are one point
 };
 
-run run_of(const constructed_point& a, const constructed_point& b) {
+run run_of(const implicit_point& a, const implicit_point& b) {
     const auto far = [&](int axis) {
         const auto k = static_cast<std::size_t>(axis);
-        return std::abs(b.centre()[k] - a.centre()[k]);
+        return std::abs(b.center()[k] - a.center()[k]);
     };
     std::array axes{0, 1, 2};
     std::sort(axes.begin(), axes.end(), [&](int i, int j) { return far(i) > far(j); });
@@ -72,7 +72,7 @@ bool radial_order::sort(const std::array<std::uint32_t, 2>& points, std::span<fa
 // The half-plane's normal is e x (1, 0, 0). For a normal m of a face, perpendicular to e,
 // (m x (e x (1, 0, 0))) . e = m.x |e|^2: faces with m.x > 0 are less than half a turn before the
 // half-plane, those with m.x < 0 more, and 0 is just half a turn.
-std::optional<face_side> radial_order::last_before_x(const point3& from, const point3& towards,
+std::optional<face_side> radial_order::last_before_x(const point3& from, const point3& toward,
                                                      std::span<const face_side> sides) {
     collect(sides);
     const member* best = nullptr;
@@ -84,7 +84,7 @@ std::optional<face_side> radial_order::last_before_x(const point3& from, const p
         }
         if (m.half > best->half) continue;
         const int ahead =
-            normal_turn(best->plane, m.plane, from, towards) * best->sense() * m.sense();
+            normal_turn(best->plane, m.plane, from, toward) * best->sense() * m.sense();
         if (ahead == 0) return std::nullopt;
         if (ahead > 0) best = &m;
     }

@@ -32,11 +32,11 @@ class radial_order {
     /// \cost O(d log d) predicates for d faces
     [[nodiscard]] bool sort(const std::array<std::uint32_t, 2>& points, std::span<face_side> sides);
 
-    /// Of `sides`, faces at the edge from `from` towards `towards`, the one that comes last before
+    /// Of `sides`, faces at the edge from `from` toward `toward`, the one that comes last before
     /// the half-plane from the edge in direction +x. None when two lie on top of each other.
     /// \pre  there is one, none is in that half-plane, and the edge is not parallel to x
     /// \cost O(d) predicates
-    [[nodiscard]] std::optional<face_side> last_before_x(const point3& from, const point3& towards,
+    [[nodiscard]] std::optional<face_side> last_before_x(const point3& from, const point3& toward,
                                                          std::span<const face_side> sides);
 
   private:

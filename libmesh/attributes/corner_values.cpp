@@ -1,4 +1,4 @@
-#include <treeform/mesh/corner_values.hpp>
+#include <treeform/mesh/attributes.hpp>
 
 namespace treeform {
 namespace {

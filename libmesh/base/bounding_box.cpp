@@ -1,4 +1,4 @@
-#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -26,7 +26,7 @@ void check_faces(const char* function, std::size_t point_count, std::span<const 
         return std::max(std::max(a, b), c) >= points;
     });
     if (bad != faces.size())
-        refuse(function, "face " + std::to_string(bad) + " has a corner that is no point");
+        refuse(function, "face " + std::to_string(bad) + " has a corner out of range");
 }
 
 }  // namespace treeform::detail::base

@@ -7,7 +7,7 @@
 
 namespace treeform::detail::base {
 
-/// As `face_tree`. \pre every corner is a point
+/// As `build_face_tree`. \pre every corner is a point
 [[nodiscard]] tree<3> checked_face_tree(mesh_view mesh);
 
 }  // namespace treeform::detail::base

@@ -2,7 +2,7 @@
 /// \file
 /// Points that can be computed with.
 
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <algorithm>
 #include <vector>

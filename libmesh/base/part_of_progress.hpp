@@ -2,7 +2,7 @@
 /// \file
 /// The progress of a step, as a part of that of the whole.
 
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/parallel.hpp>
 
 namespace treeform::detail::base {
 

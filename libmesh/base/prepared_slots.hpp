@@ -13,7 +13,7 @@ namespace treeform::detail::base {
 
 /// One name a kind of index, so that no two floors take the same place.
 enum class slot_name : std::size_t {
-    face_tree,
+    build_face_tree,
     triangle_blocks,
     closest_triangles,
     joined_corners,

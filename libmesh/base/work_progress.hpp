@@ -2,7 +2,7 @@
 /// \file
 /// Progress of an operation made of others, and whether its caller has asked it to stop.
 
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <atomic>

@@ -2,7 +2,7 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/cells_of.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/base/at_once.hpp>
+#include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/boolean/inside_of_cells.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
@@ -147,8 +147,8 @@ void finish(unmended_result& made, mesh_arrangement& cut, std::vector<face> exac
     made.broken = std::move(r.broken);
     result.vanished_components = r.vanished_components;
     result.vanished_at = std::move(r.vanished_at);
-    detail::base::at_once([&] { result.face_source.resize(r.face_of.size()); },
-                          [&] { result.vertex_source.resize(r.point_of.size()); });
+    detail::base::parallel_invoke([&] { result.face_source.resize(r.face_of.size()); },
+                                  [&] { result.vertex_source.resize(r.point_of.size()); });
     for_chunks(r.face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
             result.face_source[f] = joined.face_source(face_of[r.face_of[f]]);

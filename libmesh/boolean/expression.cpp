@@ -1,4 +1,4 @@
-#include <treeform/mesh/expression.hpp>
+#include <treeform/mesh/boolean.hpp>
 
 #include <limits>
 #include <stdexcept>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int32_t add = -1;
 constexpr std::int32_t intersect = -2;
-constexpr std::int32_t subtract = -3;
+constexpr std::int32_t minus = -3;
 constexpr std::int32_t exclude = -4;
 constexpr std::int32_t bracket = -5;  // only while reading
 
@@ -22,7 +22,7 @@ std::int32_t operation_of(char c) {
         case '&':
             return intersect;
         case '-':
-            return subtract;
+            return minus;
         case '^':
             return exclude;
         default:
@@ -36,7 +36,7 @@ bool apply(std::int32_t operation, bool left, bool right) {
             return left || right;
         case intersect:
             return left && right;
-        case subtract:
+        case minus:
             return left && !right;
         default:
             return left != right;
@@ -180,7 +180,7 @@ boolean_expression boolean_expression::intersection_of(std::size_t operand_count
 }
 
 boolean_expression boolean_expression::difference_of(std::size_t operand_count) {
-    return {operand_count, subtract};
+    return {operand_count, minus};
 }
 
 boolean_expression boolean_expression::xor_of(std::size_t operand_count) {

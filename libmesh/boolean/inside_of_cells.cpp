@@ -1,6 +1,6 @@
-#include <libmesh/base/twofold.hpp>
+#include <libmesh/base/double_double.hpp>
 #include <libmesh/boolean/inside_of_cells.hpp>
-#include <treeform/mesh/volume.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <array>
@@ -17,20 +17,20 @@ double volume_of(const mesh_arrangement& cut, const arrangement_cells& cells,
     constexpr std::size_t grain = std::size_t{1} << 14;
     const std::size_t given = cut.given_points.size();
     const auto at = [&](std::uint32_t p) {
-        return p < given ? cut.given_points[p] : cut.constructed[p - given].centre();
+        return p < given ? cut.given_points[p] : cut.constructed[p - given].center();
     };
-    std::vector<base::twofold> parts(chunk_count(cut.faces.size(), grain));
+    std::vector<base::double_double> parts(chunk_count(cut.faces.size(), grain));
     for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t f = begin; f < end; ++f) {
             const auto [front, behind] = cells.cell_of_side[f];
             if (inside[front] == inside[behind]) continue;
             const auto [p, q, r] = cut.faces[f];
-            const base::twofold cone = base::determinant(at(p), at(q), at(r));
+            const base::double_double cone = base::determinant(at(p), at(q), at(r));
             parts[c] = parts[c] + (inside[behind] != 0 ? cone : -cone);
         }
     });
-    base::twofold all;
-    for (const base::twofold& part : parts) all = all + part;
+    base::double_double all;
+    for (const base::double_double& part : parts) all = all + part;
     return all.high / 6.0;
 }
 

@@ -1,5 +1,5 @@
-#include <libmesh/base/at_once.hpp>
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
@@ -131,8 +131,8 @@ joined_operands join_operands(std::span<const mesh_view> operands) {
         points += operand.points.size();
         faces += operand.faces.size();
     }
-    base::at_once([&] { joined.all.points.resize(points); },
-                  [&] { joined.all.faces.resize(faces); });
+    base::parallel_invoke([&] { joined.all.points.resize(points); },
+                          [&] { joined.all.faces.resize(faces); });
     append_all(operands, joined);
     keep_used(joined);
     join_equal(joined);

@@ -24,7 +24,7 @@ struct joined_operands {
     [[nodiscard]] operand_element point_source(std::uint32_t point) const;
 };
 
-/// \throws std::invalid_argument naming `function` and a face with a corner that is no point, or
+/// \throws std::invalid_argument naming `function` and a face with a corner out of range, or
 ///         for more than 2^32 - 1 points or faces
 void check_operands(const char* function, std::span<const mesh_view> operands);
 

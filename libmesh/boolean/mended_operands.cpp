@@ -1,8 +1,8 @@
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/mended_operands.hpp>
-#include <libmesh/round/join_near.hpp>
 #include <libmesh/round/reach.hpp>
+#include <libmesh/round/snap_nearby.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/search.hpp>
 
@@ -59,7 +59,7 @@ struct near_operands {
 std::vector<std::uint8_t> next_to(const std::vector<aabb<double, 3>>& broken, mesh_view all,
                                   double reach) {
     std::vector<std::uint8_t> marked(all.faces.size(), 0);
-    const tree<3> tree = face_tree(all);
+    const tree<3> tree = build_face_tree(all);
     for (aabb<double, 3> box : broken) {
         for (std::size_t k = 0; k < 3; ++k) {
             box.min[k] -= reach;
@@ -86,7 +86,7 @@ class mending {
     unmended_result step(int number, const std::vector<aabb<double, 3>>& broken, const Ask& ask) {
         const double reach =
             round::reach_of_bits(given_.all.points, bits_of_step(number, options_.precision));
-        const round::joined_near near = round::join_near(
+        const round::joined_near near = round::snap_nearby(
             given_.all, next_to(broken, given_.all, reach),
             {.reach = reach, .source = source_, .solid = false, .operand = operand_of_face_});
         const near_operands joined(near, operand_of_face_, given_.first_face.size() - 1);

@@ -110,8 +110,8 @@ class merger {
         return regions;
     }
 
-    [[nodiscard]] constructed_point point(std::uint32_t p) const {
-        return p < surface_.given.size() ? constructed_point(surface_.given[p])
+    [[nodiscard]] implicit_point point(std::uint32_t p) const {
+        return p < surface_.given.size() ? implicit_point(surface_.given[p])
                                          : surface_.constructed[p - surface_.given.size()];
     }
 
@@ -123,8 +123,8 @@ class merger {
         if (regions != regions_at(d)) return false;
         for (const std::uint32_t region : regions)
             if (!coplanar(regions.front(), region)) return true;
-        const constructed_point at = point(p);
-        const constructed_point q = point(other_end(c, p)), r = point(other_end(d, p));
+        const implicit_point at = point(p);
+        const implicit_point q = point(other_end(c, p)), r = point(other_end(d, p));
         for (int axis = 0; axis < 3; ++axis) {
             if (orient2d(axis, at, q, r) != 0) return false;
             if (compare(axis, q, at) * compare(axis, r, at) > 0) return false;
@@ -163,7 +163,7 @@ class merger {
                             other_end(creases_[first_two[p][1]], p)};
     }
 
-    /// Where the straight line that begins at `from` towards `to` ends.
+    /// Where the straight line that begins at `from` toward `to` ends.
     [[nodiscard]] std::uint32_t end_of_line(std::uint32_t from, std::uint32_t to) const {
         while (spare_[to] != 0) {
             const std::uint32_t beyond = next_[to][0] == from ? next_[to][1] : next_[to][0];

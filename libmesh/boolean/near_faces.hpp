@@ -35,7 +35,7 @@ struct near_faces {
 /// that no such face is to be told: a point that faces use is not finite or beyond 2^1000, or two
 /// points of one operand are equal.
 ///
-/// \throws std::invalid_argument naming a face with a corner that is no point
+/// \throws std::invalid_argument naming a face with a corner out of range
 /// \cost   O(V + F), and a tenth of a microsecond for each face that stays
 /// \same   on any number of threads
 [[nodiscard]] std::optional<near_faces> find_near_faces(std::span<const mesh_view, 2> operands);

@@ -1,7 +1,7 @@
 #include <libmesh/arrange/planar_box.hpp>
 #include <libmesh/arrange/planar_triangulation.hpp>
 #include <libmesh/boolean/region_triangles.hpp>
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 
 #include <algorithm>
 #include <array>
@@ -39,8 +39,8 @@ class triangulator {
         throw std::logic_error("treeform::boolean: a flat part of the surface has no rim");
     }
 
-    [[nodiscard]] constructed_point point(std::uint32_t p) const {
-        return p < surface_.given.size() ? constructed_point(surface_.given[p])
+    [[nodiscard]] implicit_point point(std::uint32_t p) const {
+        return p < surface_.given.size() ? implicit_point(surface_.given[p])
                                          : surface_.constructed[p - surface_.given.size()];
     }
 
@@ -52,9 +52,9 @@ class triangulator {
 
     /// An axis along which the plane's projection has an area, the largest as far as doubles tell.
     void project() {
-        const std::array<constructed_point, 3> corners{
+        const std::array<implicit_point, 3> corners{
             point(region_.plane[0]), point(region_.plane[1]), point(region_.plane[2])};
-        const point3 &a = corners[0].centre(), &b = corners[1].centre(), &c = corners[2].centre();
+        const point3 &a = corners[0].center(), &b = corners[1].center(), &c = corners[2].center();
         const point3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
         const std::array<double, 3> normal{std::abs(u.y * v.z - u.z * v.y),
                                            std::abs(u.z * v.x - u.x * v.z),
@@ -72,7 +72,7 @@ class triangulator {
     }
 
     arrange::planar_triangulation start() {
-        std::pmr::vector<constructed_point> points;
+        std::pmr::vector<implicit_point> points;
         points.reserve(frame_size + ids_.size());
         points.resize(frame_size);
         for (const std::uint32_t id : ids_) points.push_back(point(id));
@@ -88,7 +88,7 @@ class triangulator {
             of_point.erase(std::unique(of_point.begin(), of_point.end()), of_point.end());
         }
         return {std::move(points), std::move(lines), axis_, orientation_,
-                [](std::uint32_t, std::uint32_t) -> constructed_point { fail(); }};
+                [](std::uint32_t, std::uint32_t) -> implicit_point { fail(); }};
     }
 
     /// Lines with a name are those of the sides that have it, each other side has one of its own.
@@ -107,10 +107,10 @@ class triangulator {
     }
 
     /// A triangle that strictly holds all points in projection, wherever in their balls they are.
-    [[nodiscard]] std::array<point3, 3> frame(std::span<const constructed_point> points) const {
+    [[nodiscard]] std::array<point3, 3> frame(std::span<const implicit_point> points) const {
         arrange::planar_box box(axis_);
         for (std::size_t i = frame_size; i < points.size(); ++i)
-            box.include(points[i].centre(), 2 * points[i].radius());
+            box.include(points[i].center(), 2 * points[i].radius());
         return box.triangle_around(orientation_);
     }
 

@@ -1,12 +1,12 @@
 #include <libmesh/arrange/arrange_pairs.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/compact.hpp>
-#include <libmesh/base/face_tree.hpp>
-#include <libmesh/boolean/mutual_insides.hpp>
 #include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/propagate_inside.hpp>
 #include <libmesh/boolean/sound_pair.hpp>
 #include <libmesh/intersect/classify_pair.hpp>
 #include <libmesh/round/round_surface.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 

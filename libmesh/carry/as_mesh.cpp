@@ -2,7 +2,7 @@
 #include <libmesh/base/finite.hpp>
 #include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/validate.hpp>
+#include <treeform/mesh/properties.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
-#include <treeform/mesh/join.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// \file
 /// Numbers m 2^(64 e) of any size: what is left when no fixed width is known to do.
 
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <array>
 #include <cstddef>

@@ -9,9 +9,9 @@
 /// when k m + c < 64 k L, that is, c < 3 k. tests/unit/exact_bounds_test.cpp counts c for every
 /// intermediate value of the text below.
 
-#include <libmesh/exact/constructed_point.hpp>
-#include <libmesh/exact/constructed_polynomials.hpp>
 #include <libmesh/exact/dyadic.hpp>
+#include <libmesh/exact/implicit_point.hpp>
+#include <libmesh/exact/implicit_polynomials.hpp>
 #include <libmesh/exact/integer.hpp>
 #include <libmesh/exact/vectors.hpp>
 
@@ -108,8 +108,8 @@ constexpr Place place_of_planes(const vector3<Number>* p) {
 
 /// The point that `p` defines as `kind` says. \pre three planes need `places_of<Number>::large`
 template <class Place, class Number>
-constexpr Place place_of(constructed_point::origin kind, const vector3<Number>* p) {
-    using origin = constructed_point::origin;
+constexpr Place place_of(implicit_point::origin kind, const vector3<Number>* p) {
+    using origin = implicit_point::origin;
     if (kind == origin::lines) return place_of_lines<Place>(p);
     if (kind == origin::line_plane) return place_of_line_plane<Place>(p);
     if constexpr (std::is_same_v<Place, typename places_of<Number>::large>)

@@ -13,7 +13,7 @@
 #include <libmesh/exact/filter.hpp>
 #include <libmesh/exact/lattice.hpp>
 #include <libmesh/exact/polynomials.hpp>
-#include <treeform/mesh/counters.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <array>

@@ -24,7 +24,7 @@
 
 #include <libmesh/exact/polynomials.hpp>
 #include <libmesh/exact/vectors.hpp>
-#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <array>
 #include <bit>

@@ -2,7 +2,7 @@
 #include <libmesh/exact/exact_sign.hpp>
 #include <libmesh/exact/filter.hpp>
 #include <libmesh/exact/ray_polynomials.hpp>
-#include <treeform/mesh/ray_predicates.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <array>
 #include <cmath>

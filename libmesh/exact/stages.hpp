@@ -5,8 +5,8 @@
 ///
 /// Counts the width it took; calls and undecided ones are counted by who ran the filter.
 
-#include <treeform/mesh/counters.hpp>
-#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 namespace treeform::detail::exact {
 

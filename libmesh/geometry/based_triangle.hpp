@@ -2,7 +2,7 @@
 /// \file
 /// A triangle put on its longest edge: what the distance from many points to it is computed from.
 
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <cstddef>
 

@@ -59,7 +59,7 @@ HWY_INLINE closest_lanes<V> closest_on(D d, const based_lanes<V>& of) {
     const V rest = hn::Sub(one, of.apex);
     const V back = hn::Sub(one, s);
 
-    // From either end of the base towards the apex.
+    // From either end of the base toward the apex.
     const V left = clamp(hn::Div(hn::Add(hn::Mul(s, of.apex), qt),
                                  hn::Max(hn::Add(hn::Mul(of.apex, of.apex), q), least)));
     const V right = clamp(

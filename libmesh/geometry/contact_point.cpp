@@ -48,7 +48,7 @@ point3 cross(const point3& p, const point3& q) {
 double largest(const point3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 /// `v` times a power of two that brings its largest component into [1/2, 1).
-point3 normalised(const point3& v) {
+point3 normalized(const point3& v) {
     int exponent = 0;
     std::frexp(largest(v), &exponent);
     return {std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)};
@@ -77,15 +77,15 @@ point3 along(const segment& s, double t) {
 
 double fraction_to_plane(const segment& s, const triangle3& plane) {
     const point3 normal =
-        cross(normalised(minus(plane[1], plane[0])), normalised(minus(plane[2], plane[0])));
-    const point3 n = normalised(normal);
+        cross(normalized(minus(plane[1], plane[0])), normalized(minus(plane[2], plane[0])));
+    const point3 n = normalized(normal);
     return fraction(dot(n, minus(s.from, plane[0])), dot(n, minus(s.to, plane[0])));
 }
 
 /// Measured in the coordinate plane that the plane of both segments faces most.
 double fraction_to_line(const segment& s, const segment& line) {
-    const point3 direction = normalised(minus(line.to, line.from));
-    const point3 normal = cross(normalised(minus(s.to, s.from)), direction);
+    const point3 direction = normalized(minus(line.to, line.from));
+    const point3 normal = cross(normalized(minus(s.to, s.from)), direction);
     std::size_t axis = 0;
     for (std::size_t other = 1; other < 3; ++other)
         if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;

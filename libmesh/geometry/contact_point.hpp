@@ -2,9 +2,9 @@
 /// \file
 /// Where a named contact of two triangles is, for pictures and reports.
 
-#include <treeform/mesh/point.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/triangle.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 namespace treeform {
 

@@ -71,9 +71,9 @@ bool comes_first(int i, contact p, contact q, const side_table& a_about_b, bool 
 
 bool on_one_edge(int i, feature f, feature g) { return holds(i, f) && holds(i, g); }
 
-/// Two corners of an area are neighbours when an edge of either triangle holds both: the area
+/// Two corners of an area are neighbors when an edge of either triangle holds both: the area
 /// lies on one side of that edge.
-bool neighbours(contact p, contact q) {
+bool neighbors(contact p, contact q) {
     for (int i = 0; i < 3; ++i)
         if (on_one_edge(i, p.on_a, q.on_a) || on_one_edge(i, p.on_b, q.on_b)) return true;
     return false;
@@ -100,17 +100,17 @@ std::pair<int, int> first_side(const contact_list& corners, const side_table& a_
     return side;
 }
 
-/// The corners of an area counter-clockwise as `a` runs: a first side, then neighbour by neighbour.
+/// The corners of an area counter-clockwise as `a` runs: a first side, then neighbor by neighbor.
 contact_list counter_clockwise(const contact_list& corners, std::pair<int, int> side) {
     contact_list ordered;
     ordered.add(corners[side.first].on_a, corners[side.first].on_b);
     unsigned seen = 1U << side.first;
-    const auto unseen_neighbour = [&](int p) {
+    const auto unseen_neighbor = [&](int p) {
         for (int q = 0; q < corners.size(); ++q)
-            if ((seen >> q & 1U) == 0 && neighbours(corners[p], corners[q])) return q;
+            if ((seen >> q & 1U) == 0 && neighbors(corners[p], corners[q])) return q;
         return -1;
     };
-    for (int last = side.second; last >= 0; last = unseen_neighbour(last)) {
+    for (int last = side.second; last >= 0; last = unseen_neighbor(last)) {
         ordered.add(corners[last].on_a, corners[last].on_b);
         seen |= 1U << last;
     }

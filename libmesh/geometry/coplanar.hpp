@@ -3,8 +3,8 @@
 /// Two triangles in one plane: the corners of what they share, in order.
 
 #include <libmesh/geometry/view_axis.hpp>
-#include <treeform/mesh/counters.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 namespace treeform::detail::geometry {
 

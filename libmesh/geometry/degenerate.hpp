@@ -3,8 +3,8 @@
 /// Pairs of triangles of which at least one is only a segment or a point.
 
 #include <libmesh/geometry/view_axis.hpp>
-#include <treeform/mesh/counters.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <optional>
 

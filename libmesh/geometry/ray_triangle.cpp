@@ -4,7 +4,7 @@
 #include <libmesh/geometry/flat_triangle.hpp>
 #include <libmesh/geometry/plane_interval.hpp>
 #include <libmesh/geometry/view_axis.hpp>
-#include <treeform/mesh/ray_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <algorithm>
 #include <array>

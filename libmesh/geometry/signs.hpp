@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// The predicates as the triangle tests call them: filter inlined, so that calls with common
-/// arguments share work, and equal points recognised before anything is computed exactly.
+/// arguments share work, and equal points recognized before anything is computed exactly.
 
 #include <libmesh/exact/filter.hpp>
 #include <libmesh/exact/stages.hpp>
@@ -17,7 +17,7 @@ namespace treeform::detail::geometry {
     return same(p.x, q.x) && same(p.y, q.y) && same(p.z, q.z);
 }
 
-/// Whether two of four points are equal: neighbours in a mesh ask about their common corners.
+/// Whether two of four points are equal: neighbors in a mesh ask about their common corners.
 [[nodiscard, gnu::noinline]] inline bool some_equal(const point3& a, const point3& b,
                                                     const point3& c, const point3& d) {
     return equal_points(d, a) || equal_points(d, b) || equal_points(d, c) || equal_points(a, b) ||

@@ -2,9 +2,9 @@
 /// \file
 /// The distance of two triangles, and where they are nearest.
 
-#include <treeform/mesh/point.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/triangle.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 namespace treeform {
 

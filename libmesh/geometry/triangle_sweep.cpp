@@ -1,5 +1,5 @@
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle_sweep.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 /// \file
 /// Along which axis a triangle can be looked at without losing a dimension.
 
-#include <treeform/mesh/counters.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <optional>
 

@@ -6,7 +6,7 @@
 #include <libmesh/intersect/block_planes.hpp>
 #include <libmesh/intersect/pair_decider.hpp>
 #include <libmesh/nearness/triangle_blocks.hpp>
-#include <treeform/tree/candidates.hpp>
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/transform.hpp>
 #include <treeform/tree/tree.hpp>

@@ -37,13 +37,13 @@ HWY_INLINE vec dot(const vec3& a, const vec3& b) {
 
 void find_eight(const nearness::eight_triangles& from, const point3& origin, block_planes& to) {
     const lanes_tag d;
-    const vec3 centre{{hn::Set(d, origin.x), hn::Set(d, origin.y), hn::Set(d, origin.z)}};
+    const vec3 center{{hn::Set(d, origin.x), hn::Set(d, origin.y), hn::Set(d, origin.z)}};
     vec reach = hn::Zero(d);
     for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
         const vec3 p[3] = {load(from.at[0], i), load(from.at[1], i), load(from.at[2], i)};
         vec3 first;
         for (std::size_t corner = 3; corner-- > 0;) {
-            first = minus(p[corner], centre);
+            first = minus(p[corner], center);
             for (std::size_t k = 0; k < 3; ++k) {
                 hn::Store(first.of[k], d, to.at[corner][k] + i);
                 reach = hn::Add(reach, hn::Abs(first.of[k]));

@@ -3,7 +3,7 @@
 /// The triangles of a leaf block against the planes of those of another.
 
 #include <libmesh/nearness/triangle_blocks.hpp>
-#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 namespace treeform::detail::intersect {
 

@@ -1,6 +1,6 @@
 #include <libmesh/intersect/classify_pair.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -116,7 +116,7 @@ bool coplanar_and_apart(points_view points, const face& a, const face& b, std::u
 std::optional<pair_kind> classify_pair(points_view points, const face& a, const face& b,
                                        predicate_counters& counters) {
     const shared_corners shared = shared_by(a, b);
-    // The neighbours of flat regions, which no filter decides, first and by fewer signs.
+    // The neighbors of flat regions, which no filter decides, first and by fewer signs.
     if (shared.count == 2) {
         const point3& u = points[shared.ids[0]];
         const point3& v = points[shared.ids[1]];

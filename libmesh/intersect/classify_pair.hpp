@@ -2,8 +2,8 @@
 /// \file
 /// The exact verdict on one pair of faces.
 
-#include <treeform/mesh/counters.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 
 #include <optional>

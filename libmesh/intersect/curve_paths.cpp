@@ -1,7 +1,7 @@
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/intersect/meetings.hpp>
 #include <libmesh/intersect/same_points.hpp>
-#include <treeform/mesh/curve_paths.hpp>
+#include <treeform/mesh/curves.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -25,9 +25,9 @@ class point_table {
             for (std::size_t k = 0; k < m.count; ++k) ids_.push_back(m.ends[k].point);
         std::sort(ids_.begin(), ids_.end());
         ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
-        std::vector<constructed_point> exact;
+        std::vector<implicit_point> exact;
         for (const std::uint32_t id : ids_)
-            exact.push_back(id < given_ ? constructed_point(mesh.points[id])
+            exact.push_back(id < given_ ? implicit_point(mesh.points[id])
                                         : met.points[id - given_]);
         detail::base::union_find sets(ids_.size());
         for (const auto& [a, b] : detail::intersect::equal_pairs(exact)) sets.join(a, b);

@@ -1,6 +1,6 @@
 #include <libmesh/geometry/contact_point.hpp>
 #include <libmesh/intersect/curves.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/parallel.hpp>
 
 namespace treeform {

@@ -4,7 +4,7 @@
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
-#include <treeform/mesh/faces_in_box.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include <libmesh/intersect/pair_sieve.hpp>
 #include <libmesh/intersect/sort_pairs.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <atomic>

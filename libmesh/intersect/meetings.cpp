@@ -35,14 +35,14 @@ struct open_end {
     std::uint8_t end;
 };
 
-constructed_point point_of(mesh_view mesh, const point_name& name) {
+implicit_point point_of(mesh_view mesh, const point_name& name) {
     const point3& p = mesh.points[name.edge[0]];
     const point3& q = mesh.points[name.edge[1]];
     if (name.kind == point_name::origin::edges)
-        return constructed_point::where_lines_cross(p, q, mesh.points[name.by[0]],
-                                                    mesh.points[name.by[1]]);
+        return implicit_point::where_lines_cross(p, q, mesh.points[name.by[0]],
+                                                 mesh.points[name.by[1]]);
     const triangle3 t = triangle_of(mesh, name.by[0]);
-    return constructed_point::where_line_meets(p, q, {t[0], t[1], t[2]});
+    return implicit_point::where_line_meets(p, q, {t[0], t[1], t[2]});
 }
 
 }  // namespace

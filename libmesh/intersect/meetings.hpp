@@ -2,10 +2,10 @@
 /// \file
 /// Where pairs of faces meet, every point named by the input it comes from.
 
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <array>
 #include <compare>
@@ -53,9 +53,9 @@ struct meeting {
 };
 
 struct mesh_meetings {
-    std::vector<meeting> meetings;          ///< as the pairs
-    std::vector<point_name> names;          ///< ascending; all are different
-    std::vector<constructed_point> points;  ///< of each name
+    std::vector<meeting> meetings;       ///< as the pairs
+    std::vector<point_name> names;       ///< ascending; all are different
+    std::vector<implicit_point> points;  ///< of each name
 };
 
 /// Looks at the pairs once more, and names what they have in common.

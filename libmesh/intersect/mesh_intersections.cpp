@@ -1,12 +1,12 @@
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/intersect/block_pair_sieve.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
 #include <libmesh/intersect/mesh_pair_sieve.hpp>
 #include <libmesh/nearness/distance_model.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search_pair.hpp>
-#include <treeform/tree/transformed.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -29,7 +29,7 @@ void check_faces_met(const char* function, const detail::intersect::bad_faces& b
     const auto refuse = [&](const char* which, std::uint32_t face) {
         throw std::invalid_argument(std::string(function) + ": face " + std::to_string(face) +
                                     " of the " + which +
-                                    " mesh has a corner that is no point or not finite");
+                                    " mesh has a corner out of range or not finite");
     };
     if (bad.in_a != detail::intersect::bad_faces::none) refuse("first", bad.in_a);
     if (bad.in_b != detail::intersect::bad_faces::none) refuse("second", bad.in_b);
@@ -52,7 +52,7 @@ mesh_intersection_result sieved(const pair_search<3>& search, const Input& input
     std::atomic<std::size_t> last{chunks};  // the first chunk that found enough
     for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t, std::size_t) {
         const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
-        detail::intersect::sieve_output mine;  // outputs of neighbours share cache lines
+        detail::intersect::sieve_output mine;  // outputs of neighbors share cache lines
         const auto satisfied = [&] { return options.first_only && !mine.pairs.empty(); };
         Sieve sieve(input, mine, bad[chunk]);
         searched[chunk] = search.visit(chunk, [&](const candidate_block& block) {
@@ -103,7 +103,7 @@ mesh_intersection_result mesh_intersections(const distance_model& a, const dista
 
 mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
                                             const mesh_intersection_options& options) {
-    return mesh_intersections(a, face_tree(a), b, face_tree(b), options);
+    return mesh_intersections(a, build_face_tree(a), b, build_face_tree(b), options);
 }
 
 bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
@@ -133,7 +133,7 @@ bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& 
 }
 
 bool intersects(mesh_view a, mesh_view b, const mesh_positions& positions) {
-    return intersects(a, face_tree(a), b, face_tree(b), positions);
+    return intersects(a, build_face_tree(a), b, build_face_tree(b), positions);
 }
 
 }  // namespace treeform

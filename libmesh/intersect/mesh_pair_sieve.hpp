@@ -4,8 +4,8 @@
 
 #include <libmesh/intersect/pair_decider.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
-#include <treeform/tree/candidates.hpp>
+#include <treeform/mesh/triangle.hpp>
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/transform.hpp>
 #include <treeform/tree/tree.hpp>
 

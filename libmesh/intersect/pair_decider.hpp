@@ -4,7 +4,7 @@
 
 #include <libmesh/intersect/pair_filter.hpp>
 #include <libmesh/intersect/pair_sieve.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <array>
 #include <cstddef>

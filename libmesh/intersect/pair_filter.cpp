@@ -192,7 +192,7 @@ std::uint64_t bits_at(lanes_mask mask, std::size_t i) {
 }
 
 /// Two triangles on a common edge have no more in common unless they are coplanar, nor if seen
-/// along some axis they lie on either side of it: neighbours in a flat part of a surface.
+/// along some axis they lie on either side of it: neighbors in a flat part of a surface.
 batch_verdict edge_pairs(const pair_batch<4>& batch, std::size_t count) {
     batch_verdict verdict;
     for (std::size_t i = 0; i < count; i += hn::Lanes(lanes_tag())) {
@@ -233,12 +233,12 @@ lanes_mask separated_by_an_edge(const vec& a1, const vec& a2, const vec& b1, con
 }
 
 /// Triangles p a1 a2 and p b1 b2. When either plane has the other triangle strictly on one side
-/// but for p, they meet in p alone. Otherwise each cuts the line of both planes in a segment that
-/// starts at p, and those overlap when they run the same way. Relative to p, with
-/// D1 = det(b1, b2, a1), D2 = det(b1, b2, a2) and E2 = det(a1, a2, b2): the point of the line on
-/// a1 a2 is (D1 a2 - D2 a1) / (D1 - D2) = alpha b1 + beta b2, where taking det(., b2, a1) gives
-/// alpha = E2 / (D1 - D2); D1 - D2 has the sign of D1. The point of the line on b1 b2 has positive
-/// coefficients, so the segments run the same way if and only if D1 and E2 have the same sign.
+/// except for p, they meet in p alone. Otherwise each cuts the line of both planes in a segment
+/// that starts at p, and those overlap when they run the same way. Relative to p, with D1 = det(b1,
+/// b2, a1), D2 = det(b1, b2, a2) and E2 = det(a1, a2, b2): the point of the line on a1 a2 is (D1 a2
+/// - D2 a1) / (D1 - D2) = alpha b1 + beta b2, where taking det(., b2, a1) gives alpha = E2 / (D1 -
+/// D2); D1 - D2 has the sign of D1. The point of the line on b1 b2 has positive coefficients, so
+/// the segments run the same way if and only if D1 and E2 have the same sign.
 batch_verdict corner_pairs(const pair_batch<5>& batch, std::size_t count) {
     batch_verdict verdict;
     for (std::size_t i = 0; i < count; i += hn::Lanes(lanes_tag())) {

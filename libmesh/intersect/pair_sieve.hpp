@@ -3,8 +3,8 @@
 /// From candidate pairs to classified pairs, for the candidates of one chunk of the search.
 
 #include <libmesh/intersect/pair_filter.hpp>
-#include <treeform/mesh/counters.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/search_self.hpp>
 

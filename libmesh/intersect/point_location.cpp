@@ -4,7 +4,7 @@
 #include <libmesh/geometry/signs.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/ray.hpp>
@@ -80,7 +80,7 @@ void count_face(const triangle3& t, const point3& q, std::uint32_t id, tally& fo
     }
     const int side = orient3d(a, b, c, q);
     if (side == 0) return found.touch(id);
-    const int faces = most + least > 0 ? 1 : -1;  // along x: away from the point, or towards it
+    const int faces = most + least > 0 ? 1 : -1;  // along x: away from the point, or toward it
     if (side == faces) return;                    // behind the point
     if (moved_sign(about[0], a, b) == faces && moved_sign(about[1], b, c) == faces &&
         moved_sign(about[2], c, a) == faces)
@@ -153,7 +153,7 @@ void check_edges(const char* function, curve_view curves) {
     for (std::size_t i = 0; i < curves.edges.size(); ++i)
         if (std::max(curves.edges[i][0], curves.edges[i][1]) >= curves.points.size())
             refuse(std::string(function) + ": edge " + std::to_string(i) +
-                   " has an end that is no point");
+                   " has an end out of range");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #include <libmesh/geometry/features.hpp>
-#include <treeform/mesh/ray_query.hpp>
+#include <treeform/mesh/raycast.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/ray.hpp>
 
@@ -53,7 +53,7 @@ std::array<std::uint32_t, 2> place_of(mesh_view mesh, const face_contact& c) {
     return {std::min(f[i], j), std::max(f[i], j)};
 }
 
-/// `compare`, with neighbours that meet the ray in what they share told by its number.
+/// `compare`, with neighbors that meet the ray in what they share told by its number.
 int order(mesh_view mesh, const ray3& ray, const face_contact& a, const face_contact& b) {
     if (place_of(mesh, a) == place_of(mesh, b)) return 0;
     return compare(ray, a.contact, b.contact);
@@ -107,8 +107,8 @@ std::vector<mesh_hit> ray_query::all(const ray3& ray) const {
     for (std::size_t i = 0; i < found.size(); ++i) {
         hits.push_back(hit_of(found[i]));
         if (i == 0) continue;
-        // Rounded parameters follow the exact order: what moves to its neighbour's rounded one lies
-        // between that and its own exact one, so that it errs no more than the neighbour did.
+        // Rounded parameters follow the exact order: what moves to its neighbor's rounded one lies
+        // between that and its own exact one, so that it errs no more than the neighbor did.
         const double before = hits[i - 1].t;
         const bool same = order(mesh_, ray, found[i - 1], found[i]) == 0;
         hits[i].t = same ? before : std::max(before, hits[i].t);

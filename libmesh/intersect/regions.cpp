@@ -1,6 +1,6 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/union_find.hpp>
-#include <treeform/mesh/regions.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double most = std::numeric_limits<double>::max();  // trees have finite boxes
 
-/// Whether the ball is wide beside a coordinate of its centre.
-bool is_wide(const constructed_point& p) {
-    const point3& c = p.centre();
+/// Whether the ball is wide beside a coordinate of its center.
+bool is_wide(const implicit_point& p) {
+    const point3& c = p.center();
     return p.radius() > 0x1p-30 * std::min({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
 }
 
@@ -27,7 +27,7 @@ bool is_wide(const constructed_point& p) {
 /// of points far out along one axis most would be within most. These are rounded axis by axis.
 class enclosures {
   public:
-    explicit enclosures(std::span<const constructed_point> points) : points_(points) {
+    explicit enclosures(std::span<const implicit_point> points) : points_(points) {
         if (std::none_of(points.begin(), points.end(), is_wide)) return;
         rounded_.resize(points.size());
         for_chunks(points.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -37,14 +37,14 @@ class enclosures {
     }
 
     [[nodiscard]] aabb<double, 3> box(std::size_t i) const {
-        const constructed_point& p = points_[i];
+        const implicit_point& p = points_[i];
         const bool wide = is_wide(p);
-        const point3& centre = wide ? rounded_[i] : p.centre();
+        const point3& center = wide ? rounded_[i] : p.center();
         const double radius = wide ? 0.0 : p.radius();
         point3 low, high;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            low[axis] = std::nextafter(std::clamp(centre[axis] - radius, -most, most), -most);
-            high[axis] = std::nextafter(std::clamp(centre[axis] + radius, -most, most), most);
+            low[axis] = std::nextafter(std::clamp(center[axis] - radius, -most, most), -most);
+            high[axis] = std::nextafter(std::clamp(center[axis] + radius, -most, most), most);
         }
         aabb<double, 3> box;
         box.include(low);
@@ -60,14 +60,14 @@ class enclosures {
     }
 
   private:
-    std::span<const constructed_point> points_;
+    std::span<const implicit_point> points_;
     std::vector<point3> rounded_{};  // of those that are wide; none if none is
 };
 
 }  // namespace
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> equal_pairs(
-    std::span<const constructed_point> points) {
+    std::span<const implicit_point> points) {
     const enclosures about(points);
     std::vector<std::uint32_t> ids(points.size());
     std::iota(ids.begin(), ids.end(), 0U);

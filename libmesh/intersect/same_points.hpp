@@ -2,7 +2,7 @@
 /// \file
 /// Which constructed points are one point, whatever defines them.
 
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 
 #include <cstdint>
 #include <span>
@@ -15,6 +15,6 @@ namespace treeform::detail::intersect {
 /// balls overlap, which are equal nearly always.
 /// \same on any number of threads
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> equal_pairs(
-    std::span<const constructed_point> points);
+    std::span<const implicit_point> points);
 
 }  // namespace treeform::detail::intersect

@@ -1,6 +1,6 @@
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/checked_face_tree.hpp>
-#include <libmesh/base/face_tree.hpp>
 #include <libmesh/base/finite.hpp>
 #include <libmesh/base/first_bad.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
@@ -119,7 +119,7 @@ self_intersection_result self_intersections(const prepared_mesh& mesh,
     const mesh_view view = options.vertices == vertex_identity::by_coordinates
                                ? detail::weld::join_faces(mesh).of(mesh.view())
                                : mesh.view();
-    return find_pairs(view, face_tree(mesh), options);
+    return find_pairs(view, build_face_tree(mesh), options);
 }
 
 self_intersection_result detail::intersect::pairs_by_tree(

@@ -4,7 +4,7 @@
 /// faces name them.
 
 #include <libmesh/io/text.hpp>
-#include <treeform/mesh/corner_values.hpp>
+#include <treeform/mesh/attributes.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -26,7 +26,7 @@ struct ply_header {
     /// have their roles.
     std::vector<element> elements{};
     std::vector<std::string> texture_files{};
-    std::vector<std::string> comments{};  ///< but for the lines that name these
+    std::vector<std::string> comments{};  ///< except for the lines that name these
     std::vector<std::string> obj_info{};
     const char* body = nullptr;  ///< first byte after the header
 };

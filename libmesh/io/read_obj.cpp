@@ -84,7 +84,7 @@ class obj_reader {
     }
 
     [[nodiscard]] mesh_file take() {
-        store_colours();
+        store_colors();
         if (skipped_elements_ > 0)
             file_.warnings.push_back(
                 {"skipped-elements",
@@ -133,7 +133,7 @@ class obj_reader {
     }
 
     /// One more number is the weight of a rational curve's point, which is no coordinate; three or
-    /// more are a colour.
+    /// more are a color.
     void rest_of_vertex() {
         double more[3] = {};
         std::size_t count = 0;
@@ -142,9 +142,9 @@ class obj_reader {
             if (count < 3) more[count] = value;
         }
         if (count < 3) return;
-        has_colours_ = true;
-        if (colours_.size() == 3 * file_.mesh.points.size())
-            colours_.insert(colours_.end(), more, more + 3);
+        has_colors_ = true;
+        if (colors_.size() == 3 * file_.mesh.points.size())
+            colors_.insert(colors_.end(), more, more + 3);
     }
 
     void face_line() {
@@ -205,19 +205,19 @@ class obj_reader {
         new_part_ = false;
     }
 
-    void store_colours() {
-        if (!has_colours_) return;
+    void store_colors() {
+        if (!has_colors_) return;
         const std::size_t count = file_.mesh.points.size();
-        if (colours_.size() != 3 * count) {
+        if (colors_.size() != 3 * count) {
             file_.warnings.push_back(
-                {"vertex-colours", "only some vertices have a colour; none was kept"});
+                {"vertex-colors", "only some vertices have a color; none was kept"});
             return;
         }
         element& vertices = obtain_element(file_.attributes, "vertex", count);
         std::vector<double> channel(count);
         const char* const names[] = {"red", "green", "blue"};
         for (std::size_t c = 0; c < 3; ++c) {
-            for (std::size_t v = 0; v < count; ++v) channel[v] = colours_[3 * v + c];
+            for (std::size_t v = 0; v < count; ++v) channel[v] = colors_[3 * v + c];
             vertices.columns.push_back(make_column<double>(names[c], channel));
         }
     }
@@ -232,8 +232,8 @@ class obj_reader {
     bool new_part_ = false;
     std::size_t skipped_elements_ = 0;
     bool has_other_lines_ = false;  ///< than comments, vertices, faces, elements, names
-    bool has_colours_ = false;
-    std::vector<double> colours_{};  ///< [3 * vertices] as long as every vertex has one
+    bool has_colors_ = false;
+    std::vector<double> colors_{};  ///< [3 * vertices] as long as every vertex has one
 };
 
 }  // namespace

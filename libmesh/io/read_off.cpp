@@ -14,7 +14,7 @@ namespace {
 /// What the first word, [ST][C][N][4][n]OFF, says about a vertex.
 struct off_kind {
     bool texture = false;
-    bool colour = false;
+    bool color = false;
     bool normal = false;
     bool weight = false;     ///< a fourth, homogeneous coordinate
     bool dimension = false;  ///< the dimension stands in the file
@@ -60,7 +60,7 @@ class off_reader {
         for (std::size_t f = 0; f < face_count_; ++f) read_face();
         store_vertex_extras();
         if (faces_extra_.even)
-            store_columns("face", faces_extra_, colour_names(faces_extra_.width));
+            store_columns("face", faces_extra_, color_names(faces_extra_.width));
         else
             store_list();
         if (!text_.text_done())
@@ -81,7 +81,7 @@ class off_reader {
             return;
         }
         kind_.texture = take(word, "ST");
-        kind_.colour = take(word, "C");
+        kind_.color = take(word, "C");
         kind_.normal = take(word, "N");
         kind_.weight = take(word, "4");
         kind_.dimension = take(word, "n");
@@ -129,7 +129,7 @@ class off_reader {
             for (int i = 0; i < 3; ++i) normals_.values.push_back(next_number("a normal"));
         if (kind_.normal) normals_.end_row();
         read_extras(vertices_extra_);
-        const std::size_t least = (kind_.colour ? 3U : 0U) + (kind_.texture ? 2U : 0U);
+        const std::size_t least = (kind_.color ? 3U : 0U) + (kind_.texture ? 2U : 0U);
         if (vertices_extra_.width < least || (least == 0 && vertices_extra_.width > 0) ||
             !vertices_extra_.even)
             text_.fail("a vertex with other numbers than the first word of the file says");
@@ -164,8 +164,8 @@ class off_reader {
         text_.file.release_before(text_.at);
     }
 
-    [[nodiscard]] static std::vector<std::string> colour_names(std::size_t width) {
-        if (width == 1) return {"colour_index"};
+    [[nodiscard]] static std::vector<std::string> color_names(std::size_t width) {
+        if (width == 1) return {"color_index"};
         std::vector<std::string> names{"red", "green", "blue", "alpha"};
         for (std::size_t i = names.size(); i < width; ++i)
             names.push_back("number_" + std::to_string(i + 1));
@@ -177,12 +177,12 @@ class off_reader {
         if (kind_.normal) store_columns("vertex", normals_, {"nx", "ny", "nz"});
         const std::size_t texture = kind_.texture ? 2 : 0;
         if (vertices_extra_.width < texture) return;  // a file without vertices
-        std::vector<std::string> names = colour_names(vertices_extra_.width - texture);
+        std::vector<std::string> names = color_names(vertices_extra_.width - texture);
         if (kind_.texture) names.insert(names.end(), {"s", "t"});
         store_columns("vertex", vertices_extra_, names);
     }
 
-    /// One column for each number of a row; small whole numbers as bytes, as colours are.
+    /// One column for each number of a row; small whole numbers as bytes, as colors are.
     void store_columns(std::string_view name, const extra_numbers& extras,
                        const std::vector<std::string>& names) {
         if (extras.rows == 0 || names.empty()) return;
@@ -204,7 +204,7 @@ class off_reader {
     }
 
     void store_list() {
-        column c = make_column<double>("off_colour", faces_extra_.values);
+        column c = make_column<double>("off_color", faces_extra_.values);
         c.list_length = faces_extra_.widest < 256 ? scalar_type::uint8 : scalar_type::uint32;
         c.list_begin = std::move(faces_extra_.begin);
         obtain_element(file_.attributes, "face", faces_extra_.rows).columns.push_back(std::move(c));

@@ -59,7 +59,7 @@ void refuse_deep_tags(const source& in, std::string_view xml) {
     }
 }
 
-/// Braces, but for those in double quotes and, to the end of the line, behind a character of
+/// Braces, except for those in double quotes and, to the end of the line, behind a character of
 /// `comment` or two slashes, if that has one.
 void refuse_deep_braces(const source& in, std::string_view text, const std::string& comment) {
     std::size_t depth = 0;

@@ -1,5 +1,5 @@
 #include <libmesh/io/source.hpp>
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
 #include <fcntl.h>
 #include <sys/mman.h>

@@ -56,7 +56,7 @@ std::vector<const column*> scalar_columns(const mesh_file& file, std::string_vie
     return found;
 }
 
-std::vector<const column*> colour_columns(const mesh_file& file, std::string_view element_name) {
+std::vector<const column*> color_columns(const mesh_file& file, std::string_view element_name) {
     constexpr std::string_view names[] = {"red", "green", "blue", "alpha"};
     auto found = scalar_columns(file, element_name, names);
     return found.empty() ? scalar_columns(file, element_name, std::span(names).first(3)) : found;

@@ -1,5 +1,5 @@
 #include <libmesh/io/writers.hpp>
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -14,17 +14,17 @@ namespace treeform::detail::io {
 namespace {
 
 using json = nlohmann::ordered_json;
-using colour = std::array<double, 4>;
+using color = std::array<double, 4>;
 
-constexpr std::size_t most_colours = 256;
+constexpr std::size_t most_colors = 256;
 
-/// Triangles of one colour.
+/// Triangles of one color.
 struct primitive {
-    colour rgba{0.8, 0.8, 0.8, 1.0};
+    color rgba{0.8, 0.8, 0.8, 1.0};
     std::vector<std::uint32_t> triangles{};
 };
 
-/// glTF's factors are linear; colours in files are not. Rounded to what an eye can tell, so that
+/// glTF's factors are linear; colors in files are not. Rounded to what an eye can tell, so that
 /// the text does not depend on the last bit of std::pow.
 [[nodiscard]] double linear(double srgb) {
     const double x = std::clamp(srgb, 0.0, 1.0);
@@ -33,20 +33,20 @@ struct primitive {
 }
 
 /// By first appearance.
-[[nodiscard]] std::vector<primitive> by_colour(const write_job& job) {
+[[nodiscard]] std::vector<primitive> by_color(const write_job& job) {
     const mesh_file& file = job.file;
-    const auto columns = colour_columns(file, "face");
+    const auto columns = color_columns(file, "face");
     std::vector<primitive> primitives;
-    std::map<colour, std::size_t> number;
+    std::map<color, std::size_t> number;
     for (std::uint32_t f = 0; f < file.mesh.faces.size(); ++f) {
         primitive one;
         for (std::size_t c = 0; c < columns.size(); ++c)
-            one.rgba[c] = colour_value(*columns[c], face_row(file, f));
+            one.rgba[c] = color_value(*columns[c], face_row(file, f));
         const auto [at, added] = number.emplace(one.rgba, primitives.size());
         if (added) primitives.push_back(one);
-        if (primitives.size() > most_colours) {
+        if (primitives.size() > most_colors) {
             job.result.warnings.push_back(
-                {"colours-dropped", "more than 256 different colours of faces; none was written"});
+                {"colors-dropped", "more than 256 different colors of faces; none was written"});
             primitives.assign(1, {});
             for (std::uint32_t all = 0; all < file.mesh.faces.size(); ++all)
                 primitives[0].triangles.push_back(all);
@@ -67,16 +67,16 @@ struct primitive {
     return largest;
 }
 
-/// Columns of faces that glTF has a type for: whole numbers from 0 on. Colours have become
+/// Columns of faces that glTF has a type for: whole numbers from 0 on. Colors have become
 /// materials.
 [[nodiscard]] std::vector<const column*> numbers_of_faces(const mesh_file& file) {
     std::vector<const column*> numbers;
     const element* const faces = find_element(file.attributes, "face");
     if (faces == nullptr) return numbers;
-    const auto colours = colour_columns(file, "face");
+    const auto colors = color_columns(file, "face");
     for (const column& c : faces->columns) {
         if (c.role != column_role::data || c.list_length ||
-            std::find(colours.begin(), colours.end(), &c) != colours.end())
+            std::find(colors.begin(), colors.end(), &c) != colors.end())
             continue;
         bool fits = c.type != scalar_type::float32 && c.type != scalar_type::float64;
         for (std::size_t i = 0; fits && i < value_count(c); ++i) {
@@ -206,7 +206,7 @@ void write_glb(const write_job& job) {
     if (!mesh.faces.empty()) {
         const box b = box_of(mesh.points);
         offset = choose_offset(job, b);
-        primitives = by_colour(job);
+        primitives = by_color(job);
         numbers = numbers_of_faces(job.file);
         root = describe(primitives, job, numbers, b, offset);
     }

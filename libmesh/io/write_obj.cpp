@@ -7,15 +7,15 @@ namespace treeform::detail::io {
 namespace {
 
 void put_vertices(const write_job& job) {
-    auto colours = colour_columns(job.file, "vertex");
-    if (colours.size() == 4) colours.pop_back();
+    auto colors = color_columns(job.file, "vertex");
+    if (colors.size() == 4) colors.pop_back();
     const auto& points = job.file.mesh.points;
     for (std::size_t v = 0; v < points.size(); ++v) {
         job.out.put("v ");
         job.point(points[v]);
-        for (const column* c : colours) {
+        for (const column* c : colors) {
             job.out.put(' ');
-            job.out.number(colour_value(*c, v));
+            job.out.number(color_value(*c, v));
         }
         job.out.put('\n');
     }

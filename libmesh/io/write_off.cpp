@@ -7,14 +7,14 @@ namespace treeform::detail::io {
 
 namespace {
 
-/// True for the whole numbers that are written with neither point nor exponent, as far as colours
+/// True for the whole numbers that are written with neither point nor exponent, as far as colors
 /// and their like go; std::to_chars gives an exponent where that is shorter.
 [[nodiscard]] bool is_whole(double value) {
     return value == std::floor(value) && std::abs(value) < 1e5;
 }
 
 /// Values of a row. A point in the number says that it is not a whole one, which matters for
-/// colours: 1 is a 255th and 1.0 is full.
+/// colors: 1 is a 255th and 1.0 is full.
 void put_values(sink& out, const std::vector<const column*>& columns, std::size_t row) {
     for (const column* c : columns) {
         out.put(' ');
@@ -25,10 +25,10 @@ void put_values(sink& out, const std::vector<const column*>& columns, std::size_
 
 struct vertex_columns {
     std::vector<const column*> normal;
-    std::vector<const column*> colour;
+    std::vector<const column*> color;
     std::vector<const column*> texture;
 
-    explicit vertex_columns(const mesh_file& file) : colour(colour_columns(file, "vertex")) {
+    explicit vertex_columns(const mesh_file& file) : color(color_columns(file, "vertex")) {
         constexpr std::string_view normals[] = {"nx", "ny", "nz"};
         constexpr std::string_view textures[] = {"s", "t"};
         normal = scalar_columns(file, "vertex", normals);
@@ -36,13 +36,13 @@ struct vertex_columns {
     }
     [[nodiscard]] std::string word() const {
         std::string word = texture.empty() ? "" : "ST";
-        if (!colour.empty()) word += 'C';
+        if (!color.empty()) word += 'C';
         if (!normal.empty()) word += 'N';
         return word + "OFF\n";
     }
 };
 
-/// The list that `read_off` makes of colours that differ in kind from face to face.
+/// The list that `read_off` makes of colors that differ in kind from face to face.
 void put_list(sink& out, const column* list, std::size_t row) {
     if (list == nullptr || !list->list_length) return;
     for (std::uint64_t i = list->list_begin[row]; i < list->list_begin[row + 1]; ++i) {
@@ -65,24 +65,24 @@ void write_off(const write_job& job) {
     for (std::size_t v = 0; v < file.mesh.points.size(); ++v) {
         job.point(file.mesh.points[v]);
         put_values(out, columns.normal, v);
-        put_values(out, columns.colour, v);
+        put_values(out, columns.color, v);
         put_values(out, columns.texture, v);
         out.put('\n');
     }
     const element* face_element = find_element(file.attributes, "face");
     const column* list =
-        face_element == nullptr ? nullptr : find_column(*face_element, "off_colour");
-    constexpr std::string_view index_name[] = {"colour_index"};
-    auto colours = colour_columns(file, "face");
-    if (colours.empty()) colours = scalar_columns(file, "face", index_name);
+        face_element == nullptr ? nullptr : find_column(*face_element, "off_color");
+    constexpr std::string_view index_name[] = {"color_index"};
+    auto colors = color_columns(file, "face");
+    if (colors.empty()) colors = scalar_columns(file, "face", index_name);
     for_each_stored_face(file, [&](std::size_t first, std::span<const std::uint32_t> corners) {
         out.number(corners.size());
         for (const std::uint32_t corner : corners) {
             out.put(' ');
             out.number(corner);
         }
-        put_values(out, colours, face_row(file, first));
-        if (colours.empty()) put_list(out, list, face_row(file, first));
+        put_values(out, colors, face_row(file, first));
+        if (colors.empty()) put_list(out, list, face_row(file, first));
         out.put('\n');
     });
 }

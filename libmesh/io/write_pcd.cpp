@@ -31,15 +31,15 @@ struct field {
     return count <= most / row_size && lzf_most_packed(count * row_size) <= most;
 }
 
-/// A colour packed into a float is a whole number to those who read text, and stays one bit for
+/// A color packed into a float is a whole number to those who read text, and stays one bit for
 /// bit.
-[[nodiscard]] bool is_packed_colour(const column& c) {
+[[nodiscard]] bool is_packed_color(const column& c) {
     return c.role == column_role::data && c.type == scalar_type::float32 &&
            (c.name == "rgb" || c.name == "rgba");
 }
 
 [[nodiscard]] std::string type_and_size(const column& c, bool text) {
-    if (text && is_packed_colour(c)) return "U4";
+    if (text && is_packed_color(c)) return "U4";
     return with_type(c.type, []<class T>(T) {
         const char kind = std::is_floating_point_v<T> ? 'F' : std::is_signed_v<T> ? 'I' : 'U';
         return kind + std::to_string(sizeof(T));
@@ -175,7 +175,7 @@ class pcd_writer {
                 width = *columns;
                 height = *rows;
             } else {
-                job_.result.warnings.push_back({"organisation", "the points are no longer " +
+                job_.result.warnings.push_back({"organization", "the points are no longer " +
                                                                     std::string(*columns) + " by " +
                                                                     std::string(*rows)});
             }
@@ -215,7 +215,7 @@ class pcd_writer {
             return put_coordinate(out, c, job_.rounded(points[row][axis_number(c.role)]));
         const column& values = values_of(c, source);
         if (!is_text()) return put_bits<std::endian::little>(out, values, row);
-        if (!is_packed_colour(c)) return put_number(out, values, row);
+        if (!is_packed_color(c)) return put_number(out, values, row);
         std::uint32_t bits = 0;
         std::memcpy(&bits, values.values.data() + row * sizeof bits, sizeof bits);
         out.number(bits);

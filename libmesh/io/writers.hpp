@@ -148,11 +148,11 @@ void put_bits(sink& out, const column& c, std::size_t i) {
                                                         std::span<const std::string_view> names);
 
 /// Columns red, green, blue, and alpha where there is one.
-[[nodiscard]] std::vector<const column*> colour_columns(const mesh_file& file,
-                                                        std::string_view element);
+[[nodiscard]] std::vector<const column*> color_columns(const mesh_file& file,
+                                                       std::string_view element);
 
-/// A colour as a number from 0 to 1: whole numbers count 255ths, others are taken as they are.
-[[nodiscard]] inline double colour_value(const column& c, std::size_t row) {
+/// A color as a number from 0 to 1: whole numbers count 255ths, others are taken as they are.
+[[nodiscard]] inline double color_value(const column& c, std::size_t row) {
     const double value = number_at(c, row);
     return c.type < scalar_type::float32 ? value / 255.0 : value;
 }

@@ -2,7 +2,7 @@
 #include <libmesh/base/finite.hpp>
 #include <libmesh/geometry/based_triangle.hpp>
 #include <libmesh/geometry/closest_point.hpp>
-#include <treeform/mesh/closest_point_query.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/detail/morton_order.hpp>
 #include <treeform/tree/detail/near_query.hpp>
@@ -189,7 +189,8 @@ class closest_searcher {
     closest_searcher(const triangle_blocks& blocks, double unit) : blocks_(blocks), unit_(unit) {}
 
     /// `limit`: a distance, inclusive.
-    [[nodiscard]] std::optional<mesh_point> operator()(const point3& query, double limit) const {
+    [[nodiscard]] std::optional<closest_point_result> operator()(const point3& query,
+                                                                 double limit) const {
         if (blocks_.nodes->size() == 0) return std::nullopt;
         const point3 p = scaled(query, unit_);
         if (!(largest_of(p) < far_off)) return as_good_as_any(query, limit);
@@ -200,20 +201,21 @@ class closest_searcher {
         (blocks_, p, near_query<3>(blocks_.nodes->frame(), at, unit_), best);
         if (!best.found) return std::nullopt;
         const double per_unit = 1.0 / unit_;
-        return mesh_point{blocks_.nodes->ids()[best.place], std::sqrt(best.squared) * per_unit,
-                          scaled(blocks_.at(best.place).at(best.s, best.t), per_unit)};
+        return closest_point_result{blocks_.nodes->ids()[best.place],
+                                    std::sqrt(best.squared) * per_unit,
+                                    scaled(blocks_.at(best.place).at(best.s, best.t), per_unit)};
     }
 
   private:
-    [[nodiscard]] std::optional<mesh_point> as_good_as_any(const point3& query,
-                                                           double limit) const {
+    [[nodiscard]] std::optional<closest_point_result> as_good_as_any(const point3& query,
+                                                                     double limit) const {
         const auto ids = blocks_.nodes->ids();
         const auto lowest = std::min_element(ids.begin(), ids.end());
         const point3 p =
             scaled(blocks_.at(static_cast<std::size_t>(lowest - ids.begin())).corner, 1.0 / unit_);
         const double distance = distance_between(p, query);
         if (!(distance <= limit)) return std::nullopt;
-        return mesh_point{*lowest, distance, p};
+        return closest_point_result{*lowest, distance, p};
     }
 
     triangle_blocks blocks_;
@@ -266,14 +268,15 @@ closest_point_query::closest_point_query(mesh_view mesh) {
     });
 }
 
-std::optional<mesh_point> closest_point_query::nearest(const point3& query, double radius) const {
+std::optional<closest_point_result> closest_point_query::nearest(const point3& query,
+                                                                 double radius) const {
     detail::check_radius("treeform::closest_point_query", radius);
     detail::nearness::check_query(query, "the query");
     return detail::nearness::closest_searcher({&tree_, triangles_.data()}, unit_)(query, radius);
 }
 
-std::vector<std::optional<mesh_point>> closest_point_query::nearest(std::span<const point3> queries,
-                                                                    double radius) const {
+std::vector<std::optional<closest_point_result>> closest_point_query::nearest(
+    std::span<const point3> queries, double radius) const {
     detail::check_radius("treeform::closest_point_query", radius);
     for (std::size_t i = 0; i < queries.size(); ++i)
         detail::nearness::check_query(queries[i], "query " + std::to_string(i));
@@ -281,7 +284,7 @@ std::vector<std::optional<mesh_point>> closest_point_query::nearest(std::span<co
         detail::morton_order<3>(queries.size(), [&](std::size_t i) {
             return std::array<double, 3>{queries[i].x, queries[i].y, queries[i].z};
         });
-    std::vector<std::optional<mesh_point>> found(queries.size());
+    std::vector<std::optional<closest_point_result>> found(queries.size());
     const detail::nearness::closest_searcher search({&tree_, triangles_.data()}, unit_);
     for_chunks(
         order.size(), detail::nearness::queries_per_chunk,

@@ -3,12 +3,12 @@
 /// A mesh made ready to be asked about with others, many times and wherever it is moved: how far
 /// they are apart, and with `mesh_intersections` which of their faces meet.
 
-#include <libmesh/nearness/node_discs.hpp>
+#include <libmesh/nearness/bounding_cylinders.hpp>
 #include <libmesh/nearness/triangle_blocks.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
 #include <treeform/tree/detail/buffer.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/transform.hpp>
 #include <treeform/tree/tree.hpp>
 
@@ -38,7 +38,7 @@ struct mesh_distance_options {
 /// \throws std::invalid_argument when the radius is negative or NaN, a map not finite
 /// \same   on any number of threads; the same answer as that of the meshes with their trees, but
 ///         of meshes that meet another pair of faces may be named
-[[nodiscard]] TREEFORM_API std::optional<mesh_pair> mesh_distance(
+[[nodiscard]] TREEFORM_API std::optional<closest_points_result> mesh_distance(
     const distance_model& a, const distance_model& b, const mesh_distance_options& options = {});
 
 /// A tree over the F faces of a mesh, discs around what its nodes hold, and a copy of the
@@ -51,7 +51,7 @@ class TREEFORM_API distance_model {
     /// No face, near to nothing.
     distance_model() = default;
     /// Copies what it needs.
-    /// \throws std::invalid_argument naming the face with a corner that is no point or not finite
+    /// \throws std::invalid_argument naming the face with a corner out of range or not finite
     /// \same   on any number of threads
     explicit distance_model(mesh_view mesh);
 
@@ -59,14 +59,15 @@ class TREEFORM_API distance_model {
     [[nodiscard]] const tree<3>& faces_tree() const { return tree_; }
 
   private:
-    friend std::optional<mesh_pair> mesh_distance(const distance_model& a, const distance_model& b,
-                                                  const mesh_distance_options& options);
+    friend std::optional<closest_points_result> mesh_distance(const distance_model& a,
+                                                              const distance_model& b,
+                                                              const mesh_distance_options& options);
     friend mesh_intersection_result mesh_intersections(const distance_model& a,
                                                        const distance_model& b,
                                                        const mesh_intersection_options& options);
     tree<3> tree_;
     detail::buffer<detail::nearness::eight_triangles> triangles_;
-    detail::nearness::node_discs discs_;
+    detail::nearness::bounding_cylinders discs_;
 };
 
 }  // namespace treeform

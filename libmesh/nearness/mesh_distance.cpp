@@ -1,7 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/distance_model.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/detail/near_pair_walk.hpp>
 #include <treeform/tree/detail/squared_radius.hpp>
@@ -80,7 +80,7 @@ class placed_faces {
 };
 
 /// The nearest pair so far, and the direction between the points of the last pair looked at: of two
-/// that are further apart than the nearest, neighbours of theirs often are so along the same line.
+/// that are further apart than the nearest, neighbors of theirs often are so along the same line.
 struct nearest_so_far {
     double squared;
     bool found = false;
@@ -192,8 +192,9 @@ tree<3> tree_of(mesh_view mesh) {
     });
 }
 
-std::optional<mesh_pair> search(const placed_faces& a, const placed_faces& b,
-                                detail::pair_walk<3>& walk, double unit, double radius) {
+std::optional<closest_points_result> search(const placed_faces& a, const placed_faces& b,
+                                            detail::pair_walk<3>& walk, double unit,
+                                            double radius) {
     const nearest_so_far best = detail::walk_pairs(
         walk, nearest_so_far{detail::squared_limit(radius * unit)},
         [&](const detail::block_pair& blocks, nearest_so_far& mine, double limit) {
@@ -212,14 +213,15 @@ std::optional<mesh_pair> search(const placed_faces& a, const placed_faces& b,
     const auto back = [&](const point3& p) {
         return point3{p.x * per_unit, p.y * per_unit, p.z * per_unit};
     };
-    return mesh_pair{best.a, best.b, std::sqrt(best.squared) * per_unit, back(best.at.on_a),
-                     back(best.at.on_b)};
+    return closest_points_result{best.a, best.b, std::sqrt(best.squared) * per_unit,
+                                 back(best.at.on_a), back(best.at.on_b)};
 }
 
 }  // namespace
 
-std::optional<mesh_pair> mesh_distance(mesh_view a, const transformed<3>& tree_a, mesh_view b,
-                                       const transformed<3>& tree_b, double radius) {
+std::optional<closest_points_result> mesh_distance(mesh_view a, const transformed<3>& tree_a,
+                                                   mesh_view b, const transformed<3>& tree_b,
+                                                   double radius) {
     check_tree(a, tree_a);
     check_tree(b, tree_b);
     detail::check_radius("treeform::mesh_distance", radius);
@@ -229,7 +231,7 @@ std::optional<mesh_pair> mesh_distance(mesh_view a, const transformed<3>& tree_a
     return search({a, tree_a, unit}, {b, tree_b, unit}, walk, unit, radius);
 }
 
-std::optional<mesh_pair> mesh_distance(mesh_view a, mesh_view b, double radius) {
+std::optional<closest_points_result> mesh_distance(mesh_view a, mesh_view b, double radius) {
     const tree<3> tree_a = tree_of(a);
     const tree<3> tree_b = tree_of(b);
     return mesh_distance(a, tree_a, b, tree_b, radius);
@@ -240,8 +242,8 @@ distance_model::distance_model(mesh_view mesh)
       triangles_(detail::nearness::triangle_blocks(mesh, tree_)),
       discs_(tree_, triangles_) {}
 
-std::optional<mesh_pair> mesh_distance(const distance_model& a, const distance_model& b,
-                                       const mesh_distance_options& options) {
+std::optional<closest_points_result> mesh_distance(const distance_model& a, const distance_model& b,
+                                                   const mesh_distance_options& options) {
     detail::check_radius("treeform::mesh_distance", options.radius);
     const transformed<3> tree_a(a.tree_, options.move_a);
     const transformed<3> tree_b(b.tree_, options.move_b);

@@ -5,8 +5,8 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/align_steps.hpp>
 #include <treeform/mesh/align.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/closest_point_query.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

@@ -1,10 +1,9 @@
 #include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
-#include <treeform/mesh/bodies.hpp>
-#include <treeform/mesh/equal_points.hpp>
-#include <treeform/mesh/scene_parts.hpp>
-#include <treeform/mesh/select_faces.hpp>
-#include <treeform/mesh/validate.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/properties.hpp>
 
 #include <algorithm>
 #include <cmath>

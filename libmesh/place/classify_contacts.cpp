@@ -1,6 +1,6 @@
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/place/shape.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/search_pair.hpp>
@@ -86,7 +86,7 @@ contact_classes classify_contacts(const prepared_mesh& moving, std::span<const p
     const mesh_view there{at.points, here.faces};
     std::optional<tree<3>> own;
     if (!std::equal(here.points.begin(), here.points.end(), at.points.begin(), at.points.end()))
-        own = face_tree(there);
+        own = build_face_tree(there);
     const shape placed = own ? shape(moving, at.points, *own) : shape(moving);
     const auto box = detail::place::box_of_faces(there);
     contact_classes found{classes(here.faces.size()), std::vector<classes>(fixed.size())};

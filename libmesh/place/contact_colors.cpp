@@ -1,5 +1,5 @@
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/contact_colors.hpp>
+#include <treeform/mesh/placement.hpp>
 
 #include <algorithm>
 #include <array>

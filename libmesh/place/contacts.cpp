@@ -1,7 +1,7 @@
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/place/contacts.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <cmath>
 

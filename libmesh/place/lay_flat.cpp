@@ -6,8 +6,8 @@
 #include <libmesh/place/contacts.hpp>
 #include <libmesh/place/quickhull.hpp>
 #include <libmesh/place/shape.hpp>
-#include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/lay_flat.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <libmesh/place/shape.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/measure.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <span>

@@ -2,8 +2,8 @@
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/place/measure_of.hpp>
 #include <libmesh/place/relation_of.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/measure.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <limits>
 #include <optional>

@@ -1,12 +1,12 @@
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/sweep_among.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
-#include <treeform/tree/transformed.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -130,8 +130,8 @@ class clearing {
     }
 
     /// The nearest pair at the offset within the clearance, over all parts.
-    [[nodiscard]] std::optional<mesh_pair> nearest(const point3& offset) const {
-        std::optional<mesh_pair> best;
+    [[nodiscard]] std::optional<closest_points_result> nearest(const point3& offset) const {
+        std::optional<closest_points_result> best;
         const transformed<3> there(tree_, translation<3>(offset));
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             if (!boxes_within(i, offset)) continue;
@@ -168,7 +168,7 @@ class clearing {
             if (!mesh_intersections(a_, tree_, parts_[i].mesh(), parts_[i].faces(), crossing)
                      .pairs.empty())
                 return false;
-        const tree<3> faces = face_tree(there);
+        const tree<3> faces = build_face_tree(there);
         for (const std::size_t i : close)
             if (relation_of(shape(shape_.whose(), points, faces, parts_[i].vertices()), parts_[i],
                             asking_)
@@ -215,7 +215,7 @@ class clearing {
     [[nodiscard]] double slid_back(const point3& direction, double time, double occupied) {
         const std::vector<point3> points = points_at(scaled(direction, time));
         const mesh_view there{points, a_.faces};
-        const tree<3> faces = face_tree(there);
+        const tree<3> faces = build_face_tree(there);
         const auto back =
             sweep_among(shape(shape_.whose(), points, faces), parts_, scaled(direction, -1.0),
                         {.clearance = options_.clearance,

@@ -4,7 +4,7 @@
 
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/certificate.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <span>
@@ -46,7 +46,7 @@ struct moves_apart {
 ///
 /// \throws std::invalid_argument when the clearance is negative or not finite
 /// \cost   for each of some 50 directions up to a dozen `intersects` or `distance`, a
-///         `face_tree` of `a` and a `sweep_among`
+///         `build_face_tree` of `a` and a `sweep_among`
 /// \same   on any number of threads
 /// \source why the least translation is no target: Dobkin, Hershberger, Kirkpatrick and Suri,
 ///         Computing the Intersection-Depth of Polyhedra, Algorithmica 9 (1993)

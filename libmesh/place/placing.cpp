@@ -315,7 +315,7 @@ void placing::look_at_place() {
     const mesh_view there{result_.points, here.faces};
     const bool moved = !std::equal(here.points.begin(), here.points.end(), result_.points.begin());
     std::optional<tree<3>> own;
-    if (moved && !among_.empty()) own = face_tree(there);
+    if (moved && !among_.empty()) own = build_face_tree(there);
     const shape at = own ? shape(whose_, result_.points, *own, options_.vertices) : moving_;
     if (moved) {
         if (!among_.empty()) {

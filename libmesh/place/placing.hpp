@@ -8,7 +8,7 @@
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <limits>

@@ -1,8 +1,8 @@
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/place/plate.hpp>
 #include <libmesh/place/shape.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/distance.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -232,14 +232,14 @@ bool plate::put(std::uint32_t number, mesh_view mesh, unsigned turn, cell_place 
     const auto settle = [&](const point3& by) {
         resident one = this->at(number, part, by);
         if (!inside(one.box)) return false;
-        one.faces_tree = face_tree(one.mesh());
+        one.faces_tree = build_face_tree(one.mesh());
         if (!fits(one)) return false;
         raster_.take(cells_covered(one.mesh(), options_.corner.x, options_.corner.y, cell_));
         residents_.push_back(std::move(one));
         return true;
     };
     if (options_.tighten) {
-        const tree<3> faces_tree = face_tree(part.mesh());
+        const tree<3> faces_tree = build_face_tree(part.mesh());
         point3 tight = raster_place;
         slide(part, faces_tree, tight);
         // What rounding has brought too near is moved away again by units in the last place.

@@ -3,7 +3,6 @@
 /// A plate with parts on it, each checked against those that were there before.
 
 #include <libmesh/place/plate_raster.hpp>
-#include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/tree/tree.hpp>
@@ -46,7 +45,7 @@ class plate {
     [[nodiscard]] const plate_raster& raster() const { return raster_; }
     [[nodiscard]] std::uint64_t pairs_measured() const { return measured_; }
 
-    /// Puts the part at a place of the raster, or near it towards the corner of the plate. False,
+    /// Puts the part at a place of the raster, or near it toward the corner of the plate. False,
     /// and nothing is changed, when it would stick out or come too near to another part.
     bool put(std::uint32_t number, mesh_view part, unsigned turn, cell_place at);
 

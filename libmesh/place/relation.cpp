@@ -1,10 +1,10 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/relation_of.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/properties.hpp>
 
 #include <array>
 #include <cstddef>

@@ -3,8 +3,8 @@
 /// The relation of two meshes at the places where they are, or may come to be.
 
 #include <libmesh/place/shape.hpp>
-#include <treeform/mesh/relation.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/tree/parallel.hpp>
 
 namespace treeform::detail::place {
 

@@ -1,6 +1,6 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/union_find.hpp>
-#include <treeform/mesh/scene_parts.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
 #include <cstddef>
 #include <limits>

@@ -1,11 +1,11 @@
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/settle_among.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -100,7 +100,7 @@ class settling {
             if (!within(*box, *boxes_[i], options_.clearance)) continue;
             const auto go_on = [&](double) { return work_.step(0.0, 0.9, tries_, 4.0); };
             if (!go_on(0.0)) return;
-            if (!faces) faces = face_tree(there);
+            if (!faces) faces = build_face_tree(there);
             const shape moved(whose_, one.points, *faces, part.vertices());
             const mesh_relation how = relation_of(moved, part, go_on).relation;
             const bool near =

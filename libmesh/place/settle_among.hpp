@@ -4,10 +4,10 @@
 
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/relation.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -59,8 +59,8 @@ struct settled_among {
 /// \throws std::invalid_argument for a motion or time that is not finite, or a clearance that is
 ///         negative or NaN
 /// \throws std::overflow_error for coordinates that are not finite at the place
-/// \cost   a `face_tree` of `a` for each attempt, with `relation` and `distance` for the parts
-///         whose boxes are within the clearance of its box
+/// \cost   a `build_face_tree` of `a` for each attempt, with `relation` and `distance` for the
+///         parts whose boxes are within the clearance of its box
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API settled_among settle_among(const prepared_mesh& a,
                                                       std::span<const shape> parts,

@@ -2,8 +2,7 @@
 /// \file
 /// A mesh at some place, as the queries of this room take it.
 
-#include <libmesh/base/face_tree.hpp>
-#include <treeform/mesh/bounding_box.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/tree.hpp>
@@ -22,13 +21,15 @@ class shape {
     explicit shape(const prepared_mesh& mesh,
                    vertex_identity vertices = vertex_identity::by_coordinates)
         : whose_(&mesh), points_(mesh.view().points), vertices_(vertices) {}
-    /// `mesh` with its points `there`. \pre `faces` is `face_tree` of that
+    /// `mesh` with its points `there`. \pre `faces` is `build_face_tree` of that
     shape(const prepared_mesh& mesh, points_view there, const tree<3>& faces,
           vertex_identity vertices = vertex_identity::by_coordinates)
         : whose_(&mesh), points_(there), faces_(&faces), vertices_(vertices) {}
 
     [[nodiscard]] mesh_view mesh() const { return {points_, whose_->view().faces}; }
-    [[nodiscard]] const tree<3>& faces() const { return faces_ ? *faces_ : face_tree(*whose_); }
+    [[nodiscard]] const tree<3>& faces() const {
+        return faces_ ? *faces_ : build_face_tree(*whose_);
+    }
     /// The mesh with corners that are one vertex by one number.
     [[nodiscard]] mesh_view joined() const;
     /// Whether each edge has as many faces one way as the other (`find_open_edge`).
@@ -43,7 +44,7 @@ class shape {
     vertex_identity vertices_;
 };
 
-/// \throws std::invalid_argument naming the lowest face of `mesh` with a corner that is no point or
+/// \throws std::invalid_argument naming the lowest face of `mesh` with a corner out of range or
 ///         not finite; `function` is "slide", the message "treeform::slide: fixed 3: face 5 ..."
 void check_operand(const std::string& function, const std::string& operand, mesh_view mesh);
 

@@ -1,6 +1,4 @@
 #include <libmesh/place/placing.hpp>
-#include <treeform/mesh/mate.hpp>
-#include <treeform/mesh/separate.hpp>
 #include <treeform/mesh/slide.hpp>
 
 #include <stdexcept>

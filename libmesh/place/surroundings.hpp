@@ -3,10 +3,10 @@
 /// The fixed meshes: those that matter for a motion are indexed, no others.
 
 #include <libmesh/place/shape.hpp>
-#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/parallel.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <cstddef>

@@ -4,9 +4,9 @@
 
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/counters.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/place/impact_of.hpp>
 #include <libmesh/place/shape.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/tree/sweep.hpp>
 
 #include <algorithm>
@@ -133,8 +133,8 @@ impact time_of_impact(const prepared_mesh& a, const prepared_mesh& b, const poin
     detail::place::check_operand("time_of_impact", "a", a.view());
     detail::place::check_operand("time_of_impact", "b", b.view());
     detail::place::check_motion("time_of_impact", motion);
-    return detail::place::impact_of(a.view(), face_tree(a), b.view(), face_tree(b), motion,
-                                    options);
+    return detail::place::impact_of(a.view(), build_face_tree(a), b.view(), build_face_tree(b),
+                                    motion, options);
 }
 
 impact time_of_impact(mesh_view a, mesh_view b, const point3& motion,

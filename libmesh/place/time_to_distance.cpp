@@ -2,7 +2,7 @@
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/place/impact_of.hpp>
 #include <libmesh/place/shape.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/sweep.hpp>
 
@@ -140,8 +140,8 @@ approach time_to_distance(const prepared_mesh& a, const prepared_mesh& b, const 
     detail::place::check_operand("time_to_distance", "a", a.view());
     detail::place::check_operand("time_to_distance", "b", b.view());
     detail::place::check_motion("time_to_distance", motion);
-    return detail::place::approach_of(a.view(), face_tree(a), b.view(), face_tree(b), motion,
-                                      distance, options);
+    return detail::place::approach_of(a.view(), build_face_tree(a), b.view(), build_face_tree(b),
+                                      motion, distance, options);
 }
 
 approach time_to_distance(mesh_view a, mesh_view b, const point3& motion, double distance,

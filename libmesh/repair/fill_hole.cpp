@@ -160,14 +160,14 @@ std::vector<std::vector<std::uint32_t>> find_rims(std::span<const face> faces,
     };
     /// After the edge from v to u, the hole goes on along the first open edge around u.
     const auto next = [&](const rim_edge& e) -> rim_edge* {
-        std::uint32_t towards = e.from;
+        std::uint32_t toward = e.from;
         for (std::size_t steps = 0; steps <= faces.size(); ++steps) {
-            const std::uint32_t f = edges.face_along(e.to, towards);
+            const std::uint32_t f = edges.face_along(e.to, toward);
             if (f == directed_edges::none) return nullptr;
             const face& c = faces[f];
             const std::size_t i = c[0] == e.to ? 0 : c[1] == e.to ? 1 : 2;
-            towards = c[(i + 2) % 3];
-            if (!edges.has(e.to, towards)) return leaving(e.to, towards);
+            toward = c[(i + 2) % 3];
+            if (!edges.has(e.to, toward)) return leaving(e.to, toward);
         }
         return nullptr;
     };

@@ -4,11 +4,11 @@
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/repair/copies.hpp>
-#include <libmesh/repair/few_of_pairs.hpp>
 #include <libmesh/repair/fill_hole.hpp>
+#include <libmesh/repair/greedy_vertex_cover.hpp>
 #include <libmesh/repair/remove_faces.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/validate.hpp>
 
 #include <algorithm>
 #include <array>
@@ -274,7 +274,7 @@ class remover {
     /// Faces that meet are refilled, but those of closed parts that parts with a border pass
     /// through.
     void choose() {
-        const std::vector<std::uint8_t> few = few_of_pairs(pairs_, is_closed_);
+        const std::vector<std::uint8_t> few = greedy_vertex_cover(pairs_, is_closed_);
         for (std::size_t f = 0; f < few.size(); ++f) {
             if (few[f] == 0) continue;
             few_[f] = 1;

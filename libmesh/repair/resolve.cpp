@@ -1,6 +1,6 @@
 #include <libmesh/repair/remove_faces.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/resolve.hpp>
-#include <treeform/mesh/topology.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -11,7 +11,7 @@ namespace {
 struct named_face {
     face corners;  ///< ascending
     std::uint32_t number;
-    bool even;  ///< its own corners ascend but for a cyclic shift
+    bool even;  ///< its own corners ascend except for a cyclic shift
 };
 
 named_face name_of(const face& f, std::uint32_t number) {

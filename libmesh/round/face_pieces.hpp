@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A face cut at points that lie on it but for rounding.
+/// A face cut at points that lie on it except for rounding.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -18,14 +18,14 @@ namespace treeform::detail::round {
 class face_pieces {
   public:
     face_pieces(const face& whole, std::span<const point3> points);
-    /// Of several faces that lie in one plane but for rounding.
+    /// Of several faces that lie in one plane except for rounding.
     face_pieces(std::vector<face> faces, std::span<const point3> points);
 
     /// Puts points into the edge from `a` to `b`, in this order.
     void split_edge(std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> inner);
     /// Puts a point into the piece in which it seems to lie, if none has it yet.
     void split_inside(std::uint32_t p);
-    /// Exchanges diagonals towards Delaunay's triangles where that moves the surface by at most
+    /// Exchanges diagonals toward Delaunay's triangles where that moves the surface by at most
     /// `most`, but not the edges in `kept`, which are ascending, the lower end of each first. Bound
     /// of how far all of it has moved the surface.
     double flip(std::span<const std::array<std::uint32_t, 2>> kept, double most);

@@ -2,7 +2,7 @@
 /// \file
 /// How near is next to each other.
 
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <algorithm>
 #include <cmath>

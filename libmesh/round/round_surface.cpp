@@ -1,19 +1,19 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/base/at_once.hpp>
 #include <libmesh/base/compact.hpp>
 #include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/used_points.hpp>
-#include <libmesh/round/join_near.hpp>
 #include <libmesh/round/reach.hpp>
 #include <libmesh/round/round_surface.hpp>
+#include <libmesh/round/snap_nearby.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <libmesh/round/surface_faults.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/topology.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
@@ -113,7 +113,7 @@ class rounding {
     [[nodiscard]] point3 rounded_point(std::uint32_t p) const {
         const std::size_t given = exact_.given.size();
         if (p < given) return to_float32() ? to_single(exact_.given[p]) : exact_.given[p];
-        const constructed_point& made = exact_.constructed[p - given];
+        const implicit_point& made = exact_.constructed[p - given];
         return to_float32() ? rounded_to_float(made) : rounded(made);
     }
 
@@ -144,8 +144,8 @@ class rounding {
     [[nodiscard]] double move_of(std::uint32_t p, const point3& to, double known) const {
         const std::size_t given = exact_.given.size();
         if (p < given) return largest_difference(exact_.given[p], to);
-        const constructed_point& made = exact_.constructed[p - given];
-        const double most = largest_difference(made.centre(), to) + made.radius();
+        const implicit_point& made = exact_.constructed[p - given];
+        const double most = largest_difference(made.center(), to) + made.radius();
         if (!(most < std::numeric_limits<double>::infinity())) return most;
         const double bound = to_float32() ? most : std::min(most, half_unit(to));
         return bound <= known || !equal(made, to) ? bound : 0.0;
@@ -155,8 +155,8 @@ class rounding {
     /// then go: what is left of them runs back and forth. Whether there were any.
     bool join_equal(const std::vector<std::uint32_t>& points, std::vector<point3> at) {
         std::vector<std::uint32_t> new_of_old, point_of;
-        detail::base::at_once([&] { new_of_old.resize(point_of_.size()); },
-                              [&] { point_of.resize(points.size()); });
+        detail::base::parallel_invoke([&] { new_of_old.resize(point_of_.size()); },
+                                      [&] { point_of.resize(points.size()); });
         const auto equal = detail::weld::few_equal_points(at);
         for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -196,9 +196,9 @@ class rounding {
                 return !joined || detail::base::has_three_corners(renumbered(f));
             },
             [&](std::size_t count) {
-                detail::base::at_once([&] { now.faces.resize(count); },
-                                      [&] { face_of.resize(count); },
-                                      [&] { sound_.resize(exact_.sound.empty() ? 0 : count); });
+                detail::base::parallel_invoke(
+                    [&] { now.faces.resize(count); }, [&] { face_of.resize(count); },
+                    [&] { sound_.resize(exact_.sound.empty() ? 0 : count); });
             },
             [&](std::size_t f, std::size_t place) {
                 now.faces[place] = renumbered(f);
@@ -342,7 +342,7 @@ class rounding {
         constexpr int most_rounds = 8;
         detail::round::joined_near near;
         for (int round = 0; round < most_rounds && !only_cut_; ++round) {
-            near = detail::round::join_near(now, offending_, how);
+            near = detail::round::snap_nearby(now, offending_, how);
             bool more = false;
             const std::vector<face_pair> meeting =
                 self_intersections(near.surface, {.vertices = vertex_identity::by_index}).pairs;

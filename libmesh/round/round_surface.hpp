@@ -3,12 +3,12 @@
 /// From points that are known exactly to coordinates that can be written, with proof that nothing
 /// broke on the way.
 
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <array>
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace treeform {
 /// constructed ones.
 struct exact_surface {
     std::vector<point3> given;
-    std::vector<constructed_point> constructed;
+    std::vector<implicit_point> constructed;
     std::vector<face> faces;
     /// [F], or empty: 1 for faces that have been found, in the coordinates given, to have an area
     /// and to meet each other in common corners and edges only; their corners are given points. As
@@ -82,8 +82,7 @@ struct rounded_surface {
 ///         only; of a solid, they run along every edge as often one way as the other and have the
 ///         inside behind them
 /// \cost   as `self_intersections` of the faces to be checked and those near them; as
-/// `arrange_faces` and `find_cells` for each
-///         step, if any
+///         `arrange_faces` and `find_cells` for each step, if any
 /// \same   on any number of threads
 /// \source CGAL 6.1's iterative snap rounding has the same aim and ends in the same check; here
 ///         faces take the points next to them, and winding numbers decide what stays

@@ -1,6 +1,6 @@
-#include <libmesh/round/rounding_harm.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/rounding_effects.hpp>
+#include <libmesh/round/rounding_defects.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/placement.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -35,7 +35,7 @@ rounding_effects effects_of_rounding(const prepared_mesh& mesh, const transform<
         ((is_single && !was_single) || found.max_displacement > 1e-6 * (box ? diagonal(*box) : 0));
     const bool coarser = found.step > coordinate_step(moving.points, was_single);
     if (!coarser || !(found.max_displacement > 0.0) || mesh.is_cloud()) return found;
-    const rounding_harm harm = harm_of_rounding(moving, placed, options.progress);
+    const rounding_defects harm = find_rounding_defects(moving, placed, options.progress);
     found.compared = true;
     found.collapsed = harm.collapsed;
     found.meeting = harm.meeting;

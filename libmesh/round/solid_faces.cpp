@@ -1,5 +1,5 @@
-#include <libmesh/base/at_once.hpp>
 #include <libmesh/base/compact.hpp>
+#include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/round/solid_faces.hpp>
 
 #include <cstddef>
@@ -16,8 +16,8 @@ solid_faces faces_around(const mesh_arrangement& cut, const arrangement_cells& c
             return inside[front] != inside[behind];
         },
         [&](std::size_t count) {
-            base::at_once([&] { result.faces.resize(count); },
-                          [&] { result.face_of.resize(count); });
+            base::parallel_invoke([&] { result.faces.resize(count); },
+                                  [&] { result.face_of.resize(count); });
         },
         [&](std::size_t f, std::size_t place) {
             const auto [a, b, c] = cut.faces[f];

@@ -1,11 +1,11 @@
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/compact.hpp>
-#include <libmesh/base/face_tree.hpp>
 #include <libmesh/round/coarse_grid.hpp>
 #include <libmesh/round/near_edges.hpp>
 #include <libmesh/round/surface_faults.hpp>
 #include <libmesh/round/turned_faces.hpp>
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/validate.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search.hpp>
@@ -64,9 +64,9 @@ aabb<double, 3> box_of(points_view points, const face& f) {
 
 /// `doubted` and the faces whose boxes meet one of theirs, ascending: all others meet none of
 /// them, not even in a corner.
-ids with_neighbours(mesh_view surface, const ids& doubted, std::span<const std::uint8_t> sound) {
+ids with_neighbors(mesh_view surface, const ids& doubted, std::span<const std::uint8_t> sound) {
     const std::vector<face> asked = faces_of(surface, doubted);
-    const tree<3> tree = face_tree({surface.points, asked});
+    const tree<3> tree = build_face_tree({surface.points, asked});
     aabb<double, 3> reach;
     for (const face& f : asked) reach.include(box_of(surface.points, f));
     coarse_grid grid(reach);  // tells of nearly all faces
@@ -122,7 +122,7 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
     surface_faults result;
     if (doubted.empty()) return result;
     const ids near =
-        doubted.size() > count / 2 ? all_of(count) : with_neighbours(surface, doubted, check.sound);
+        doubted.size() > count / 2 ? all_of(count) : with_neighbors(surface, doubted, check.sound);
     const std::vector<face> faces = faces_of(surface, near);
     const mesh_view part{surface.points, faces};
     const self_intersection_result found = self_intersections(

@@ -4,7 +4,7 @@
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstdint>
 #include <limits>

@@ -1,6 +1,6 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/round/joint_geometry.hpp>
 #include <libmesh/round/turned_faces.hpp>
@@ -76,7 +76,7 @@ class near_parts {
         const std::vector<std::uint8_t> open = open_parts();
         std::vector<face> faces;
         for (const std::uint32_t f : near_) faces.push_back(surface_.faces[f]);
-        const tree<3> tree = face_tree({surface_.points, faces});
+        const tree<3> tree = build_face_tree({surface_.points, faces});
         return std::all_of(loose.begin(), loose.end(), [&](const auto& part) {
             const bool still = std::all_of(part.begin(), part.end(),
                                            [&](std::uint32_t i) { return sound_[near_[i]] != 0; });

@@ -2,8 +2,8 @@
 /// \file
 /// What is to be known after an interruption, as bytes that tell whether they are whole.
 
-#include <treeform/mesh/point.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
 #include <cstdint>

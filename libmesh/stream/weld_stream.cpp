@@ -1,6 +1,6 @@
 #include <libmesh/stream/tile_outputs.hpp>
 #include <libmesh/stream/tile_steps.hpp>
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tree/version.hpp>
 

@@ -1,4 +1,4 @@
-#include <treeform/mesh/select_faces.hpp>
+#include <treeform/mesh/properties.hpp>
 
 #include <cassert>
 #include <vector>

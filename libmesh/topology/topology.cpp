@@ -1,7 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/union_find.hpp>
-#include <treeform/mesh/topology.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 

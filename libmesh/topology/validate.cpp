@@ -1,7 +1,7 @@
 #include <libmesh/base/finite.hpp>
 #include <libmesh/exact/filter.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/validate.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

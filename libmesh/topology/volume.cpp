@@ -1,5 +1,5 @@
-#include <libmesh/base/twofold.hpp>
-#include <treeform/mesh/volume.hpp>
+#include <libmesh/base/double_double.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace treeform {
 
 double signed_volume(mesh_view mesh) {
     constexpr std::size_t grain = std::size_t{1} << 14;
-    std::vector<detail::base::twofold> parts(chunk_count(mesh.faces.size(), grain));
+    std::vector<detail::base::double_double> parts(chunk_count(mesh.faces.size(), grain));
     for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t f = begin; f < end; ++f) {
             const auto [p, q, r] = mesh.faces[f];
@@ -17,8 +17,8 @@ double signed_volume(mesh_view mesh) {
                        detail::base::determinant(mesh.points[p], mesh.points[q], mesh.points[r]);
         }
     });
-    detail::base::twofold all;
-    for (const detail::base::twofold& part : parts) all = all + part;
+    detail::base::double_double all;
+    for (const detail::base::double_double& part : parts) all = all + part;
     return all.high / 6.0;
 }
 

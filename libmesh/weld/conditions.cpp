@@ -1,5 +1,5 @@
 #include <libmesh/weld/conditions.hpp>
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

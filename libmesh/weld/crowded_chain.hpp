@@ -3,7 +3,7 @@
 /// One tile with the rule chain in memory that depends on the space it fills, not on its points.
 
 #include <libmesh/weld/tile_weld.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <memory>
 #include <span>

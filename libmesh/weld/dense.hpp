@@ -12,8 +12,7 @@ namespace treeform::detail::weld {
 /// The kept point that each point belongs to by `weld_rule::first`; empty when progress stopped it.
 ///
 /// \cost O(V) expected, as long as `may_merge` is nearly always true: at most some 40 points
-/// further
-///       apart than the tolerance fit a cube twice as wide
+///       further apart than the tolerance fit a cube twice as wide
 [[nodiscard]] std::vector<std::uint32_t> dense_leaders(points_view points,
                                                        const weld_options& options);
 

@@ -2,7 +2,7 @@
 /// \file
 /// The first of equal points.
 
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <cstdint>
 #include <span>

@@ -2,7 +2,7 @@
 #include <libmesh/weld/equal_firsts.hpp>
 #include <libmesh/weld/number_groups.hpp>
 #include <libmesh/weld/point_hash.hpp>
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -2,7 +2,7 @@
 /// \file
 /// Equal points among points that nearly all differ.
 
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh.hpp>
 
 #include <optional>

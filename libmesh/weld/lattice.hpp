@@ -4,7 +4,7 @@
 /// part in a thousand million, and so whether two are within a tolerance nearly always.
 
 #include <libmesh/base/finite.hpp>
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <algorithm>
 #include <array>

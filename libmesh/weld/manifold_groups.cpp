@@ -2,7 +2,7 @@
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/weld/edge_uses.hpp>
 #include <libmesh/weld/manifold_groups.hpp>
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 /// \file
 /// Points that come one by one, and those among them near a place.
 
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <algorithm>
 #include <array>

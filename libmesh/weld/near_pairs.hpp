@@ -4,8 +4,8 @@
 
 #include <libmesh/weld/lattice.hpp>
 #include <libmesh/weld/reach.hpp>
-#include <treeform/mesh/points.hpp>
-#include <treeform/tree/candidates.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 /// Which of the kept points within the tolerance a dropped one belongs to.
 
 #include <libmesh/weld/reach.hpp>
-#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <cstdint>
 

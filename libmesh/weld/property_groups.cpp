@@ -21,7 +21,7 @@ struct column_group {
 constexpr column_group groups[] = {
     {"normal", {"nx", "ny", "nz", "normal_x", "normal_y", "normal_z"}},
     {"uv", {"u", "v", "s", "t", "texture_u", "texture_v"}},
-    {"colour", {"red", "green", "blue", "alpha", "rgb", "rgba"}},
+    {"color", {"red", "green", "blue", "alpha", "rgb", "rgba"}},
     {"color", {"red", "green", "blue", "alpha", "rgb", "rgba"}},
 };
 

@@ -2,7 +2,7 @@
 /// \file
 /// Whether points are within one distance of each other, and which is nearer: exactly.
 
-#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 
 namespace treeform::detail::weld {

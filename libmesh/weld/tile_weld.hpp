@@ -33,9 +33,9 @@
 /// the lowest is known to no tile before; a tile names the points of components that may be larger,
 /// each with the lowest it knows of, and `chain_moves` measures when all are brought together.
 
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/weld.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 /// A vertex property as numbers that can be compared exactly.
 
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 
 #include <cstddef>

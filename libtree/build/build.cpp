@@ -1,4 +1,4 @@
-#include <libtree/build/sieve.hpp>
+#include <libtree/build/multiway_partition.hpp>
 #include <treeform/tree/detail/build_records.hpp>
 #include <treeform/tree/detail/node_bounds.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -75,9 +75,10 @@ void order_by_splits(const split_plan& plan, tree<D>& tree, build_memory& memory
     };
     const auto to = [&](const split_part& p) { return (p.round % 2 == 0 ? odd : even) + p.begin; };
     std::vector<split_part> parts{{0, plan.size, 0}};
-    for (; exceeds(parts, shared_split); parts = cut_above(plan, parts, shared_split, sieve_rounds))
+    for (; exceeds(parts, shared_split);
+         parts = cut_above(plan, parts, shared_split, partition_rounds))
         for (const split_part& part : parts)
-            if (part.count > shared_split) sieve(from(part), to(part), plan, part);
+            if (part.count > shared_split) multiway_partition(from(part), to(part), plan, part);
     cut_parts(
         plan, std::move(parts),
         [&](const split_part& part) {

@@ -35,9 +35,9 @@ hn::VFromD<floats> to_float(hn::VFromD<doubles> x, double origin, double scale) 
 ///   final center + half by u (m + margin) beyond what a larger half gains: together by less than
 ///   5.01 u m + 2 u margin.
 /// Seven units are 4.2e-7 m < 4.8e-7 m. Where m is so small that the product is flushed to 0, the
-/// errors are below the least normal float, 1.2e-38. Scaling is exact but for underflow, which that
-/// covers too. A clamped coordinate moves out to infinity: 4.8e-7 max is more than half an ulp of
-/// max; inward it stays finite, which is right since x lies further out.
+/// errors are below the least normal float, 1.2e-38. Scaling is exact except for underflow, which
+/// that covers too. A clamped coordinate moves out to infinity: 4.8e-7 max is more than half an ulp
+/// of max; inward it stays finite, which is right since x lies further out.
 hn::VFromD<floats> margin(hn::VFromD<floats> m) {
     const floats f;
     return hn::Add(hn::Mul(m, hn::Set(f, 4.8e-7F)), hn::Set(f, 1e-37F));

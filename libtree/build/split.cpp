@@ -279,7 +279,7 @@ moved_part places_of(const split_buffers& buffers, const split_part& part) {
                                : moved_part{odd + part.begin, even + part.begin};
 }
 
-/// A part of few records. `range` holds their centres; it is passed down, cut where the part was
+/// A part of few records. `range` holds their centers; it is passed down, cut where the part was
 /// cut, instead of being found anew: on the other axes it is then wider than need be.
 void split_few(const split_buffers& buffers, const split_plan& plan, const split_part& part,
                const center_range& range) {

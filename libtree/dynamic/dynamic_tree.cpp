@@ -83,14 +83,14 @@ struct boxes_by_id {
 
 /// The level of the nodes above the leaf blocks, if there is one.
 template <std::size_t D>
-unsigned dynamic_tree<D>::part::neighbourhood_level() const {
+unsigned dynamic_tree<D>::part::neighborhood_level() const {
     return boxes.levels() > 1 ? boxes.levels() - 2 : 0;
 }
 
 /// Limits decide what is cheap, not what is right: they are rounded as it comes.
 template <std::size_t D>
 void dynamic_tree<D>::part::set_limits() {
-    const std::span<const wide_node<D>> nodes = boxes.level(neighbourhood_level());
+    const std::span<const wide_node<D>> nodes = boxes.level(neighborhood_level());
     limits.resize(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const detail::node_bounds<D> bounds(nodes[i]);
@@ -110,7 +110,7 @@ void dynamic_tree<D>::part::set_limits() {
 
 template <std::size_t D>
 bool dynamic_tree<D>::part::may_hold(std::uint32_t place, const box_type& box) const {
-    return holds(limits[place / boxes.capacity(neighbourhood_level())], box);
+    return holds(limits[place / boxes.capacity(neighborhood_level())], box);
 }
 
 template <std::size_t D>

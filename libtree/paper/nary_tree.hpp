@@ -5,10 +5,10 @@
 /// Kept as a configuration beside the wide tree: for arities and leaf sizes that have no vector
 /// register, and to reproduce and compare the paper's figures.
 
+#include <libtree/paper/tree_config.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/tree_config.hpp>
 
 #include <algorithm>
 #include <concepts>

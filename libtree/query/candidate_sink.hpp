@@ -2,7 +2,7 @@
 /// \file
 /// From masks of overlapping slots to blocks of candidate pairs.
 
-#include <treeform/tree/candidates.hpp>
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Carrying boxes into the frame of a tree that counts as moved, against its move.
+/// Carrying boxes into the frame of a tree that is treated as transformed, against its move.
 
 #include <treeform/tree/detail/frame_map.hpp>
 #include <treeform/tree/transform.hpp>

@@ -1,5 +1,5 @@
 /// \file
-/// The walk through a tree towards a query. Included once for each target of Highway.
+/// The walk through a tree toward a query. Included once for each target of Highway.
 
 #if defined(TREEFORM_NEAR_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TREEFORM_NEAR_WALK_INL

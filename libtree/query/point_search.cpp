@@ -1,7 +1,7 @@
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/morton_order.hpp>
 #include <treeform/tree/detail/nearest_k.hpp>
 #include <treeform/tree/detail/squared_radius.hpp>
-#include <treeform/tree/neighbor.hpp>
 #include <treeform/tree/point_search.hpp>
 
 #include <algorithm>

@@ -35,7 +35,7 @@ const measured* row_of(const outcome& outcome, const std::string& name) {
     return nullptr;
 }
 
-/// Colours by name; methods of one colour get different shapes.
+/// Colors by name; methods of one color get different shapes.
 class dresser {
   public:
     [[nodiscard]] error_series dressed(const std::string& name) {

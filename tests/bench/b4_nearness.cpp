@@ -11,8 +11,8 @@
 #include "bench/peers/versions.hpp"
 #include "support/random.hpp"
 #include <libmesh/geometry/closest_point.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/closest_point_query.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/nearness.hpp>
 #include <treeform/tree/point_search.hpp>

@@ -5,7 +5,7 @@
 #include "bench/peers/cgal_self_intersections.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/workload.hpp"
-#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 
 #include <array>

@@ -5,9 +5,9 @@
 #include "bench/peers/cgal_corefinement.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/workload.hpp"
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <cmath>
 
@@ -20,7 +20,7 @@ struct two_solids {
     std::function<shared_mesh()> b;
 };
 
-/// About the centre of its box, about the box's shortest axis.
+/// About the center of its box, about the box's shortest axis.
 mesh turned(mesh m, double angle) {
     const box3 box = bounding_box(m.points).value();
     std::size_t axis = 0;
@@ -118,7 +118,9 @@ contest contest_of(const two_solids& solids, const std::string& suffix,
                      tree<3> of_a, of_b;
                      mesh copy;
                  };
-                 return make_job([=] { return answer{face_tree(*a), face_tree(*b), *made}; });
+                 return make_job([=] {
+                     return answer{build_face_tree(*a), build_face_tree(*b), *made};
+                 });
              }});
     contest.contestants.push_back(
         {cgal_name() + " EPICK", 1,

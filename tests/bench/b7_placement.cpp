@@ -7,11 +7,11 @@
 #include "bench/peers/versions.hpp"
 #include "bench/pose_askers.hpp"
 #include "bench/poses.hpp"
-#include <libmesh/base/face_tree.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
-#include <treeform/mesh/relation.hpp>
+#include <libmesh/base/build_face_tree.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/search.hpp>
@@ -49,7 +49,8 @@ make_asker own_from_arrays(pose_question question) {
         return [a = scene.a, b = scene.b, question](const transform<3>& pose) -> double {
             if (question == pose_question::collide)
                 return intersects(*a, *b, {.move_b = pose}) ? 1 : 0;
-            return mesh_distance(*a, face_tree(*a), *b, transformed<3>(face_tree(*b), pose))
+            return mesh_distance(*a, build_face_tree(*a), *b,
+                                 transformed<3>(build_face_tree(*b), pose))
                 .value()
                 .distance;
         };
@@ -113,8 +114,8 @@ struct prepared {
     prepared_mesh a, b;
 };
 
-/// From where the second mesh is towards the center of the first.
-point3 towards_first(const scene& scene, const transform<3>& pose) {
+/// From where the second mesh is toward the center of the first.
+point3 toward_first(const scene& scene, const transform<3>& pose) {
     const auto center = [](const mesh& m) {
         const box3 box = bounding_box(m.points).value();
         return point3{0.5 * (box.min.x + box.max.x), 0.5 * (box.min.y + box.max.y),
@@ -142,7 +143,7 @@ contest contact_beside_distance(const setting& setting, const scene_name& name) 
                                            std::size_t met = 0;
                                            for (const transform<3>& pose : p->given->apart)
                                                met += time_of_impact(p->b, p->a,
-                                                                     towards_first(*p->given, pose),
+                                                                     toward_first(*p->given, pose),
                                                                      {.move_a = pose})
                                                           .end == motion_end::contact;
                                            return met;
@@ -154,8 +155,8 @@ contest contact_beside_distance(const setting& setting, const scene_name& name) 
              return make_job([p] {
                  double sum = 0.0;
                  for (const transform<3>& pose : p->given->apart)
-                     sum += mesh_distance(*p->given->a, face_tree(p->a), *p->given->b,
-                                          transformed<3>(face_tree(p->b), pose))
+                     sum += mesh_distance(*p->given->a, build_face_tree(p->a), *p->given->b,
+                                          transformed<3>(build_face_tree(p->b), pose))
                                 .value()
                                 .distance;
                  return sum;

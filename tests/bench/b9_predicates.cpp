@@ -5,7 +5,7 @@
 #include "bench/triangle_askers.hpp"
 #include "bench/workload.hpp"
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <array>
 #include <string>

@@ -163,7 +163,7 @@ std::string svg(const heat_map& chart) {
         for (std::size_t c = 0; c < chart.columns.size(); ++c) {
             const double value = chart.values.at(r).at(c);
             if (!(value > 0)) continue;
-            // Never so strong that the text on it, in the colour of the page's text, is hard to
+            // Never so strong that the text on it, in the color of the page's text, is hard to
             // read.
             const double strength =
                 values.high > 0 ? 0.08 + 0.47 * std::abs(std::log(value)) / values.high : 0.08;

@@ -9,8 +9,8 @@
 
 namespace treeform::bench {
 
-/// Which colour stands for a contestant, 1 to 8, the same in all pictures; who is not known by name
-/// gets the colour of `otherwise`.
+/// Which color stands for a contestant, 1 to 8, the same in all pictures; who is not known by name
+/// gets the color of `otherwise`.
 [[nodiscard]] int tone_of(std::string_view who, std::size_t otherwise = 0);
 
 struct axis {
@@ -50,7 +50,7 @@ struct bar_chart {
     double line = 0.0;  ///< a value to compare with, drawn across; 0 for none
 };
 
-/// Values are shares of 1: above it one colour, below it another, the stronger the further off.
+/// Values are shares of 1: above it one color, below it another, the stronger the further off.
 struct heat_map {
     bench::caption caption;
     std::string x_label;

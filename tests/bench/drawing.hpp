@@ -22,7 +22,7 @@ inline constexpr double width = 760, left = 76, top = 80, bottom = 60;
 inline constexpr double plot_height = 300;
 inline constexpr double height = top + plot_height + bottom;
 
-/// Colours by class, not by variable: some viewers know no others.
+/// Colors by class, not by variable: some viewers know no others.
 inline constexpr std::string_view style =
     "text{font:13px system-ui,'DejaVu Sans',sans-serif;fill:#24292f}"
     ".title{font-size:15px;font-weight:600}.small{font-size:11px;fill:#57606a}"

@@ -6,8 +6,8 @@
 #include "bench/peers/cgal_pair_lists.hpp"
 #include "bench/peers/sign_triangles.hpp"
 #include "bench/peers/versions.hpp"
-#include <libmesh/base/face_tree.hpp>
-#include <treeform/mesh/bounding_box.hpp>
+#include <libmesh/base/build_face_tree.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/search_self.hpp>
@@ -56,11 +56,11 @@ pair_list own_pairs(const mesh& mesh) {
     return pairs;
 }
 
-/// As programs without exact arithmetic do it: neighbours are passed over, all others whose boxes
+/// As programs without exact arithmetic do it: neighbors are passed over, all others whose boxes
 /// meet are asked with a rounding test. The tree is treeform's.
 template <class Signs>
 pair_list rounded_pairs(const mesh& mesh, double eps) {
-    const tree<3> tree = face_tree(mesh);
+    const tree<3> tree = build_face_tree(mesh);
     const auto lists =
         search_self<pair_list>(tree, [&](pair_list& mine, std::uint32_t f, std::uint32_t g) {
             const face &a = mesh.faces[f], &b = mesh.faces[g];
@@ -206,7 +206,7 @@ section draw_self_intersection_errors(const std::vector<outcome>& outcomes,
             .table = table_of(outcomes, wrong),
             .remarks = {
                 "The naive and tolerance tests run on treeform's own tree, so that only verdicts "
-                "differ. As most programs do, they pass over neighbours, faces with a common "
+                "differ. As most programs do, they pass over neighbors, faces with a common "
                 "corner: where a surface folds back on itself or is pierced next to one, those "
                 "pairs are missed, which is what most of their errors on real models are. On "
                 "balls that nearly coincide the rest is rounding: corners 1e-12 beside a face are "

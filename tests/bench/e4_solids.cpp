@@ -9,7 +9,7 @@
 #include "bench/peers/versions.hpp"
 #include "bench/written_surface.hpp"
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/resolve.hpp>
 
 #include <fmt/core.h>

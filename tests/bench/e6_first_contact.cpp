@@ -8,7 +8,7 @@
 #include "bench/peers/versions.hpp"
 #include "bench/triangle_askers.hpp"
 #include <treeform/mesh/time_of_impact.hpp>
-#include <treeform/mesh/triangle_sweep.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <fmt/core.h>

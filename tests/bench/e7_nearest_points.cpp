@@ -1,10 +1,10 @@
 /// \file
-/// E7: the k nearest points: time against neighbours that are none, and pairs in the wrong order.
+/// E7: the k nearest points: time against neighbors that are none, and pairs in the wrong order.
 
 #include "bench/accuracy.hpp"
 #include "bench/peers/nanoflann_points.hpp"
 #include "bench/peers/versions.hpp"
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/point_search.hpp>
 
@@ -26,7 +26,7 @@ using points = std::vector<point3>;
 using answers = std::vector<std::uint32_t>;  // [Q * k]
 constexpr std::size_t k = 10;
 constexpr const char* missed_name = "not among the nearest";
-constexpr const char* order_name = "neighbours out of order";
+constexpr const char* order_name = "neighbors out of order";
 constexpr const char* excess_name = "largest excess";
 constexpr double no_ratio = 1e300;  // to a distance of 0
 
@@ -105,7 +105,7 @@ job job_of(const shared_clouds& given, const std::function<answers()>& ask) {
         return std::vector<figure>{{missed_name, all.missed},
                                    {order_name, all.order},
                                    {excess_name, all.excess},
-                                   {"neighbours judged", static_cast<double>(given->judged * k)}};
+                                   {"neighbors judged", static_cast<double>(given->judged * k)}};
     };
     return make_job(ask, no_error{}, figures);
 }
@@ -128,8 +128,8 @@ point3 point_of(cloud_kind kind, test::random& random) {
         case cloud_kind::uniform:
             break;
         case cloud_kind::clusters: {
-            const double centre = static_cast<double>(random.below(8));
-            return somewhere(centre, 1e-6);
+            const double center = static_cast<double>(random.below(8));
+            return somewhere(center, 1e-6);
         }
         case cloud_kind::lattice: {
             const auto step = [&] { return 0.1 * static_cast<double>(random.below(40)); };
@@ -218,7 +218,7 @@ section draw_nearest_point_errors(const std::vector<outcome>& outcomes,
         return [name](const outcome&, const measured& row) -> std::optional<double> {
             const auto wrong = figure_of(row, name);
             if (!wrong) return {};
-            return *wrong / figure_of(row, "neighbours judged").value_or(1);
+            return *wrong / figure_of(row, "neighbors judged").value_or(1);
         };
     };
     const auto chart = [&](const char* title, const char* label, const char* name) {
@@ -250,12 +250,12 @@ section draw_nearest_point_errors(const std::vector<outcome>& outcomes,
             "of point_search says so: a squared distance is right to 2^-50 of itself, and points "
             "whose squares differ by less are as near for it, the one with the lower number first. "
             "Such near ties hardly occur by chance; on a lattice of 0.1, whose points are rounded, "
-            "neighbours that ought to be as far differ in the last bits everywhere. A neighbour "
+            "neighbors that ought to be as far differ in the last bits everywhere. A neighbor "
             "that is wrong in double is wrong in that sense alone: the largest excess, by which "
             "the square of a distance is above the one that ought to stand in its place, is then "
             "below 1e-15. In float, points are rounded before anything is asked: offsets and small "
             "clusters lose all their differences, and what is given may be many times as far.",
-            "The first table adds up all clouds; the second has the neighbours that are none, by "
+            "The first table adds up all clouds; the second has the neighbors that are none, by "
             "cloud."}};
 }
 

@@ -5,9 +5,8 @@
 #include "bench/scaling_inputs.hpp"
 #include "bench/tool_run.hpp"
 #include "bench/workload.hpp"
-#include <libmesh/base/face_tree.hpp>
-#include <treeform/mesh/closest_point_query.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
+#include <libmesh/base/build_face_tree.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/tree/point_search.hpp>
 
 #include <fmt/core.h>
@@ -92,7 +91,7 @@ contest contest_of_library(std::size_t size) {
     return {.name = fmt::format("{}{}", library_prefix, size),
             .size = [=] { return size; },
             .contestants =
-                {of_ring("tree of faces", size, [](const mesh& m) { return face_tree(m); }),
+                {of_ring("tree of faces", size, [](const mesh& m) { return build_face_tree(m); }),
                  of_ring("10 nearest of each point", size,
                          [](const mesh& m) {
                              const point_search<3> search(m.points);
@@ -227,7 +226,7 @@ section draw_scaling(const std::vector<outcome>& outcomes, const std::string& ma
         .table = std::move(table),
         .remarks = {
             "tf-selfintersect reads two rippled rings that are linked and pass through each other, "
-            "in one mesh of n triangles, and writes it with its faces coloured; --repair cuts them "
+            "in one mesh of n triangles, and writes it with its faces colored; --repair cuts them "
             "and keeps the outside. tf-boolean union does the same to two meshes, tf-place slide "
             "moves one down onto the other, tf-place drop lets both down to the bed. tf-weld "
             "indexes a binary STL of n triangles and merges a cloud of n points, 30 % of them "

@@ -90,9 +90,9 @@ constexpr std::array sweeps{sweep{"angle", "angle of the planes", 0, -18, 1, til
 
 /// From easy to hard.
 std::vector<int> exponents_of(const sweep& sweep) {
-    const int towards = sweep.last < sweep.first ? -sweep.step : sweep.step;
+    const int toward = sweep.last < sweep.first ? -sweep.step : sweep.step;
     std::vector<int> exponents;
-    for (int e = sweep.first; e != sweep.last + towards; e += towards) exponents.push_back(e);
+    for (int e = sweep.first; e != sweep.last + toward; e += toward) exponents.push_back(e);
     return exponents;
 }
 
@@ -187,7 +187,7 @@ contest contest_of(const sweep& sweep, std::size_t count) {
     return contest;
 }
 
-/// Tolerances get the colours of peers that are not here.
+/// Tolerances get the colors of peers that are not here.
 int tone_in_chart(const std::string& who) {
     constexpr std::array<std::pair<std::string_view, int>, 3> tolerances{
         {{"1e-12", 2}, {"1e-09", 4}, {"1e-06", 5}}};

@@ -15,7 +15,7 @@ struct error_point {
     std::string setting{};  ///< in the dot's tooltip: a family, a tolerance
 };
 
-/// A method: dots of one colour and one shape.
+/// A method: dots of one color and one shape.
 struct error_series {
     std::string name;
     std::vector<error_point> points{};

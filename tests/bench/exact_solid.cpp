@@ -1,8 +1,8 @@
 #include "bench/exact_solid.hpp"
 
-#include <libmesh/exact/constructed_point.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/closest_point_query.hpp>
+#include <libmesh/exact/implicit_point.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <support/rational_volume.hpp>
 

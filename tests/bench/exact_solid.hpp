@@ -3,7 +3,7 @@
 /// What solids and set operations on them are before anything is rounded, and how far from it a
 /// surface is that was rounded.
 
-#include <treeform/mesh/expression.hpp>
+#include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
 
 #include <gmpxx.h>

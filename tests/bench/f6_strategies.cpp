@@ -6,13 +6,8 @@
 #include "bench/page.hpp"
 #include <libtree/paper/nary_tree.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/strategy/floyd_rivest.hpp>
-#include <treeform/tree/strategy/heap_select.hpp>
-#include <treeform/tree/strategy/median_of_3_random.hpp>
-#include <treeform/tree/strategy/median_of_medians.hpp>
-#include <treeform/tree/strategy/median_of_ninthers.hpp>
-#include <treeform/tree/strategy/nth_element.hpp>
-#include <treeform/tree/strategy/pdq_select.hpp>
+#include <treeform/tree/strategy/medians.hpp>
+#include <treeform/tree/strategy/select.hpp>
 
 #include <fmt/core.h>
 

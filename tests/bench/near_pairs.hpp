@@ -4,8 +4,8 @@
 
 #include "bench/workload.hpp"
 #include <libtree/paper/nary_tree.hpp>
-#include <treeform/mesh/points.hpp>
-#include <treeform/tree/candidates.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <cstddef>

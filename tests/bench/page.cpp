@@ -38,7 +38,7 @@ std::string html_table(const std::vector<std::vector<std::string>>& table) {
     return text + "</table></div>\n";
 }
 
-/// A series without values for each contestant; who has a colour of his own gets it first.
+/// A series without values for each contestant; who has a color of his own gets it first.
 std::vector<bar_series> series_of(const std::vector<measured>& rows) {
     std::array<bool, 9> used{};
     std::vector<bar_series> all;
@@ -166,7 +166,7 @@ std::vector<curve> curves_by_size(std::span<const outcome> outcomes) {
                 {static_cast<double>(outcome.size), *outcome.value(row.who, row.threads)});
         }
     for (curve& curve : curves) std::ranges::sort(curve.points);
-    // What would look the same but for its name gets dashes.
+    // What would look the same except for its name gets dashes.
     for (std::size_t i = 0; i < curves.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (curves[i].tone == curves[j].tone && curves[i].dashed == curves[j].dashed)

@@ -60,7 +60,7 @@ class page {
 [[nodiscard]] std::string compared(double own, double other);
 
 /// A group of bars for each contest whose name ends with `suffix`, a bar for each contestant, no
-/// two of one colour. All contests have the same contestants. With `base`, bars are multiples of
+/// two of one color. All contests have the same contestants. With `base`, bars are multiples of
 /// the time of the contestant of that name on one thread, which stands below the group.
 [[nodiscard]] bar_chart bars_by_contest(std::span<const outcome> outcomes,
                                         const std::string& suffix, const caption& caption,

@@ -2,12 +2,12 @@
 
 #include "bench/face_boxes.hpp"
 #include "bench/nary_nearness.hpp"
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/distance_model.hpp>
 #include <libtree/paper/nary_search.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/strategy/nearness_order.hpp>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct own_trees {
 
 std::shared_ptr<const own_trees> own_trees_of(const scene& scene) {
     return std::make_shared<const own_trees>(
-        own_trees{scene.a, scene.b, face_tree(*scene.a), face_tree(*scene.b)});
+        own_trees{scene.a, scene.b, build_face_tree(*scene.a), build_face_tree(*scene.b)});
 }
 
 struct paper_trees {
@@ -47,18 +47,18 @@ std::shared_ptr<const paper_trees> paper_trees_of(const scene& scene,
         paper_trees{scene.a, scene.b, tree_of(*scene.a), tree_of(*scene.b)});
 }
 
-/// The box around a box that is moved: its centre is moved, its half extents by the magnitudes.
+/// The box around a box that is moved: its center is moved, its half extents by the magnitudes.
 class box_mover {
   public:
     explicit box_mover(const transform<3>& pose) : pose_(pose) {}
 
     [[nodiscard]] box operator()(const box& given) const {
-        std::array<double, 3> centre, half;
+        std::array<double, 3> center, half;
         for (std::size_t k = 0; k < 3; ++k) {
-            centre[k] = 0.5 * (given.min[k] + given.max[k]);
+            center[k] = 0.5 * (given.min[k] + given.max[k]);
             half[k] = 0.5 * (given.max[k] - given.min[k]) + rounding;
         }
-        const auto moved = pose_(centre);
+        const auto moved = pose_(center);
         box result;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto& row = pose_.rows[k];

@@ -3,7 +3,7 @@
 /// The questions about poses by treeform, and by the paper's layout and searches.
 
 #include "bench/poses.hpp"
-#include <treeform/tree/tree_config.hpp>
+#include <libtree/paper/tree_config.hpp>
 
 #include <cstdint>
 #include <memory>

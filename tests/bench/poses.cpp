@@ -1,9 +1,9 @@
 #include "bench/poses.hpp"
 
 #include "support/random.hpp"
-#include <libmesh/base/face_tree.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
+#include <libmesh/base/build_face_tree.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <algorithm>
 #include <array>
@@ -57,7 +57,7 @@ transform<3> random_pose(test::random& random) {
 }
 
 void draw_poses(scene& scene, std::size_t count) {
-    const tree<3> tree_a = face_tree(*scene.a), tree_b = face_tree(*scene.b);
+    const tree<3> tree_a = build_face_tree(*scene.a), tree_b = build_face_tree(*scene.b);
     test::random random(1);
     while (scene.meeting.size() < count || scene.apart.size() < count) {
         const transform<3> pose = random_pose(random);

@@ -14,7 +14,7 @@
 
 namespace treeform::bench {
 
-/// Two models, each centred and scaled to the unit sphere, and positions of the second.
+/// Two models, each centered and scaled to the unit sphere, and positions of the second.
 struct scene {
     shared_mesh a;
     shared_mesh b;

@@ -159,7 +159,7 @@ mesh refined_once(const mesh& base, std::size_t triangles, test::random& random)
                   {point_of_edge[edges[0]], point_of_edge[edges[1]], point_of_edge[edges[2]]},
                   result.faces);
     }
-    constexpr int rounds = 6;  // moving a point back can make its neighbours meet
+    constexpr int rounds = 6;  // moving a point back can make its neighbors meet
     for (int round = 0; put_back(result, base.points.size(), middles, round + 2 >= rounds);)
         if (++round == rounds) throw std::runtime_error("a refined model intersects itself");
     return result;

@@ -6,7 +6,7 @@
 #include "bench/peers/sign_triangles.hpp"
 #include "support/stress_families.hpp"
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <cstddef>
 #include <functional>

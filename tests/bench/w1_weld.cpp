@@ -5,7 +5,7 @@
 #include "bench/peers/nanoflann_weld.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/weld_answers.hpp"
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 
 #include <fmt/core.h>
 

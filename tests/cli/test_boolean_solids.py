@@ -204,15 +204,15 @@ class Solids(BooleanTest):
         self.mesh("soup.stl", box((0, 0, 0), (2, 2, 2)))
         self.run_tool("--check", "soup.stl", status=0)
 
-    def ply(self, name, points, faces, colours):
-        """With a colour of each point, and the number of each face as its property id."""
+    def ply(self, name, points, faces, colors):
+        """With a color of each point, and the number of each face as its property id."""
         text = "ply\nformat ascii 1.0\nelement vertex %d\n" % len(points)
         text += "".join("property double %s\n" % axis for axis in "xyz")
         text += "".join("property uchar %s\n" % c for c in ("red", "green", "blue"))
         text += "".join("property float n%s\n" % axis for axis in "xyz")
         text += "element face %d\nproperty list uchar int vertex_indices\n" % len(faces)
         text += "property int id\nend_header\n"
-        for p, c in zip(points, colours):
+        for p, c in zip(points, colors):
             text += " ".join(map(repr, p)) + " %d %d %d 0 0 1\n" % c
         for i, f in enumerate(faces):
             text += "3 %d %d %d %d\n" % (*f, 100 + i)
@@ -228,7 +228,7 @@ class Solids(BooleanTest):
         vertices = entry["output"]["vertices"]
         inside = 0
         for x, y, z, red, green, blue, *normal in (map(float, row) for row in rows[:vertices]):
-            if (x, y, z) == (1, 1, 1):  # of the other, which has no colours
+            if (x, y, z) == (1, 1, 1):  # of the other, which has no colors
                 inside += 1
                 self.assertEqual((red, green, blue), (0, 0, 0))
                 self.assertEqual(sorted(normal), [0, 0, 1])  # of a face, which looks that way
@@ -293,7 +293,7 @@ class Solids(BooleanTest):
         entry = self.made("union", "a.obj", "right.obj", "--simplify", "--source", "from",
                           name="out.ply")
         self.assertEqual(entry["output"]["faces"], 20)
-        # Faces with values of their own stay apart, but for --no-attributes.
+        # Faces with values of their own stay apart, except for --no-attributes.
         points, faces = box((0, 0, 0), (2, 2, 2))
         self.ply("a.ply", points, faces, [(0, 0, 0)] * 8)
         entry = self.made("union", "a.ply", "--simplify")

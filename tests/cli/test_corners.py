@@ -14,7 +14,7 @@ def affine(p):
 
 def textured_text(mesh, normals=True, seam=None, head="", uv=affine, material=None):
     """Every face has a row a corner of its own in flat normals; texture rows are shared by points,
-    but for the faces `seam`, which are moved by 10."""
+    except for the faces `seam`, which are moved by 10."""
     points, faces = mesh
     lines = [head] if head else []
     lines += ["v %r %r %r" % p for p in points]
@@ -171,7 +171,7 @@ class Booleans(CornerTest):
                 n = mesh.vn[vn]
                 self.assertLess(abs(sum(x * x for x in n) - 1), 1e-14)
                 cut += abs(n[0]) < 0.55
-                # Along the line in which the point lies, but for the diagonal of the face.
+                # Along the line in which the point lies, except for the diagonal of the face.
                 self.assertGreater(sum(a * b for a, b in zip(n, mesh.normal(face))), 0.5)
         self.assertEqual(of_hole, sum(f[0][2] is None for f in mesh.faces))
         self.assertGreater(of_hole, 0)
@@ -259,13 +259,13 @@ class Booleans(CornerTest):
         bare = self.entry("difference", "a.obj", "bare.obj", "--simplify", "--no-attributes", "-o",
                           "g.obj", status=0)
         self.assertEqual(run["output"]["faces"], bare["output"]["faces"])
-        colours = {}
+        colors = {}
         mesh = self.parsed("f.obj")
         for face in mesh.faces:
             if face[0][1] is not None:
                 self.assertEqual(len({vt for _, vt, _ in face}), 1)
-                colours.setdefault(mesh.normal(face), set()).add(face[0][1])
-        self.assertEqual(sorted(len(c) for c in colours.values()), [1] * 6)
+                colors.setdefault(mesh.normal(face), set()).add(face[0][1])
+        self.assertEqual(sorted(len(c) for c in colors.values()), [1] * 6)
 
     def test_formats_without_corners_say_so(self):
         self.boxes()

@@ -82,7 +82,7 @@ class Clouds(PlaceTest):
         self.assertEqual([w["code"] for w in entry["warnings"]], ["non-finite"])
         self.assertEqual(self.rows("out.xyz")[1::2], [(1, 1, 1.75), (2, 3, 1)])
 
-    def test_points_are_coloured_by_what_they_meet(self):
+    def test_points_are_colored_by_what_they_meet(self):
         self.cloud("mixed.xyz", (1, 1, 0.5), (2, 2, 1), (3, 3, 1.25), (9, 9, 9))
         self.run_tool("measure", "mixed.xyz", "--fixed", "floor.obj", "--clearance", "0.5", "-o",
                       "out.ply", "--ascii", status=0)

@@ -15,7 +15,7 @@ class Colors(PlaceTest):
         self.mesh("in.obj", box((1, 1, 0.75), (2, 2, 1.75)))
 
     def classes(self, *arguments, scene=True):
-        """Of the 12 faces of MOVING and the 12 of the floor, after their colours were checked."""
+        """Of the 12 faces of MOVING and the 12 of the floor, after their colors were checked."""
         more = ["--scene"] if scene else []
         self.run_tool(*arguments, "--fixed", "floor.obj", "-o", "out.ply", "--ascii", "-f", *more,
                       status=0)
@@ -62,7 +62,7 @@ class Colors(PlaceTest):
         self.assertEqual(moving[:2], [TOUCHING, TOUCHING])
         self.assertEqual(set(floor), {0})
 
-    def test_colours_of_its_own_stay_when_a_mesh_is_moved(self):
+    def test_colors_of_its_own_stay_when_a_mesh_is_moved(self):
         points, faces = box((1, 1, 5.5), (2, 2, 6.5))
         lines = ["ply", "format ascii 1.0", f"element vertex {len(points)}"]
         lines += [f"property double {name}" for name in "xyz"]
@@ -90,11 +90,11 @@ class Colors(PlaceTest):
                 if line.startswith("4 ")]
         self.assertEqual([int(row[-1]) for row in rows], [TOUCHING, 0] + 4 * [TOUCHING])
 
-    def test_on_the_bed_alone_nothing_is_coloured(self):
+    def test_on_the_bed_alone_nothing_is_colored(self):
         self.run_tool("drop", "a.obj", "-o", "out.ply", "--ascii", status=0)
         self.assertNotIn("red", self.read("out.ply"))
 
-    def test_a_glb_has_the_colours(self):
+    def test_a_glb_has_the_colors(self):
         self.run_tool("drop", "a.obj", "--fixed", "floor.obj", "--scene", "-o", "out.glb",
                       status=0)
         data = self.read_bytes("out.glb")

@@ -252,7 +252,7 @@ class Moves(PlaceTest):
             entry = self.entry("measure", at(z), "--fixed", "floor.obj", *clearance, status=0)
             self.assertEqual((entry["status"], entry["distance"]), (status, distance))
 
-    def test_measure_colours_the_faces(self):
+    def test_measure_colors_the_faces(self):
         self.run_tool("measure", "in.obj", "--fixed", "floor.obj", "-o", "out.ply", "--scene",
                       "--ascii", status=0)
         text = self.read("out.ply")

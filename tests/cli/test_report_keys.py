@@ -257,7 +257,7 @@ class Reports(PlaceTest):
                 (["cloud.ply", "-t", "0.2", "-o", "thin.ply", "--precision", "float", "--map",
                   "map.csv", "--removed", "gone.xyz"], 0),
                 (["cloud.ply", "-t", "0.2", "--same", "range=5", "--check"], 1),
-                (["cloud.ply", "-t", "20%", "--label", "group", "-o", "labelled.ply"], 0),
+                (["cloud.ply", "-t", "20%", "--label", "group", "-o", "labeled.ply"], 0),
                 (["cloud.ply", "-t", "0.2", "-n", "--tile-points", "2"], 0),
                 (["cube.stl", "cube.obj", "--join", "--keep-manifold", "-o", "all.obj"], 0),
                 (["cube.stl", "missing.stl", "--check"], 3),

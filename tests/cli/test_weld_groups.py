@@ -62,10 +62,10 @@ class Groups(WeldTest):
         self.assertEqual(len(self.kept(points, "--same", "column_4=1,column_5")), 1)
         self.assertEqual(len(self.kept(points, "--same", "z,column_5=0")), 1)
 
-    def test_colours_of_a_cloud_do_not_keep_points_apart_unless_asked_for(self):
+    def test_colors_of_a_cloud_do_not_keep_points_apart_unless_asked_for(self):
         columns = XYZ + ["uchar red", "uchar green", "uchar blue"]
         self.write("in.ply", ply_text(columns, [(0, 0, 0, 255, 0, 0), (0, 0, 0, 0, 0, 255)]))
-        for options, count in (([], 1), (["--same", "colour"], 2), (["--same", "color=255"], 1),
+        for options, count in (([], 1), (["--same", "color"], 2), (["--same", "color=255"], 1),
                                (["--same", "red"], 2), (["--same", "green"], 1)):
             self.run_tool("in.ply", *options, "-o", "out.ply", "--ascii", "-f", status=0)
             self.assertEqual(len(self.ply_rows("out.ply")), count, msg=options)

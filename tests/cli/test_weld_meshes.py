@@ -56,7 +56,7 @@ class Meshes(WeldTest):
         self.write("in.ply", FOLDED)
         for options, kept in (([], 6), (["--across", "normal"], 4), (["--across", "nx,nz,ny"], 4),
                               (["--across", "nx"], 6), (["--same", "normal=0.5"], 6),
-                              (["--same", "normal=1"], 4), (["--across", "uv,colour"], 6)):
+                              (["--same", "normal=1"], 4), (["--across", "uv,color"], 6)):
             entry = self.entry("in.ply", *options, status=0)
             self.assertEqual(entry["points"]["out"], kept, msg=options)
         entry = self.entry("in.ply", status=0)

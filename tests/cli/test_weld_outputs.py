@@ -61,7 +61,7 @@ class Outputs(WeldTest):
         self.assertEqual([row[3] for row in self.ply_rows("out.ply")], ["0", "1", "0", "1", "2"])
         self.assertEqual([w["code"] for w in entry["warnings"]], ["replaced"])
 
-    def test_a_labelled_mesh_keeps_its_faces_and_polygons(self):
+    def test_a_labeled_mesh_keeps_its_faces_and_polygons(self):
         write(self.path("cube.obj"), together(cube(), ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)],
                                                        [(0, 1, 2, 3)])))
         entry = self.entry("cube.obj", "--label", "g", "-o", "out.ply", "--ascii", status=0)

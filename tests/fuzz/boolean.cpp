@@ -5,8 +5,8 @@
 #include "bytes.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/validate.hpp>
 #include <treeform/tf.hpp>
 
 #include <array>

@@ -4,7 +4,6 @@
 /// that are equal, on a line or in a plane, or off by an ulp.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/points.hpp>
 
 #include <bit>
 #include <cmath>

@@ -38,8 +38,8 @@ inline int read_any(const std::uint8_t* data, std::size_t size, const char* form
     return 0;
 }
 
-/// What is written of bytes that were read must be written of it again once it has been read; but
-/// for names with bytes that let a short text look like binary data.
+/// What is written of bytes that were read must be written of it again once it has been read;
+/// except for names with bytes that let a short text look like binary data.
 inline void check_round_trip(const std::uint8_t* data, std::size_t size,
                              const write_options& options) {
     const auto written = [&](std::span<const std::byte> bytes) {

@@ -3,9 +3,9 @@
 
 #include "bytes.hpp"
 #include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/resolve.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/validate.hpp>
 #include <treeform/tf.hpp>
 
 #include <stdexcept>

@@ -27,13 +27,9 @@ namespace {
 using tf::test::stress_family;
 
 constexpr std::array formats{"csv", "glb", "obj", "off", "pcd", "ply", "stl", "xyz"};
-constexpr std::array deciders{"predicates",
-                              "constructed_points",
-                              "triangle_triangle",
-                              "self_intersections",
-                              "boolean",
-                              "repair",
-                              "weld"};
+constexpr std::array deciders{
+    "predicates", "implicit_points", "triangle_triangle", "self_intersections", "boolean", "repair",
+    "weld"};
 
 void write(const std::filesystem::path& path, std::string_view content) {
     std::ofstream out(path, std::ios::binary);
@@ -101,7 +97,7 @@ std::string encoded(std::string_view target, tf::test::stress_stream& stream) {
     const auto first = stream.next();
     const auto second = stream.next();
     encoder to;
-    if (target == "constructed_points") {
+    if (target == "implicit_points") {
         to.byte(2);  // a line and a plane
         to.points(first.a);
         to.points(first.b);

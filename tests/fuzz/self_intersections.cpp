@@ -3,7 +3,7 @@
 
 #include "bytes.hpp"
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>

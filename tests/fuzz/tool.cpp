@@ -11,11 +11,11 @@
 #include "tool.hpp"
 
 #include "bytes.hpp"
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/validate.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

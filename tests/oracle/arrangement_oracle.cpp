@@ -5,7 +5,7 @@
 /// TREEFORM_STRESS_COUNT sets the number of meshes of each kind (default 12).
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -43,12 +43,12 @@ exact_point the_point(const Result& result) {
     return *p;
 }
 
-exact_point exact(const tf::constructed_point& p) {
-    using origin = tf::constructed_point::origin;
+exact_point exact(const tf::implicit_point& p) {
+    using origin = tf::implicit_point::origin;
     const auto& d = p.definition();
     switch (p.kind()) {
         case origin::given:
-            return exact(p.centre());
+            return exact(p.center());
         case origin::lines:
             return the_point(CGAL::intersection(kernel::Line_3(exact(d[0]), exact(d[1])),
                                                 kernel::Line_3(exact(d[2]), exact(d[3]))));
@@ -91,7 +91,7 @@ void check(const tf::mesh& mesh) {
     const auto result = tf::arrange_faces(mesh);
     const tf::mesh_arrangement& cut = result.cut;
     std::vector<exact_point> points;
-    std::vector<tf::constructed_point> all(cut.given_points.begin(), cut.given_points.end());
+    std::vector<tf::implicit_point> all(cut.given_points.begin(), cut.given_points.end());
     all.insert(all.end(), cut.constructed.begin(), cut.constructed.end());
     for (const auto& p : all) points.push_back(exact(p));
 
@@ -120,7 +120,7 @@ void check(const tf::mesh& mesh) {
             const auto end = [&](const tf::face& c, double sign) {
                 double most = -INFINITY;
                 for (const std::uint32_t v : c)
-                    most = std::max(most, sign * all[v].centre()[axis] + all[v].radius());
+                    most = std::max(most, sign * all[v].center()[axis] + all[v].radius());
                 return most;
             };
             if (end(f, 1.0) + end(g, -1.0) < 0.0 || end(g, 1.0) + end(f, -1.0) < 0.0) return true;

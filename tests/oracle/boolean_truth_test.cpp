@@ -3,8 +3,8 @@
 /// TRUTH_PAIRS.csv. Without TREEFORM_MODELS_DIR nothing is checked.
 
 #include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
-#include <treeform/mesh/volume.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/transform.hpp>
 
@@ -79,7 +79,7 @@ TEST_CASE("truth: every boolean of every pair of files has the volume of the exa
             const std::string truth = row.text(q.column);
             if (truth.empty() || truth == "nonmanifold") continue;
             // Moving the surface by m in each coordinate changes the volume by its area times
-            // sqrt(3) m at most, but for terms of m^2; the truth itself is cut to double.
+            // sqrt(3) m at most, except for terms of m^2; the truth itself is cut to double.
             const double volume = row.real(q.column);
             const double most =
                 2.0 * result.certificate.max_displacement * test::area(result.mesh) +

@@ -5,10 +5,10 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the faces of the largest file (default 3000).
 
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/equal_points.hpp>
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 

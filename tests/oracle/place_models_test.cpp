@@ -2,14 +2,14 @@
 /// Placements of real meshes: what has been placed penetrates nothing, and could not have been
 /// placed much further. Without TREEFORM_MODELS_DIR nothing is checked.
 
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/nearest_float.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/equal_points.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/read.hpp>
-#include <treeform/mesh/relation.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>
 
@@ -154,7 +154,7 @@ TEST_CASE("models: fifty parts on a plate keep their distance, and those left ou
         CHECK(left_out.empty() == (side == 600.0));
         CHECK(placed.size() >= 5);
         std::vector<tf::tree<3>> trees;
-        for (const tf::mesh& part : placed) trees.push_back(tf::face_tree(part));
+        for (const tf::mesh& part : placed) trees.push_back(tf::build_face_tree(part));
         for (std::size_t i = 0; i < placed.size(); ++i)
             for (std::size_t j = i + 1; j < placed.size(); ++j) {
                 const auto gap = tf::mesh_distance(placed[i], trees[i], placed[j], trees[j], 2.5);

@@ -3,11 +3,11 @@
 /// of TRUTH_PAIRS.csv, where the moved points are those that doubles give. Without
 /// TREEFORM_MODELS_DIR nothing is checked.
 
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/measure.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/transform.hpp>
@@ -58,7 +58,7 @@ TEST_CASE("truth: every distance of every pair of files is that of the exact ker
         CAPTURE(row.text("pair"));
         const tf::mesh a = read(folder / row.text("file_a"), row.map("matrix_a"));
         const tf::mesh b = read(folder / row.text("file_b"), row.map("matrix_b"));
-        const tf::tree<3> tree_a = tf::face_tree(a), tree_b = tf::face_tree(b);
+        const tf::tree<3> tree_a = tf::build_face_tree(a), tree_b = tf::build_face_tree(b);
         const auto found = tf::measure(a, b);
         REQUIRE(found.has_value());
 

@@ -3,12 +3,12 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the pairs of each family (default 5,000).
 
-#include <libmesh/base/face_tree.hpp>
-#include <treeform/mesh/equal_points.hpp>
+#include <libmesh/base/build_face_tree.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/ray_query.hpp>
-#include <treeform/mesh/ray_triangle.hpp>
+#include <treeform/mesh/raycast.hpp>
 #include <treeform/mesh/read.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -95,7 +95,7 @@ void check_points(const tf::mesh& mesh, std::uint64_t seed) {
     const surface in_cgal = exact_surface(mesh);
     REQUIRE(in_cgal.number_of_faces() == mesh.faces.size());
     const CGAL::Side_of_triangle_mesh<surface, kernel> side(in_cgal);
-    const auto tree = tf::face_tree(mesh);
+    const auto tree = tf::build_face_tree(mesh);
     const tf::point_locator locator(mesh, tree);
     tf::point3 low = mesh.points[0], high = low;
     for (const tf::point3& p : mesh.points)

@@ -4,15 +4,15 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the points whose winding is compared for each file (default 500).
 
-#include <libmesh/base/face_tree.hpp>
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/equal_points.hpp>
-#include <treeform/mesh/io_error.hpp>
+#include <libmesh/base/build_face_tree.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/resolve.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/validate.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -46,7 +46,8 @@ bool can_be_asked(const tf::mesh& mesh) {
 /// Random points of the box that the repaired surface has on the wrong side.
 std::size_t wrong_points(const tf::mesh& mesh, const tf::mesh& repaired) {
     test::random source(11);
-    const tf::tree<3> tree = tf::face_tree(mesh), repaired_tree = tf::face_tree(repaired);
+    const tf::tree<3> tree = tf::build_face_tree(mesh),
+                      repaired_tree = tf::build_face_tree(repaired);
     const tf::point_locator before(mesh, tree), after(repaired, repaired_tree);
     const tf::box3 box = tf::bounding_box(mesh.points).value();
     std::size_t wrong = 0;

@@ -4,7 +4,7 @@
 /// TREEFORM_STRESS_COUNT sets the pairs of each family (default 1100, of which some meet where they
 /// are and are passed over).
 
-#include <treeform/mesh/triangle_sweep.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

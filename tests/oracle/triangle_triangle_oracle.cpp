@@ -13,7 +13,7 @@
 #include "support/gmp_lattice.hpp"
 #include "support/stress_families.hpp"
 #include "support/unfiltered.hpp"
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

@@ -3,12 +3,11 @@
 /// points, topology and self-intersections. Without TREEFORM_MODELS_DIR nothing is checked.
 
 #include <libmesh/base/nearest_float.hpp>
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/topology.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
-#include <treeform/mesh/validate.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -5,8 +5,8 @@
 
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/volume.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

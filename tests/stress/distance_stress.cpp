@@ -3,11 +3,11 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the poses (default 3000).
 
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/distance_model.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/transform.hpp>
 
@@ -71,7 +71,7 @@ TEST_CASE("no pose has another distance than all pairs of faces give") {
         p = {bump * p.x, bump * p.y, 0.5 * bump * p.z};
     }
     const tf::mesh b = test::box(0.5, 1.5, 0.25);
-    const tf::tree<3> tree_a = tf::face_tree(a), tree_b = tf::face_tree(b);
+    const tf::tree<3> tree_a = tf::build_face_tree(a), tree_b = tf::build_face_tree(b);
     const tf::distance_model model_a(a), model_b(b);
     std::size_t meeting = 0;
     for (std::size_t i = 0; i < poses(); ++i) {

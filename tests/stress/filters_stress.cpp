@@ -8,10 +8,10 @@
 /// is 1.26e9 predicates and 1.05e8 pairs. That the integers are right is the matter of the oracle
 /// tests.
 
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

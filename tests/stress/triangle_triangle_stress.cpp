@@ -5,7 +5,7 @@
 /// Pairs a family: 2000, or $TREEFORM_STRESS_COUNT.
 
 #include "support/stress_families.hpp"
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -2,7 +2,7 @@
 /// \file
 /// The rules of welding as their definitions read: all pairs, one after the other.
 
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 
 #include <cstdint>

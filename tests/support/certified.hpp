@@ -6,8 +6,8 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/validate.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -2,7 +2,7 @@
 /// \file
 /// The predicates and what they mean in GMP's integers.
 
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/predicates.hpp>
 
 #include <gmpxx.h>

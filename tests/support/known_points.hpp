@@ -2,7 +2,7 @@
 /// \file
 /// Constructed points, and where they are in GMP's rationals.
 
-#include <libmesh/exact/constructed_point.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 
 #include <gmpxx.h>
 
@@ -35,7 +35,7 @@ inline rational_vector normal(const plane_points& p) {
 
 /// A point and where it is.
 struct known_point {
-    constructed_point point;
+    implicit_point point;
     rational_vector at;
 };
 
@@ -56,7 +56,7 @@ inline std::optional<known_point> lines(const point3& a, const point3& b, const 
     if (inner(minus(c, a), across) != 0) return {};
     for (std::size_t i = 0; i < 3; ++i)
         if (across[i] != 0)
-            return known_point{constructed_point::where_lines_cross(a, b, c, d),
+            return known_point{implicit_point::where_lines_cross(a, b, c, d),
                                along(a, b, from[i] / across[i])};
     return {};
 }
@@ -66,7 +66,7 @@ inline std::optional<known_point> line_plane(const point3& a, const point3& b,
     const rational_vector n = normal(p);
     const mpq_class under = inner(n, minus(b, a));
     if (under == 0) return {};
-    return known_point{constructed_point::where_line_meets(a, b, p),
+    return known_point{implicit_point::where_line_meets(a, b, p),
                        along(a, b, inner(n, minus(p.a, a)) / under)};
 }
 
@@ -80,7 +80,7 @@ inline std::optional<known_point> planes(const plane_points& p, const plane_poin
                     z = inner(k, rational(r.a));
     rational_vector at;
     for (std::size_t i = 0; i < 3; ++i) at[i] = (x * mk[i] + y * kn[i] + z * nm[i]) / under;
-    return known_point{constructed_point::where_planes_meet(p, q, r), at};
+    return known_point{implicit_point::where_planes_meet(p, q, r), at};
 }
 
 }  // namespace treeform::test

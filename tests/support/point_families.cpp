@@ -7,7 +7,7 @@
 namespace treeform::test {
 namespace {
 
-/// `x` without what a float does not hold, towards zero.
+/// `x` without what a float does not hold, toward zero.
 double truncated_to_float(double x) {
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & ~std::uint64_t{0x1fffffff});
 }

@@ -2,7 +2,7 @@
 /// \file
 /// Points that are hard to decide about: seeded streams of groups of points, a group for a call.
 
-#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <support/stress_families.hpp>
 

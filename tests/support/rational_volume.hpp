@@ -4,9 +4,9 @@
 
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/exact/constructed_point.hpp>
-#include <treeform/mesh/equal_points.hpp>
-#include <treeform/mesh/expression.hpp>
+#include <libmesh/exact/implicit_point.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 
@@ -40,15 +40,15 @@ inline rational_point meeting(const rational_point& p, const rational_point& q,
     return along(p, q, from / (from - to));
 }
 
-inline rational_point rational(const tf::constructed_point& p) {
-    using origin = tf::constructed_point::origin;
+inline rational_point rational(const tf::implicit_point& p) {
+    using origin = tf::implicit_point::origin;
     const auto at = [&](std::size_t i) { return rational(p.definition()[i]); };
     const auto plane_at = [&](std::size_t i) {
         return rational_plane(at(i), at(i + 1), at(i + 2));
     };
     switch (p.kind()) {
         case origin::given:
-            return rational(p.centre());
+            return rational(p.center());
         case origin::line_plane:
             return meeting(at(0), at(1), plane_at(2));
         case origin::lines: {

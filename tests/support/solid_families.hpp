@@ -2,7 +2,7 @@
 /// \file
 /// Solids whose set operations are hard to write down: kinds of trouble, each a seeded series.
 
-#include <treeform/mesh/expression.hpp>
+#include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 

@@ -9,7 +9,7 @@
 /// ones (a rotation, the same translations, a scale from 1e-30 to 1e30); of both, half are then
 /// rounded to float.
 
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <support/stress_random.hpp>
 
@@ -28,14 +28,14 @@ enum class stress_family : std::uint8_t {
     large_offsets,    ///< small shapes up to 1e15 away from the origin
     mixed_scales,     ///< one triangle 1e12 times the other's size
     extreme_range,    ///< denormals, 1e-150, 1e150, 1e300, zeros of either sign, side by side
-    fans,             ///< neighbours and others around a corner of up to 1e5 triangles
+    fans,             ///< neighbors and others around a corner of up to 1e5 triangles
     duplicates,       ///< copies, flipped copies, copies with a corner moved
-    one_ulp,          ///< neighbours on a sheet, one of them rotated by about one ulp
+    one_ulp,          ///< neighbors on a sheet, one of them rotated by about one ulp
     thin_shells,      ///< copies moved by 1 to 10 ulps
     pencils,          ///< planes through one line or point
     soup,             ///< random corners
     on_plane_by_ulp,  ///< corners put on the other's features, then moved by 0 or 1 ulp
-    broken_surfaces   ///< neighbours that do not fit, fold back or have few digits
+    broken_surfaces   ///< neighbors that do not fit, fold back or have few digits
 };
 inline constexpr std::size_t stress_family_count = 15;
 

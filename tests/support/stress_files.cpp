@@ -2,7 +2,7 @@
 
 #include "support/stress_meshes.hpp"
 #include "support/stress_placement.hpp"
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/write.hpp>
 
 #include <algorithm>

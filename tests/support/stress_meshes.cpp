@@ -2,7 +2,7 @@
 
 #include "support/stress_parts.hpp"
 #include "support/stress_placement.hpp"
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 
 #include <algorithm>
 #include <array>
@@ -298,7 +298,7 @@ mesh soup(std::size_t faces, random_source& random) {
     return made;
 }
 
-/// A sheet and over each of its faces another with corners in its plane, but for an ulp.
+/// A sheet and over each of its faces another with corners in its plane, except for an ulp.
 mesh on_plane_by_ulp(std::size_t faces, random_source& random) {
     mesh made = bumpy_sheet(root(std::max<std::size_t>(faces / 4, 1), 2), random);
     const mesh below = made;
@@ -311,7 +311,7 @@ mesh on_plane_by_ulp(std::size_t faces, random_source& random) {
 }
 
 /// A sheet as scans and careless programs leave it: faces missing, turned round, cut at an edge of
-/// a whole neighbour or written with few digits, and edges of three faces.
+/// a whole neighbor or written with few digits, and edges of three faces.
 mesh broken_surfaces(std::size_t faces, random_source& random) {
     const mesh whole = bumpy_sheet(root(std::max<std::size_t>(faces * 2 / 5, 1), 2), random);
     mesh made{whole.points, {}};

@@ -3,7 +3,7 @@
 /// What the families of hard pairs and of hard meshes are made of: points and triangles drawn in an
 /// order that the language fixes, by operations that every machine rounds alike.
 
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <support/stress_random.hpp>
 
@@ -87,9 +87,9 @@ inline point3 point_of(const triangle3& t, random_source& random) {
 inline point3 moved_by_ulps(point3 p, int ulps, random_source& random) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double towards = random.one_in(2) ? infinity : -infinity;
+        const double toward = random.one_in(2) ? infinity : -infinity;
         const auto steps = random.below(static_cast<std::uint64_t>(ulps) + 1);
-        for (std::uint64_t i = 0; i < steps; ++i) p[axis] = std::nextafter(p[axis], towards);
+        for (std::uint64_t i = 0; i < steps; ++i) p[axis] = std::nextafter(p[axis], toward);
     }
     return p;
 }

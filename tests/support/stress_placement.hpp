@@ -4,7 +4,6 @@
 
 #include <libmesh/base/nearest_float.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/points.hpp>
 
 #include <support/stress_parts.hpp>
 

@@ -6,7 +6,7 @@
 
 #include <libmesh/exact/exact_sign.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle_triangle.hpp>
+#include <treeform/mesh/triangle.hpp>
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ inline int integer_orient2d(int axis, const point3& a, const point3& b, const po
                                                             detail::exact::projection(axis, c));
 }
 
-/// All that two proper triangles have in common, but for the order of the ends.
+/// All that two proper triangles have in common, except for the order of the ends.
 class unfiltered_contacts {
   public:
     /// None when one of the two is degenerate.

@@ -2,7 +2,7 @@
 /// \file
 /// Clouds that are hard to weld.
 
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <cmath>
@@ -88,7 +88,7 @@ inline std::vector<weld_family> weld_families(std::uint64_t seed, std::size_t co
             {"copies", copies(0.0), 1e-3},
             {"copies, tiny tolerance", copies(0.0), 1e-18},
             {"soup", soup, 0.1},
-            {"soup, all neighbours", soup, 0.7},
+            {"soup, all neighbors", soup, 0.7},
             {"clusters", clustered, 1e-3},
             {"clusters, dissolved", clustered, 1e-7},
             {"line", line, 1.0},

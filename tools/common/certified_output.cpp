@@ -2,8 +2,8 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
-#include <libmesh/round/rounding_harm.hpp>
-#include <treeform/mesh/io_error.hpp>
+#include <libmesh/round/rounding_defects.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 
@@ -40,7 +40,7 @@ std::vector<std::array<std::array<double, 3>, 3>> sorted_corners(const tf::mesh&
     return all;
 }
 
-/// GLB is read by others, which renumber points, and has faces by colour. Builds without a reader
+/// GLB is read by others, which renumber points, and has faces by color. Builds without a reader
 /// for it have nothing to look with.
 void look_again_at_glb(const std::filesystem::path& path, const tf::mesh& surface) {
     if (!tf::reads_scenes()) return;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces and vertices in the colours of their classes.
+/// Faces and vertices in the colors of their classes.
 
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/tf.hpp>
@@ -10,7 +10,7 @@
 
 namespace tools {
 
-/// Gives each row of `element` the colour of its class, as the columns red, green and blue.
+/// Gives each row of `element` the color of its class, as the columns red, green and blue.
 ///
 /// \pre `classes` has one for each row, each of which has a color, "#rrggbb"
 void set_colors(tf::element& element, std::span<const std::uint8_t> classes,

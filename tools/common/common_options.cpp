@@ -3,7 +3,7 @@
 #include "tools/common/exit_status.hpp"
 #include "tools/common/file_names.hpp"
 #include "tools/common/parse_value.hpp"
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 

@@ -4,7 +4,7 @@
 #include "tools/common/console.hpp"
 #include "tools/common/exit_status.hpp"
 #include <libmesh/intersect/curves.hpp>
-#include <treeform/mesh/curve_paths.hpp>
+#include <treeform/mesh/curves.hpp>
 #include <treeform/tf.hpp>
 
 #include <cstddef>

@@ -7,7 +7,7 @@
 
 namespace tools {
 
-void warn_of_folds(job& work, const tf::rounding_harm& harm, bool to_single) {
+void warn_of_folds(job& work, const tf::rounding_defects& harm, bool to_single) {
     std::string text;
     if (harm.collapsed > 0)
         text = counted(harm.collapsed, "face has", "faces have") + " no area any more";

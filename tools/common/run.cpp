@@ -1,7 +1,7 @@
 #include "tools/common/run.hpp"
 
 #include "tools/common/output_file.hpp"
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/version.hpp>

@@ -9,7 +9,7 @@
 #include "tools/common/guard.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <nlohmann/json.hpp>
 

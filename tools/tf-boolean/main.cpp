@@ -64,7 +64,7 @@ void add_what_to_give_back(command_line& line, boolean_settings& s, common_optio
                     s.source_given = true;
                 });
     line.flag(s.no_attributes, {"--no-attributes", "",
-                                "do not interpolate colours, normals, uv, others,\n"
+                                "do not interpolate colors, normals, uv, others,\n"
                                 "also of corners; no materials, no textures"});
     line.output(s.curves,
                 {"--curves", "FILE", "the lines along which the inputs meet, as OBJ or PLY"});

@@ -7,12 +7,11 @@
 #include "tools/common/output_file.hpp"
 #include "tools/tf-boolean/words.hpp"
 #include <libmesh/base/finite.hpp>
-#include <libmesh/round/rounding_harm.hpp>
+#include <libmesh/round/rounding_defects.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/topology.hpp>
-#include <treeform/mesh/volume.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>

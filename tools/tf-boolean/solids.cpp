@@ -4,9 +4,9 @@
 #include "tools/common/console.hpp"
 #include "tools/common/matrix_file.hpp"
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/bounding_box.hpp>
 #include <treeform/mesh/carry.hpp>
-#include <treeform/mesh/volume.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 
 #include "tools/common/run.hpp"
 #include "tools/tf-place/settings.hpp"
-#include <treeform/mesh/bodies.hpp>
-#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/placement.hpp>
 #include <treeform/tf.hpp>
 
 #include <memory>

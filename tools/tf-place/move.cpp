@@ -1,8 +1,6 @@
 #include "tools/tf-place/move.hpp"
 
 #include "tools/common/console.hpp"
-#include <treeform/mesh/mate.hpp>
-#include <treeform/mesh/separate.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>
 

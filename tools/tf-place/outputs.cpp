@@ -6,8 +6,8 @@
 #include "tools/common/scene_file.hpp"
 #include "tools/common/written_form.hpp"
 #include <treeform/mesh/carry.hpp>
-#include <treeform/mesh/contact_colors.hpp>
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 

@@ -3,7 +3,7 @@
 /// What a placement is written to: the report, the matrix, the mesh.
 
 #include "tools/tf-place/move.hpp"
-#include <treeform/mesh/rounding_effects.hpp>
+#include <treeform/mesh/placement.hpp>
 #include <treeform/tf.hpp>
 
 #include <filesystem>

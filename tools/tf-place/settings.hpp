@@ -6,8 +6,8 @@
 #include "tools/common/parse_value.hpp"
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/lay_flat.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>
-#include <treeform/mesh/point.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/transform.hpp>
 

@@ -51,7 +51,7 @@ void add_what_counts(command_line& line, tools::search_settings& s) {
     line.group("What counts");
     line.flag(s.touching, {"--touching", "",
                            "also count contact without crossing between faces\n"
-                           "that are not neighbours, and pairs with a\n"
+                           "that are not neighbors, and pairs with a\n"
                            "degenerate face",
                            "off"});
     line.flag(s.no_overlap,
@@ -86,7 +86,7 @@ void add_what_to_give_back(command_line& line, request& r, common_options& optio
     line.output(r.curves, {"--curves", "FILE", "intersection curves as OBJ or PLY lines"});
     line.output(options.html, {"--html", "FILE", "self-contained HTML page with a 3D view"});
     line.output(options.output, {"-o, --output", "FILE",
-                                 "the mesh with the faces coloured by kind, and its\n"
+                                 "the mesh with the faces colored by kind, and its\n"
                                  "properties tf_class and tf_region (PLY, GLB); the\n"
                                  "repaired mesh with --repair, and the face that each\n"
                                  "one lies in as property source_face (PLY)"});
@@ -127,7 +127,7 @@ const char* const epilogue =
     "(coplanar, common area), fold (common edge, coplanar, on one side of it),\n"
     "duplicate (same corners), touching (contact without crossing), degenerate (a\n"
     "face of the pair is a segment or a point). Degenerate pairs are counted apart:\n"
-    "the edges of such a face belong to its neighbours, which are looked at in their\n"
+    "the edges of such a face belong to its neighbors, which are looked at in their\n"
     "own right. Face and vertex numbers are those of the file, from 0; polygons are\n"
     "cut into a fan from their first corner.\n"
     "\n"

@@ -2,9 +2,9 @@
 #include "tools/common/console.hpp"
 #include "tools/tf-selfintersect/marks.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/equal_points.hpp>
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 

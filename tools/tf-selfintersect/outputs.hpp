@@ -20,7 +20,7 @@ void write_pairs(output_file& file, const findings& result);
 /// The curves as line segments: OBJ `v` and `l`, or PLY with an element `edge`.
 void write_curves(output_file& file, const findings& result, bool as_ply);
 
-/// The mesh of `file` with its faces coloured by the kind of pair they are in, and the properties
+/// The mesh of `file` with its faces colored by the kind of pair they are in, and the properties
 /// tf_class and tf_region. Enters what was written in `work.entry`.
 void write_marked(job& work, tf::mesh_file& file, const findings& result,
                   const std::filesystem::path& path);

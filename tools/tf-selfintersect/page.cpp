@@ -140,7 +140,7 @@ void write_page(output_file& file, const job& work, const findings& result,
     const std::string format = work.entry.value("format", std::string());
     contents.y_is_up = format.starts_with("obj") || format.starts_with("gl");
     contents.view_note = left_out(contents.scene);
-    contents.place_columns = {"region", "kinds", "pairs", "faces", "centre", "box", "components"};
+    contents.place_columns = {"region", "kinds", "pairs", "faces", "center", "box", "components"};
     contents.places = rows_of(result);
     if (result.regions.regions.size() > most_regions)
         contents.places_note = "The first " + grouped(most_regions) + " of " +

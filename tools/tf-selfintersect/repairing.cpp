@@ -4,11 +4,10 @@
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
 #include "tools/tf-selfintersect/words.hpp"
-#include <libmesh/round/rounding_harm.hpp>
+#include <libmesh/round/rounding_defects.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
-#include <treeform/mesh/topology.hpp>
-#include <treeform/mesh/volume.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
 
 #include <cmath>

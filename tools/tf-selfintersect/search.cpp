@@ -1,10 +1,8 @@
 #include "tools/tf-selfintersect/search.hpp"
 
-#include <treeform/mesh/equal_points.hpp>
-#include <treeform/mesh/faces_in_box.hpp>
-#include <treeform/mesh/select_faces.hpp>
-#include <treeform/mesh/topology.hpp>
-#include <treeform/mesh/validate.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 

@@ -4,9 +4,8 @@
 
 #include "tools/common/parse_value.hpp"
 #include "tools/common/run.hpp"
-#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/regions.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 

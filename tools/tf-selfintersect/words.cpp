@@ -65,7 +65,7 @@ void say_details(job& work, const findings& result) {
         const tf::intersection_region& region = result.regions.regions[id];
         out.info(work.name + ": region " + std::to_string(id) + ": " +
                  counted(region.pairs, "pair", "pairs") + ", " +
-                 counted(region.faces.size(), "face", "faces") + ", centre " +
+                 counted(region.faces.size(), "face", "faces") + ", center " +
                  in_words(center(region)) + ", box " + in_words(region.min) + " to " +
                  in_words(region.max));
     }

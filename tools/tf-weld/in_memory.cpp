@@ -4,7 +4,7 @@
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/welding.hpp"
 #include "tools/tf-weld/words.hpp"
-#include <treeform/mesh/join.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <stdexcept>
@@ -99,8 +99,8 @@ exit_status weld_in_memory(job& work, const weld_request& request, const std::st
         write_map(*map, w, map_is_csv(asked.map));
     }
     if (!asked.removed.empty() && !o.dry_run) write_removed(work, outputs, file, w, asked.removed);
-    const bool labelled = !asked.label.empty();
-    if (labelled)
+    const bool labeled = !asked.label.empty();
+    if (labeled)
         label(work, file, w, asked.label);
     else
         file = std::move(w.result.file);

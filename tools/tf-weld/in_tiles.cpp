@@ -4,7 +4,7 @@
 #include "tools/common/sha256.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/words.hpp"
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tf.hpp>
 

@@ -37,7 +37,7 @@ void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
                  "e.g. --same classification,nx=0.01"},
                 [&s](std::string_view text) { s.options.same = tools::parse_same(text); });
     line.option({"--across", "P,...",
-                 "mesh seams (normal, uv, colour) are kept unless\n"
+                 "mesh seams (normal, uv, color) are kept unless\n"
                  "named here, e.g. --across normal,uv"},
                 [&s](std::string_view text) { s.options.across = tools::parse_across(text); });
     line.flag(s.options.only_borders,
@@ -90,7 +90,7 @@ const char* const epilogue =
     "comparison is exact on the coordinates as read (--exact is accepted: always so).\n"
     "Points with a NaN or infinite coordinate are kept, and merge with nothing.\n"
     "\n"
-    "P is a property of the points, x, y, z, or normal, uv, colour for all columns of\n"
+    "P is a property of the points, x, y, z, or normal, uv, color for all columns of\n"
     "it. Further columns of an XYZ file are column_4, column_5, ... Kept points keep\n"
     "their order; indices and group numbers count from 0, with --join through all\n"
     "inputs. --join matches properties by name; where an input has none of that name,\n"

@@ -4,7 +4,7 @@
 #include "tools/tf-weld/in_memory.hpp"
 #include "tools/tf-weld/in_tiles.hpp"
 #include "tools/tf-weld/spooled_input.hpp"
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tf.hpp>

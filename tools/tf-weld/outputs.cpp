@@ -2,7 +2,7 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/folds.hpp"
-#include <treeform/mesh/io_error.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 
@@ -48,7 +48,7 @@ void warn_of_rounding(job& work, const tf::write_result& written,
 
 void look_for_folds(job& work, const tf::mesh& welded) {
     const std::vector<tf::point3> rounded = tf::in_single(welded.points);
-    const auto harm = tf::harm_of_rounding(welded, rounded, work.progress("rounding"));
+    const auto harm = tf::find_rounding_defects(welded, rounded, work.progress("rounding"));
     work.out.end_progress();
     work.keeper.check();
     warn_of_folds(work, harm, true);

@@ -4,7 +4,7 @@
 
 #include "tools/common/run.hpp"
 #include "tools/tf-weld/settings.hpp"
-#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>

@@ -45,7 +45,7 @@ std::string verdict(const welding& w, const weld_request& request) {
         text = grouped(w.removed()) + " of " + all + " would be merged, " + grouped(w.distinct()) +
                " would stay";
     else if (!request.outputs.label.empty())
-        text = all + " labelled, in " + counted(w.distinct(), "group", "groups");
+        text = all + " labeled, in " + counted(w.distinct(), "group", "groups");
     else
         text = grouped(w.removed()) + " of " + all + " merged, " + grouped(w.distinct()) + " kept";
     text += " (" + reach(w, request.settings);

@@ -19,7 +19,7 @@ using pair_list = std::vector<std::array<std::uint32_t, 2>>;
 class cgal_surface {
   public:
     virtual ~cgal_surface() = default;
-    /// What `PMP::self_intersections` finds, but for faces that are degenerate.
+    /// What `PMP::self_intersections` finds, except for faces that are degenerate.
     [[nodiscard]] virtual pair_list pairs() const = 0;
 };
 

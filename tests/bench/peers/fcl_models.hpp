@@ -18,7 +18,7 @@ enum class fcl_volume { aabb, obbrss, rss };
 /// Builds a BVHModel over the triangles of a mesh that is given.
 [[nodiscard]] job fcl_build(const mesh& mesh, fcl_volume volume);
 
-/// Two models that stay where they are but for the pose of the second.
+/// Two models that stay where they are except for the pose of the second.
 class fcl_pair {
   public:
     virtual ~fcl_pair() = default;

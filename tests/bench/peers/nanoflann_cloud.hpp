@@ -3,7 +3,7 @@
 /// nanoflann's tree over our points. For the sources of its peers alone: it includes all of
 /// nanoflann.
 
-#include <treeform/mesh/point.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <nanoflann.hpp>
 

@@ -2,7 +2,7 @@
 /// \file
 /// The kd-tree of nanoflann, over points in double.
 
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <cstddef>
 #include <cstdint>

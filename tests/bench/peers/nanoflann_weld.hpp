@@ -2,7 +2,7 @@
 /// \file
 /// Welding with the kd-tree of nanoflann, as its users write it.
 
-#include <treeform/mesh/points.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,6 @@
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/bodies.hpp>
-#include <treeform/mesh/contact_colors.hpp>
-#include <treeform/mesh/rounding_effects.hpp>
-#include <treeform/mesh/select_faces.hpp>
+#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

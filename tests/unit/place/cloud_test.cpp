@@ -1,15 +1,14 @@
 /// \file
 /// Clouds of points among meshes: related, measured, slid and settled like these.
 
-#include <libmesh/base/face_tree.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/point_faces.hpp>
-#include <treeform/mesh/closest_point_query.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/separate.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
-#include <treeform/mesh/triangle_sweep.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -52,7 +51,7 @@ tf::triangle3 triangle_of(const tf::mesh& mesh, std::size_t f) {
 
 /// By asking each point on its own.
 mesh_relation relation_by_points(const tf::mesh& points, const tf::mesh& solid) {
-    const tf::tree<3> tree = tf::face_tree(solid);
+    const tf::tree<3> tree = tf::build_face_tree(solid);
     const tf::point_locator locator(solid, tree);
     auto how = mesh_relation::separate;
     for (const tf::point3& p : points.points) {

@@ -1,5 +1,5 @@
-#include <treeform/mesh/mate.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

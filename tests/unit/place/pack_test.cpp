@@ -1,5 +1,5 @@
-#include <treeform/mesh/bounding_box.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>

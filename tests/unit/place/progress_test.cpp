@@ -10,8 +10,6 @@
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/pack.hpp>
-#include <treeform/mesh/relation.hpp>
-#include <treeform/mesh/separate.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>

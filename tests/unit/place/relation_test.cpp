@@ -1,5 +1,5 @@
+#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/mesh/relation.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -106,7 +106,7 @@ TEST_CASE("relation: what is refused is named") {
     tf::mesh bad = box(1, 1, 1);
     bad.faces[3][1] = 99;
     CHECK_THROWS_WITH_AS(static_cast<void>(tf::relation(box(1, 1, 1), bad)),
-                         "treeform::relation: b: face 3 has a corner that is no point",
+                         "treeform::relation: b: face 3 has a corner out of range",
                          std::invalid_argument);
     bad = box(1, 1, 1);
     bad.points[bad.faces[2][0]].y = std::nan("");

@@ -1,4 +1,4 @@
-#include <treeform/mesh/scene_parts.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

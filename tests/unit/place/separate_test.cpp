@@ -1,8 +1,8 @@
 #include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/settle_among.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
-#include <treeform/mesh/relation.hpp>
-#include <treeform/mesh/separate.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

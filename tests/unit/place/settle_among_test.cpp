@@ -1,6 +1,6 @@
 #include <libmesh/place/settle_among.hpp>
 #include <libmesh/place/sweep_among.hpp>
-#include <treeform/mesh/mesh_distance.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
 

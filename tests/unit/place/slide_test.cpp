@@ -1,5 +1,5 @@
-#include <treeform/mesh/mesh_distance.hpp>
-#include <treeform/mesh/relation.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
@@ -228,7 +228,7 @@ TEST_CASE("slide and drop: what cannot be meant is refused, and named") {
     among.meshes[1].faces[5][2] = 77;
     CHECK_THROWS_WITH_AS(
         static_cast<void>(tf::slide(prepared_mesh::borrow(a), among.prepared, down)),
-        "treeform::slide: fixed 1: face 5 has a corner that is no point", std::invalid_argument);
+        "treeform::slide: fixed 1: face 5 has a corner out of range", std::invalid_argument);
     const tf::mesh huge = moved(a, {1e300, 0, 0});
     const auto out = tf::drop(huge, {.precision = tf::precision::float32});
     CHECK(out.status == tf::status::out_of_range);

@@ -1,5 +1,5 @@
-#include <libmesh/base/face_tree.hpp>
-#include <treeform/mesh/mesh_intersections.hpp>
+#include <libmesh/base/build_face_tree.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/build.hpp>

@@ -1,5 +1,5 @@
 #include <libmesh/weld/few_equal_points.hpp>
-#include <treeform/mesh/equal_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -134,9 +134,9 @@ TEST_CASE("join_equal_points: unused points and faces that come to repeat a corn
     CHECK(tf::join_equal_points({}) == tf::mesh{});
 }
 
-TEST_CASE("join_equal_points: a corner that is no point is refused by the number of its face") {
+TEST_CASE("join_equal_points: a corner out of range is refused by the number of its face") {
     const tf::mesh mesh{{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 2}, {7, 7, 7}}};
     CHECK_THROWS_WITH_AS((void)tf::join_equal_points(mesh),
-                         "treeform::join_equal_points: face 1 has a corner that is no point",
+                         "treeform::join_equal_points: face 1 has a corner out of range",
                          std::invalid_argument);
 }

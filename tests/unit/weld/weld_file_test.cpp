@@ -1,4 +1,4 @@
-#include <treeform/mesh/join.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/read.hpp>

@@ -1,6 +1,6 @@
 #include <libmesh/weld/manifold_groups.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
-#include <treeform/mesh/topology.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -13,7 +13,7 @@
 
 namespace tools {
 
-/// A colour of faces in the view, with its box in the legend. The first one is of plain faces.
+/// A color of faces in the view, with its box in the legend. The first one is of plain faces.
 struct face_kind {
     std::string name;
     std::string color;        ///< "#rrggbb"

@@ -1,6 +1,6 @@
 #include "tools/common/page/scene.hpp"
 
-#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>

@@ -4,10 +4,9 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/points.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
 
 #include <cstddef>
@@ -75,15 +74,14 @@ struct align_result {
 ///
 /// Nothing moving, or nothing fixed: the start, not converged.
 ///
-/// \throws std::invalid_argument naming a point that is not finite or a face with a corner that is
-///         no point, and for an option that is out of its range
+/// \throws std::invalid_argument naming a point that is not finite or a face with a corner out of
+///         range, and for an option that is out of its range
 /// \throws std::overflow_error where the matrix, a point as written, or some square of a distance
-/// in about the
-///         diagonals of the fixed mesh, is beyond the range of doubles
+///         in about the diagonals of the fixed mesh, is beyond the range of doubles
 /// \cost   a `closest_point_query` of the fixed mesh, a search of all moving points at the start
 ///         and the end, and of the samples in each step
 /// \same   on any number of threads
-/// \source Chen and Medioni, Object Modelling by Registration of Multiple Range Images, IVC 10
+/// \source Chen and Medioni, Object Modeling by Registration of Multiple Range Images, IVC 10
 ///         (1992); Umeyama, Least-Squares Estimation of Transformation Parameters Between Two Point
 ///         Patterns, PAMI 13 (1991); trimming: Chetverikov, Stepanov and Krsek, IVC 23 (2005)
 [[nodiscard]] TREEFORM_API align_result align(points_view moving, mesh_view fixed,

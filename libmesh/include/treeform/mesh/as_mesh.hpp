@@ -1,12 +1,15 @@
 #pragma once
 /// \file
-/// The mesh of a file, ready for every operation.
+/// From files to meshes that are ready for every operation: usable faces, joined files, joined
+/// points.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace treeform {
@@ -40,5 +43,46 @@ struct usable_mesh {
 /// Leaves out the faces of `mesh` with a corner that is not finite or no vertex. [F] the number
 /// before of each face that stays; empty where all do.
 TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
+
+/// The points and faces of `files` one after the other, as one file of the first one's format.
+///
+/// Columns of "vertex" and "face" go together by name; those that some files do not have are
+/// filled up with NaN, 0 or empty lists there, and types widened until they hold every value.
+/// Corners keep their texture coordinates and normals, and their texture files. Other elements are
+/// left out (warning "left-out"). `names`, one a file, stand for the files in the warnings.
+///
+/// \throws std::invalid_argument when a column holds lists in one file and single values in
+///         another, no type holds all values, or names are not one a file; std::length_error for
+///         more points or triangles than 32-bit numbers can name
+/// \cost   O(size of all files)
+[[nodiscard]] TREEFORM_API mesh_file join(std::vector<mesh_file> files,
+                                          std::span<const std::string> names);
+
+struct equal_points {
+    std::vector<std::uint32_t> new_of_old;    ///< [V] the distinct point that each point is
+    std::vector<std::uint32_t> first_of_new;  ///< [U] lowest-numbered point of each, ascending
+};
+
+/// Finds the points whose coordinates are equal as doubles (-0 equals +0).
+///
+/// Distinct points are numbered in the order of their first appearance. Infinities equal
+/// themselves; points with a NaN coordinate equal nothing, not even themselves. However close
+/// they are, points that differ in one bit (other than that of -0) stay distinct.
+///
+/// \throws std::invalid_argument for more than 2^32 - 1 points
+/// \cost   O(V) expected time, also when all points are equal; about 12 bytes a point besides the
+///         result's `first_of_new`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API equal_points find_equal_points(points_view points);
+
+/// `mesh` with equal points joined: points in order of first appearance, each at the coordinates
+/// of its first bit for bit; faces in order, also those that now repeat a corner. Nothing is
+/// dropped, not even points that no face uses.
+///
+/// \throws std::invalid_argument for more than 2^32 - 1 points, or naming the lowest face with a
+///         corner out of range
+/// \cost   as `find_equal_points`, and O(F)
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API mesh join_equal_points(mesh_view mesh);
 
 }  // namespace treeform

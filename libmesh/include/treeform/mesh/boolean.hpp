@@ -3,19 +3,55 @@
 /// Set operations on solids bounded by triangle meshes.
 
 #include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/expression.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace treeform {
+
+/// A formula over operands a, b, c, ..., z (then aa, ab, ...): `+` or `|` union, `*` or `&`
+/// intersection, `-` difference, `^` exclusive or, and brackets. `*` and `&` bind tighter than the
+/// others, which go from left to right. Blanks and the case of letters do not matter.
+class TREEFORM_API boolean_expression {
+  public:
+    /// \throws std::invalid_argument naming the position, from 1, of what cannot be read or of an
+    ///         operand beyond `operand_count`
+    /// \cost   O(characters) time, however deep the brackets
+    boolean_expression(std::string_view text, std::size_t operand_count);
+
+    /// What lies in any of them; of no operands nothing, as all below.
+    [[nodiscard]] static boolean_expression union_of(std::size_t operand_count);
+    [[nodiscard]] static boolean_expression intersection_of(std::size_t operand_count);
+    /// The first without all others.
+    [[nodiscard]] static boolean_expression difference_of(std::size_t operand_count);
+    /// What lies in an odd number of them.
+    [[nodiscard]] static boolean_expression xor_of(std::size_t operand_count);
+
+    [[nodiscard]] std::size_t operand_count() const { return operand_count_; }
+
+    /// Its value for points that are in these operands and in no others.
+    /// \pre `in_operand` has a value for each operand
+    [[nodiscard]] bool operator()(std::span<const bool> in_operand) const;
+
+    /// Whether it is false for all points outside of that operand, whatever others they are in, as
+    /// far as going through it once tells: of `a-b` for a, of `a+b` for none.
+    [[nodiscard]] bool needs(std::size_t operand) const;
+
+  private:
+    boolean_expression(std::size_t operand_count, std::int32_t operation);
+
+    std::size_t operand_count_ = 0;
+    std::vector<std::int32_t> postfix_;  ///< operands as numbers from 0, operations below 0
+};
 
 /// What of an operand is solid: the points that its surface winds around how often?
 enum class fill_rule : std::uint8_t {
@@ -127,7 +163,7 @@ struct TREEFORM_API boolean_result {
 /// that every edge has two faces.
 ///
 /// \throws std::invalid_argument when the expression has another number of operands, or naming a
-///         face with a corner that is no point, or a corner with a coordinate that is not finite
+///         face with a corner out of range, or a corner with a coordinate that is not finite
 ///         or beyond 2^1000
 /// \cost   as `arrange_faces`, `find_cells` and `round_surface`; of two prepared operands
 ///         that bound solids cleanly and meet in a few places, little more than a copy of them

@@ -4,7 +4,7 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/transform.hpp>
 
 #include <cstdint>

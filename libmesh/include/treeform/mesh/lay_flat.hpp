@@ -7,8 +7,8 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
 
 #include <cstddef>
@@ -69,8 +69,8 @@ struct laid_flat {
 ///
 /// None when there is no side: fewer than three points, or all on a line.
 ///
-/// \throws std::invalid_argument naming a point that is not finite or a face with a corner that is
-///         no point; for a direction that is zero where one is needed; for options not
+/// \throws std::invalid_argument naming a point that is not finite or a face with a corner out of
+///         range; for a direction that is zero where one is needed; for options not
 ///         finite, and a negative tolerance
 /// \throws std::overflow_error for coordinates too large to be turned
 /// \cost   that of `convex_hull`

@@ -1,15 +1,44 @@
 #pragma once
 /// \file
-/// Triangle meshes: points and triples of their numbers.
+/// Points, triangle meshes, the views of them that algorithms take, and the box around them.
 
-#include <treeform/mesh/points.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace treeform {
+
+/// A point or vector of the plane.
+struct point2 {
+    double x = 0.0;
+    double y = 0.0;
+
+    [[nodiscard]] constexpr double operator[](std::size_t axis) const { return axis == 0 ? x : y; }
+    [[nodiscard]] constexpr double& operator[](std::size_t axis) { return axis == 0 ? x : y; }
+    friend constexpr bool operator==(const point2&, const point2&) = default;
+};
+
+/// A point or vector of space. Equality is that of doubles: -0 equals +0.
+struct point3 {
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+
+    [[nodiscard]] constexpr double operator[](std::size_t axis) const {
+        return axis == 0 ? x : axis == 1 ? y : z;
+    }
+    [[nodiscard]] constexpr double& operator[](std::size_t axis) {
+        return axis == 0 ? x : axis == 1 ? y : z;
+    }
+    friend constexpr bool operator==(const point3&, const point3&) = default;
+};
+
+using points_view = std::span<const point3>;  ///< [V]
 
 /// The corners of a triangle as numbers of points; counter-clockwise seen from outside.
 using face = std::array<std::uint32_t, 3>;
@@ -40,5 +69,20 @@ struct mesh {
     operator mesh_view() const { return {points, faces}; }  // NOLINT: meant to be implicit
     friend bool operator==(const mesh&, const mesh&) = default;
 };
+
+struct box3 {
+    point3 min;
+    point3 max;
+    friend bool operator==(const box3&, const box3&) = default;
+};
+
+/// The box of the points whose coordinates are all finite; none when there is no such point.
+///
+/// \cost O(V) time
+/// \same on any number of threads
+[[nodiscard]] TREEFORM_API std::optional<box3> bounding_box(points_view points);
+
+/// Length of the diagonal, rounded; the largest double where it would be infinite.
+[[nodiscard]] TREEFORM_API double diagonal(const box3& box);
 
 }  // namespace treeform

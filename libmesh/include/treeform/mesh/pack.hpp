@@ -5,8 +5,8 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
 
 #include <cstdint>
@@ -73,10 +73,10 @@ struct packing {
 /// take no room and are left where they are, placed; points that no face uses move along with their
 /// part and do not count.
 ///
-/// \throws std::invalid_argument naming the part with a corner that is no point or not finite, and
+/// \throws std::invalid_argument naming the part with a corner out of range or not finite, and
 ///         for options that are negative, NaN, or (except for the height) not finite
 /// \cost   for each part and turn its raster, O(F), and a few milliseconds to search a free place;
-///         for the place chosen a `face_tree` and some `distance` to each neighbor
+///         for the place chosen a `build_face_tree` and some `distance` to each neighbor
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API packing pack(std::span<const mesh_view> parts,
                                         const pack_options& options);

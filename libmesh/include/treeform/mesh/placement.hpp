@@ -1,23 +1,58 @@
 #pragma once
 /// \file
-/// Where a mesh goes: what `slide`, `drop`, `mate` and `separate` return.
+/// What placement verbs take and return.
 
 #include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/counters.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace treeform {
+
+struct rounding_options {
+    precision before = precision::float64;  ///< of the points that were moved
+    precision after = precision::float64;   ///< of what is written
+    progress_callback progress{};
+};
+
+struct rounding_effects {
+    double max_displacement = 0.0;  ///< largest change of a coordinate beside that of the move
+    double step = 0.0;  ///< between neighboring numbers, at the largest coordinate written
+    /// Where doubles have become float32, or a change is more than a millionth of the size.
+    bool noticeable = false;
+    bool compared = false;        ///< the faces were looked at, since steps are coarser than before
+    std::uint64_t collapsed = 0;  ///< faces that have no area any more
+    std::uint64_t meeting = 0;    ///< pairs of faces that meet, and did not
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
+
+    /// Of both together.
+    TREEFORM_API rounding_effects& operator+=(const rounding_effects& other);
+};
+
+/// Compares `placed` with the points of `moving` moved by `by`, and its faces there with those
+/// before where coordinates are coarser.
+///
+/// \throws std::invalid_argument for another number of points
+/// \cost   O(V); where coordinates are coarser, two `self_intersections` at most
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API rounding_effects
+effects_of_rounding(const prepared_mesh& moving, const transform<3>& by, points_view placed,
+                    const rounding_options& options = {});
+[[nodiscard]] TREEFORM_API rounding_effects
+effects_of_rounding(mesh_view moving, const transform<3>& by, points_view placed,
+                    const rounding_options& options = {});
 
 /// How a mesh lies to all that is fixed. Without a clearance the last two do not occur.
 enum class standing : std::uint8_t {
@@ -132,5 +167,65 @@ struct contact_classes {
 [[nodiscard]] TREEFORM_API contact_classes classify_contacts(const prepared_mesh& moving,
                                                              std::span<const prepared_mesh> fixed,
                                                              const placement& at);
+
+/// A file's mesh, or a part of it, or a cloud.
+struct file_body {
+    std::string name{};  ///< of the part; empty where the file has no other
+    /// [F] The triangle in the file's mesh, or the point of a cloud, of each face; empty: the same.
+    std::vector<std::uint32_t> triangle_of_face{};
+
+    [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {
+        return triangle_of_face.empty() ? f : triangle_of_face[f];
+    }
+    /// The number in the file.
+    [[nodiscard]] std::uint32_t stored_face(const mesh_file& file, std::uint32_t f) const {
+        const std::uint32_t t = triangle(f);
+        return file.stored_face.empty() ? t : file.stored_face[t];
+    }
+};
+
+struct file_bodies {
+    std::vector<file_body> bodies{};  ///< [B]; none when there is nothing to compute with
+    /// [B] Faces are finite triangles of the file; equal corners are one point, and only points
+    /// that faces use are there. Those of a cloud are its finite points.
+    std::vector<prepared_mesh> shapes{};
+    bool cloud = false;        ///< the file has no faces
+    std::size_t left_out = 0;  ///< its triangles, or points, with a coordinate that is not finite
+};
+
+/// All of `file` as one body.
+///
+/// \cost   O(V + F)
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API file_bodies whole_body(const mesh_file& file);
+
+/// The parts of `file` as `scene_parts` has them, each a body; the whole where it has one.
+[[nodiscard]] TREEFORM_API file_bodies bodies_of(const mesh_file& file);
+
+/// Gives the points of `file` that `body` stands for the places of `placed`, which is by the points
+/// of `shape`; all other points are moved by `matrix`, and rounded to float32 if asked for.
+TREEFORM_API void put_back(mesh_file& file, const file_body& body, const prepared_mesh& shape,
+                           points_view placed, const transform<3>& matrix, precision written_as);
+
+/// Rounds every point of the file to float32; how far a coordinate has moved at most.
+TREEFORM_API double round_to_float32(mesh_file& file);
+
+struct contact_color_options {
+    /// A picture: each triangle becomes a face of its own. Otherwise polygons stay, and have the
+    /// gravest class of their triangles.
+    bool split_polygons = false;
+    bool keep_colors = false;  ///< where the file has some
+};
+
+/// Gives the rows of the element "face" of `file` (of a cloud, "vertex") the property tf_class, a
+/// number of `contact_class`, and the colors red, green and blue: gray for none, red for
+/// penetrating, yellow for touching, cyan for near.
+///
+/// `classes` is by triangle of `file.mesh`, of a cloud by point.
+///
+/// \throws std::invalid_argument for another number of classes
+/// \cost   O(F)
+TREEFORM_API void color_contacts(mesh_file& file, std::span<const contact_class> classes,
+                                 const contact_color_options& options = {});
 
 }  // namespace treeform

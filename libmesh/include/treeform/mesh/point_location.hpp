@@ -3,7 +3,7 @@
 /// Inside, outside or on: points against a closed mesh, and against closed curves of the plane.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <array>
@@ -31,7 +31,7 @@ struct point_location {
 /// may consist of parts, be non-manifold, fold, and pass through itself. Faces that repeat a
 /// corner have no say. Corners count by number: join equal ones first (`join_equal_points`).
 ///
-/// \throws std::invalid_argument naming the lowest face with a corner that is no point
+/// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(V + F log d) time for at most d faces at a point
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<std::array<std::uint32_t, 2>> find_open_edge(
@@ -47,10 +47,10 @@ struct point_location {
 ///         Muecke, Simulation of Simplicity, ACM TOG 9 (1990)
 class TREEFORM_API point_locator {
   public:
-    /// `tree` is `face_tree(mesh)`; it and the arrays of `mesh` outlive the locator.
+    /// `tree` is `build_face_tree(mesh)`; it and the arrays of `mesh` outlive the locator.
     ///
     /// \throws std::invalid_argument when the mesh is not closed, naming `find_open_edge`, when a
-    ///         face has a corner that is no point, or the tree is not of as many faces
+    ///         face has a corner out of range, or the tree is not of as many faces
     point_locator(mesh_view mesh, const tree<3>& tree);
 
     /// \throws std::invalid_argument when a coordinate is not finite; likewise below
@@ -78,7 +78,7 @@ struct curve_view {
 /// The edges of the closed polygon through points 0, 1, ... count - 1.
 [[nodiscard]] TREEFORM_API std::vector<curve_edge> polygon_edges(std::uint32_t count);
 
-/// The tree over the boxes of the edges. \throws std::invalid_argument as `face_tree`
+/// The tree over the boxes of the edges. \throws std::invalid_argument as `build_face_tree`
 [[nodiscard]] TREEFORM_API tree<2> edge_tree(curve_view curves);
 
 /// Points of the plane against closed curves: any number of them, also crossing or repeated. Exact
@@ -88,7 +88,7 @@ class TREEFORM_API curve_locator {
     /// `tree` is `edge_tree(curves)`; it and the arrays of `curves` outlive the locator.
     ///
     /// \throws std::invalid_argument naming the lowest point that not as many edges lead to as
-    ///         from, an edge with an end that is no point, or a tree of another number of edges
+    ///         from, an edge with an end out of range, or a tree of another number of edges
     curve_locator(curve_view curves, const tree<2>& tree);
 
     /// \throws std::invalid_argument when a coordinate is not finite; likewise below

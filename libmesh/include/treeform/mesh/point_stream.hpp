@@ -2,10 +2,9 @@
 /// \file
 /// Point files a block at a time, for clouds that are larger than memory.
 
-#include <treeform/mesh/io_error.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/write.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 /// A mesh with the indexes that queries ask for, each built on first use, once.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <cstdint>
 #include <memory>

@@ -2,9 +2,8 @@
 /// \file
 /// Reading a mesh or point file, whatever its format.
 
-#include <treeform/mesh/io_error.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
 #include <filesystem>
@@ -26,7 +25,7 @@ namespace treeform {
 ///
 /// In text without a header a heading names the columns of numbers; columns x, y and z may then
 /// stand anywhere. Of a PCD, a field of several values becomes columns "name[0]", "name[1]", ...,
-/// and WIDTH, HEIGHT and VIEWPOINT of an organised cloud lines of `attributes::obj_info`: "num_cols
+/// and WIDTH, HEIGHT and VIEWPOINT of an organized cloud lines of `attributes::obj_info`: "num_cols
 /// 640", "num_rows 480", "viewpoint 0 0 0 1 0 0 0".
 ///
 /// \throws io_error naming path, line or byte, and reason

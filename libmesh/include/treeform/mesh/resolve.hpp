@@ -5,8 +5,8 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstdint>
 #include <limits>

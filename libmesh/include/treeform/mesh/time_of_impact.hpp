@@ -3,12 +3,12 @@
 /// How far a mesh can be moved in a direction until it meets another, or comes near it.
 
 #include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/counters.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/mesh/triangle_sweep.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/mesh/triangle.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
 
 #include <cstddef>
@@ -67,7 +67,7 @@ struct impact {
 /// until it meets the wall. Meshes that only graze each other have a contact.
 ///
 /// \throws std::invalid_argument for a motion that is zero or not finite, a time that is negative
-///         or NaN, and naming the mesh and its lowest face with a corner that is no point or not
+///         or NaN, and naming the mesh and its lowest face with a corner out of range or not
 ///         finite
 /// \cost   that of `intersects`, and of a search along the motion, which most boxes never enter;
 ///         serial

@@ -5,13 +5,12 @@
 ///     auto w = tf::weld(mesh, {.tolerance = 0.01});   // w.mesh, w.groups.group_of_point
 
 #include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/points.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/mesh/status.hpp>
 #include <treeform/mesh/weld_options.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -102,7 +101,7 @@ struct file_weld_result {
 /// rule `first` a point may move by twice the tolerance.
 ///
 /// \throws std::invalid_argument for a tolerance that is negative or not finite, labels that are
-///         not one a point, more than 2^32 - 2 points, a corner that is no point, a property that
+///         not one a point, more than 2^32 - 2 points, a corner out of range, a property that
 ///         is not there or is a list (`weld_property_error`), or more than 2^32 / 3 faces with
 ///         `keep_manifold`; all name the lowest element of the arrays given
 /// \cost   O(V log V + F log F) for any tolerance and any number of equal points, as long as
@@ -157,7 +156,7 @@ struct file_weld_result {
 /// faces in order, also those that now repeat a corner. Nothing else is dropped.
 ///
 /// \throws std::invalid_argument for groups of another number of points, or naming the lowest face
-///         with a corner that is no point
+///         with a corner out of range
 /// \cost   O(V + F)
 [[nodiscard]] TREEFORM_API mesh join_groups(mesh_view mesh, const point_groups& groups);
 

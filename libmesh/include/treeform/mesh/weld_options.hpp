@@ -3,8 +3,8 @@
 /// What may be said about welding: which points become one, and what is kept of them.
 
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/progress.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -49,7 +49,7 @@ enum class weld_keep : std::uint8_t {
 /// A vertex property that must agree for two points to become one.
 struct weld_condition {
     /// A column of the element "vertex" with one value a row; "x", "y", "z" for a coordinate;
-    /// "normal", "uv" or "color" ("colour") for all columns that say it.
+    /// "normal", "uv" or "color" ("color") for all columns that say it.
     std::string property{};
     /// Largest difference of two values, inclusive and decided exactly. NaN agrees with NaN alone,
     /// an infinity with itself, -0 with +0.

@@ -9,12 +9,12 @@
 /// disk, which outlives the process: the same call goes on where an earlier one was ended. What
 /// comes out is to the byte what `weld` of the whole cloud gives.
 
-#include <treeform/mesh/bounding_box.hpp>
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/status.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/write.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -2,9 +2,8 @@
 /// \file
 /// Writing a mesh or point file.
 
-#include <treeform/mesh/io_error.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -38,11 +37,11 @@ struct write_result {
 /// What the format can hold of `file.attributes` is written too: PLY takes all elements in their
 /// order, and texture coordinates of corners as the list "texcoord" of faces, two numbers a corner,
 /// in float32 unless the file has that list as double (NaN where a corner has none), and names of
-/// texture files behind the comments; OFF normals, colours and texture coordinates of points; OBJ
-/// parts, material files, texture coordinates and normals of corners, vertex colours; STL its
+/// texture files behind the comments; OFF normals, colors and texture coordinates of points; OBJ
+/// parts, material files, texture coordinates and normals of corners, vertex colors; STL its
 /// header, the names of solids and the column "stl_attribute", XYZ and CSV further columns, PCD
 /// these and the lines "num_cols", "num_rows" and "viewpoint" of `obj_info`, GLB one primitive for
-/// each colour of faces (columns red, green, blue and alpha, if any, of the element "face"), and of
+/// each color of faces (columns red, green, blue and alpha, if any, of the element "face"), and of
 /// the other columns of faces those of whole numbers from 0 on, as accessors that the primitive's
 /// `extras.face_properties` names. Polygons are written as such where the format has them, and
 /// names with blanks for newlines. Values of corners, materials and names of texture files that the

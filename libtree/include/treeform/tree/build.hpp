@@ -7,8 +7,7 @@
 #include <treeform/tree/detail/frame.hpp>
 #include <treeform/tree/detail/round_boxes.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/strategy/bracketed_select.hpp>
-#include <treeform/tree/strategy/nth_element.hpp>
+#include <treeform/tree/strategy/select.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>
@@ -63,7 +62,7 @@ class builder {
 ///
 /// The boxes are rounded outward to float in a frame chosen from the data (`tree_frame`): a box of
 /// the tree decides nothing but what may be skipped. Elements are halved along the axis on which
-/// their centres spread most, at any number of equal ones.
+/// their centers spread most, at any number of equal ones.
 ///
 /// `Strategy` is the selection algorithm: the default, or any `partition_strategy`.
 ///

@@ -5,8 +5,8 @@
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/node_bounds.hpp>
-#include <treeform/tree/export.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/tree.hpp>
 
@@ -34,10 +34,10 @@ struct update_statistics {
 ///
 /// How it works: it is a few packed trees, each at least four times as large as the next.
 /// - A primitive that moves a little is written into its slot. "A little" means within the box that
-///   the (up to 64) primitives of its neighbourhood had when their tree was built, widened by a
+///   the (up to 64) primitives of its neighborhood had when their tree was built, widened by a
 ///   quarter: so no box above the leaf blocks ever grows by more.
 /// - Any other, like one that is removed, leaves an empty slot, which costs a search nothing that
-///   its neighbours do not; a tree with more empty slots than others is dissolved.
+///   its neighbors do not; a tree with more empty slots than others is dissolved.
 /// - What is new, and what was dissolved, makes a tree of its own, together with the trees that are
 ///   less than four times as large as that.
 ///
@@ -45,9 +45,9 @@ struct update_statistics {
 /// searches open, as a rule, up to 3 times the nodes of a fresh tree.
 ///
 /// \cost   About 90 bytes a primitive in space. An update of K primitives costs O(K log N), and a
-///         sweep over N / 8 bytes where K is above N / 128; amortised over all updates, the builds
+///         sweep over N / 8 bytes where K is above N / 128; amortized over all updates, the builds
 ///         take at most 64 + 3.2 log2 N primitives for each that is inserted or moved beyond its
-///         neighbourhood, one at a time, far fewer in batches, and 5 for each that is removed.
+///         neighborhood, one at a time, far fewer in batches, and 5 for each that is removed.
 ///         A batch of N / 10 such moves costs a build of N / 10, and each third a build of all
 /// \same   on any number of threads
 /// \source the logarithmic method of Bentley and Saxe, Decomposable Searching Problems I, J.
@@ -115,9 +115,9 @@ class TREEFORM_API dynamic_tree {
     struct part {
         tree<D> boxes;
         std::size_t live = 0;          ///< slots that are not empty
-        std::vector<box_type> limits;  ///< of the neighbourhoods, as far as their primitives may go
+        std::vector<box_type> limits;  ///< of the neighborhoods, as far as their primitives may go
 
-        [[nodiscard]] unsigned neighbourhood_level() const;
+        [[nodiscard]] unsigned neighborhood_level() const;
         void set_limits();
         [[nodiscard]] bool may_hold(std::uint32_t place, const box_type& box) const;
     };

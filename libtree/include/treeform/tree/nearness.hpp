@@ -4,11 +4,11 @@
 /// nearest, all within a radius.
 
 #include <treeform/tree/aabb.hpp>
+#include <treeform/tree/answers.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 #include <treeform/tree/detail/nearest_k.hpp>
 #include <treeform/tree/detail/squared_radius.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/neighbor.hpp>
 #include <treeform/tree/strategy/nearness_order.hpp>
 #include <treeform/tree/tree.hpp>
 

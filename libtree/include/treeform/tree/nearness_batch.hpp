@@ -2,10 +2,10 @@
 /// \file
 /// Nearness searches for many queries at once, in parallel.
 
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/frame.hpp>
 #include <treeform/tree/detail/morton_order.hpp>
 #include <treeform/tree/nearness.hpp>
-#include <treeform/tree/neighbor.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
@@ -31,7 +31,7 @@ template <std::ranges::random_access_range Range>
     return std::ranges::begin(range)[static_cast<std::ranges::range_difference_t<Range>>(i)];
 }
 
-/// The order in which queries are answered: neighbours in space one after the other.
+/// The order in which queries are answered: neighbors in space one after the other.
 /// \throws std::invalid_argument naming the first query that is not finite or an empty box
 template <std::size_t D, std::ranges::random_access_range Queries>
 [[nodiscard]] std::vector<std::uint32_t> order_of_queries(const Queries& queries) {

@@ -2,11 +2,10 @@
 /// \file
 /// Two trees: the nearest pair of primitives, one of each, and the k nearest.
 
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/near_pair_walk.hpp>
 #include <treeform/tree/detail/nearest_k.hpp>
 #include <treeform/tree/detail/squared_radius.hpp>
-#include <treeform/tree/neighbor.hpp>
-#include <treeform/tree/transformed.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>
@@ -44,7 +43,7 @@ template <class Answer>
 /// numbers; fewer when there are fewer within `radius` (not squared, inclusive).
 ///
 /// `distance_of(a, b)` is the squared distance of two primitives, as in `nearest`; it is called by
-/// several threads at once, and for no pair twice. Either tree may count as moved
+/// several threads at once, and for no pair twice. Either tree may are treated as transformed
 /// (`treeform::transformed`): then `distance_of` is about the moved primitives.
 ///
 /// Nothing is passed over but pairs whose boxes prove them further than k found ones. Only a

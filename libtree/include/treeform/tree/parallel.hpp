@@ -1,18 +1,20 @@
 #pragma once
 /// \file
-/// The one door to threads.
-///
-/// Work is cut by the data, never by the number of threads, so what a loop computes is the same
-/// on any number of them: a body writes only to slots of its own chunk, and the caller joins the
-/// slots in order.
+/// Parallel loops, work that is done once, and how long work reports progress.
 
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
-#include <treeform/tree/export.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 
 namespace treeform {
+
+/// Called now and then with the share of the work done, in [0, 1] and never decreasing; returning
+/// false asks the operation to stop, which it does after the items under way. May be empty. It is
+/// called from one thread at a time, not always the same one, and must not throw.
+using progress_callback = std::function<bool(double done)>;
 
 /// Runs `body(begin, end, chunk)` once for each piece [begin, end) of [0, count) of `grain`
 /// elements (the last may be shorter), in any order, on the threads at hand. `chunk` counts the

@@ -2,10 +2,10 @@
 /// \file
 /// Points that are asked which of them are near: the ready-made search of point clouds.
 
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/detail/buffer.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/neighbor.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/tree.hpp>
 

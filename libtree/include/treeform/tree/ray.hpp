@@ -2,8 +2,8 @@
 /// \file
 /// Rays against a tree: what a ray meets first, everything it meets, and whether it meets anything.
 
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
-#include <treeform/tree/export.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>

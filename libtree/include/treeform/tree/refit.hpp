@@ -3,9 +3,9 @@
 /// New boxes for a tree whose primitives have moved: the order of its leaves stays.
 
 #include <treeform/tree/build.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/node_bounds.hpp>
 #include <treeform/tree/detail/refit_levels.hpp>
-#include <treeform/tree/export.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/tree.hpp>
 
@@ -169,13 +169,12 @@ template <std::size_t D, class BoxOf>
 
 /// Gives every primitive of `tree` the box that `make_aabb` now makes for its element of `range`.
 /// The order of the leaves stays, and so does the frame: the tree is right for any boxes, and as
-/// good as before where neighbours stay neighbours (`relative_extent` tells). With the boxes it
+/// good as before where neighbors stay neighbors (`relative_extent` tells). With the boxes it
 /// was built with, it stays as it is.
 ///
 /// \throws std::invalid_argument when the range is not of the size of the tree, or naming an
-/// element
-///         whose box is not finite or is empty; some of the others then have their new boxes, and a
-///         refit with sound ones mends the tree
+///         element whose box is not finite or is empty; some of the others then have their new
+///         boxes, and a refit with sound ones mends the tree
 /// \cost   O(N), about a third of a build
 /// \same   on any number of threads; `make_aabb` is called once an element
 /// \source van den Bergen, Efficient Collision Detection of Complex Deformable Models using AABB

@@ -6,7 +6,7 @@
 /// `search_any_broad` of two trees.
 
 #include <treeform/tree/aabb.hpp>
-#include <treeform/tree/candidates.hpp>
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/visit_leaves.hpp>
 #include <treeform/tree/search_pair.hpp>
 #include <treeform/tree/search_self.hpp>

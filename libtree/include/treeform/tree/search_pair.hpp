@@ -2,12 +2,11 @@
 /// \file
 /// Search of two trees: every pair of a primitive of each whose boxes overlap, once.
 
-#include <treeform/tree/candidates.hpp>
+#include <treeform/tree/answers.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/frame_map.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 #include <treeform/tree/detail/search_chunks.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/transformed.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>

@@ -2,10 +2,10 @@
 /// \file
 /// Search of a tree by itself: every pair of primitives whose boxes overlap, once.
 
-#include <treeform/tree/candidates.hpp>
+#include <treeform/tree/answers.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 #include <treeform/tree/detail/search_chunks.hpp>
-#include <treeform/tree/export.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>

@@ -2,9 +2,8 @@
 /// \file
 /// Search of two trees while one moves in a straight line: the pairs that meet first.
 
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
-#include <treeform/tree/export.hpp>
-#include <treeform/tree/transformed.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <array>
@@ -35,15 +34,13 @@ TREEFORM_API void sweep(const transformed<D>& a, const transformed<D>& b,
 /// out when, and whether, two primitives meet.
 ///
 /// \throws std::invalid_argument for a motion that is zero or not finite, or a time that is
-/// negative
-///         or NaN
+///         negative or NaN
 /// \cost   as the nearest pair of the trees in most cases; serial. Of a motion along an axis little
 ///         is visited; one across all axes sees the hulls of boxes, which are larger than what they
 ///         hold
 /// \same   order and pairs, on every machine
 /// \source slabs: Kay and Kajiya, Ray Tracing Complex Scenes, SIGGRAPH 1986, for the ray from 0
-/// along
-///         the motion and the box of differences of two boxes
+///         along the motion and the box of differences of two boxes
 template <placed_tree A, placed_tree B, class Motion, class Visit>
 requires std::is_invocable_r_v<double, const Visit&, std::uint32_t, std::uint32_t>
 void visit_swept(const A& a, const B& b, const Motion& motion, const Visit& visit,

@@ -107,7 +107,7 @@ requires(D == 2 || D == 3) [[nodiscard]] transform<D> unchecked_inverse(const tr
 
 }  // namespace detail
 
-/// The map that undoes `by`: after(inverse(by), by) is the identity but for rounding. Exactly so
+/// The map that undoes `by`: after(inverse(by), by) is the identity except for rounding. Exactly so
 /// for translations, exchanges of axes and scalings by powers of two.
 ///
 /// \throws std::invalid_argument when `by` flattens space, as far as its rounded determinant says,

@@ -2,7 +2,7 @@
 /// \file
 /// Which treeform this is: the version of the headers, and that of the library loaded beside them.
 
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 // The only place where the version is written: the build reads it from these three lines.
 #define TREEFORM_VERSION_MAJOR 0

@@ -3,7 +3,7 @@
 /// An array whose elements start out unwritten, so that the loop that fills it also faults its
 /// pages in, on the threads that will use them.
 
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
 #include <memory>

@@ -3,9 +3,9 @@
 /// The compiled half of the build: from records to ids and nodes.
 
 #include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 #include <treeform/tree/detail/split.hpp>
-#include <treeform/tree/export.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <bit>
@@ -14,7 +14,7 @@
 
 namespace treeform::detail {
 
-/// How far a primitive's box reaches from the centre in its record, in eight bytes, since gathering
+/// How far a primitive's box reaches from the center in its record, in eight bytes, since gathering
 /// them by primitive is a random access: D floats of 21 bits each, without a sign and rounded up,
 /// the last axis in the lowest bits.
 class half_extents {

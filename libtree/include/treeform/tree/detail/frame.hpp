@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Choosing the frame of a tree: where its float boxes are centred.
+/// Choosing the frame of a tree: where its float boxes are centered.
 
 #include <treeform/tree/tree.hpp>
 

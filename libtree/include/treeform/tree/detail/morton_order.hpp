@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// An order of points in which neighbours in the list are, as a rule, neighbours in space.
+/// An order of points in which neighbors in the list are, as a rule, neighbors in space.
 
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
-#include <treeform/tree/export.hpp>
 
 #include <array>
 #include <cstddef>

@@ -1,13 +1,12 @@
 #pragma once
 /// \file
-/// The walk through two trees towards their nearest pairs, cut into chunks for many threads.
+/// The walk through two trees toward their nearest pairs, cut into chunks for many threads.
 
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/frame_map.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 #include <treeform/tree/detail/near_query.hpp>
-#include <treeform/tree/export.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/transformed.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <atomic>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is searched for in a tree's neighbourhood, as floats in the frame of the tree.
+/// What is searched for in a tree's neighborhood, as floats in the frame of the tree.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/tree.hpp>

@@ -2,7 +2,7 @@
 /// \file
 /// The k nearest of those offered.
 
-#include <treeform/tree/neighbor.hpp>
+#include <treeform/tree/answers.hpp>
 
 #include <algorithm>
 #include <cstddef>

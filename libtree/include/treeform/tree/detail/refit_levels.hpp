@@ -2,8 +2,8 @@
 /// \file
 /// The compiled half of a refit: new boxes into leaf slots, and what follows from them above.
 
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/round_boxes.hpp>
-#include <treeform/tree/export.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <array>

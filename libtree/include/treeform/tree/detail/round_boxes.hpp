@@ -3,7 +3,7 @@
 /// Rounding boxes outward into the frame of a tree: the first pass of a build.
 
 #include <treeform/tree/detail/build_records.hpp>
-#include <treeform/tree/export.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <cstddef>

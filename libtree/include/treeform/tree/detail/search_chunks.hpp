@@ -2,7 +2,7 @@
 /// \file
 /// Running the chunks of a search for pairs on all threads.
 
-#include <treeform/tree/candidates.hpp>
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <atomic>
@@ -45,7 +45,7 @@ template <class State, class Search, class OnBlock>
     std::vector<State> states(search.chunks());
     std::atomic<std::size_t> last{states.size()};  // the first chunk that asked to stop
     for_chunks(states.size(), 1, [&](std::size_t chunk, std::size_t, std::size_t) {
-        State mine{};  // states of neighbours share cache lines
+        State mine{};  // states of neighbors share cache lines
         search.visit(chunk, [&](const auto&... block) {
             if (chunk > last.load(std::memory_order_relaxed)) return false;
             if (!on_block(mine, block...)) return true;

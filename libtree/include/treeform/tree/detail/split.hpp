@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Halving a set of primitives by the position of their centres: the inner loop of the build.
+/// Halving a set of primitives by the position of their centers: the inner loop of the build.
 
 #include <bit>
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace treeform::detail {
 
-/// Centre of a primitive's box in the frame of the tree, and the primitive. Coordinates are finite;
+/// Center of a primitive's box in the frame of the tree, and the primitive. Coordinates are finite;
 /// in the plane the third is 0, which no split chooses. Sixteen bytes: one vector register.
 struct split_record {
     float center[3];
@@ -48,7 +48,7 @@ struct split_plan {
     }
 };
 
-/// The box of some centres.
+/// The box of some centers.
 struct center_range {
     float min[3];
     float max[3];
@@ -64,13 +64,13 @@ struct center_range {
 /// \pre count > 0
 [[nodiscard]] center_range range_of(const split_record* records, std::size_t count);
 
-/// An axis and the range of the centres on it.
+/// An axis and the range of the centers on it.
 struct split_axis {
     int axis;
     float min, max;
 };
 
-/// The axis along which the centres spread most; the first of equal ones.
+/// The axis along which the centers spread most; the first of equal ones.
 [[nodiscard]] inline split_axis widest_axis(const center_range& range) {
     int axis = 0;
     for (int k = 1; k < 3; ++k)

@@ -3,9 +3,9 @@
 /// The way down a tree by one query.
 
 #include <treeform/tree/aabb.hpp>
-#include <treeform/tree/candidates.hpp>
+#include <treeform/tree/answers.hpp>
+#include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
-#include <treeform/tree/export.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <array>

@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// The exact stage of the predicates of constructed points by itself, compiled: for loops that
+/// inline the filter (implicit_filter.hpp) and call only when it left the sign open.
+///
+/// Counts the width it took: one or two limbs a coordinate, or as many as it takes, which is the
+/// last class. Calls and undecided ones are counted by who ran the filter.
+
+#include <libmesh/exact/dyadic.hpp>
+#include <libmesh/exact/implicit_point.hpp>
+#include <treeform/tree/detail/export.hpp>
+
+#include <array>
+
+namespace treeform::detail::exact {
+
+[[nodiscard]] TREEFORM_API int compare_exact(int axis, const implicit_point& a,
+                                             const implicit_point& b, predicate_counters* counters);
+[[nodiscard]] TREEFORM_API bool equal_exact(const implicit_point& a, const implicit_point& b,
+                                            predicate_counters* counters);
+[[nodiscard]] TREEFORM_API int orient2d_exact(int axis, const implicit_point& a,
+                                              const implicit_point& b, const implicit_point& c,
+                                              predicate_counters* counters);
+[[nodiscard]] TREEFORM_API int side_exact(const plane_points& p, const implicit_point& d,
+                                          predicate_counters* counters);
+
+/// The coordinates, each rounded to the format.
+/// \throws std::invalid_argument where lines or planes have none or many points in common
+[[nodiscard]] std::array<rounded_quotient, 3> rounded_exactly(const implicit_point& p,
+                                                              const float_format& format);
+
+}  // namespace treeform::detail::exact

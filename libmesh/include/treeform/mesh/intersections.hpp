@@ -1,0 +1,111 @@
+#pragma once
+/// \file
+/// Intersections of two meshes, and of a mesh with a box.
+
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tree/answers.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/transform.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace treeform {
+
+class distance_model;  // libmesh/nearness/distance_model.hpp
+
+struct mesh_intersection_options {
+    /// How each mesh is moved before it is looked at; its tree stays that of the mesh as it is.
+    /// A moved corner is what `transform::operator()` gives, rounded to double: these coordinates
+    /// are the given ones from there on, and the verdict on them is exact.
+    transform<3> move_a{};
+    transform<3> move_b{};
+    /// Stop at the first pair found. Which one that is does not depend on the thread count.
+    bool first_only = false;
+    /// Kinds to look for; the others are neither counted nor listed.
+    std::array<bool, pair_kind_count> kinds{true, true, true, true, true, true, true};
+    /// At most this many pairs are listed, those of the lowest face numbers; all are counted.
+    std::size_t limit = static_cast<std::size_t>(-1);
+    progress_callback progress{};
+};
+
+struct mesh_intersection_result {
+    std::vector<face_pair> pairs;  ///< face `a` of the first mesh, `b` of the second; ascending
+    std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
+    std::uint64_t box_pairs = 0;    ///< pairs of faces whose boxes overlap, under a move both ways
+    std::uint64_t exact_pairs = 0;  ///< of these, left open by the filter
+    predicate_counters predicates{};  ///< what the undecided pairs cost
+    search_statistics searched{};     ///< what was looked at; the rest of both meshes was skipped
+    bool cancelled = false;           ///< `progress` said stop
+};
+
+/// All pairs of a face of `a` and a face of `b` that have a common point.
+///
+/// Exact on the coordinates as given, or as moved. The meshes share no corners, whatever their
+/// numbers: faces that only touch, also in equal points, are `touching`, equal ones `overlap`; the
+/// kinds are crossing, overlap, touching and degenerate. This is about surfaces: a mesh inside the
+/// other that touches it nowhere gives no pair. A mesh may be given twice.
+///
+/// \pre    `tree_a` and `tree_b` are `build_face_tree(a)` and `build_face_tree(b)`
+/// \throws std::invalid_argument when a tree has not one primitive a face, a transform is not
+///         finite, or naming a face with a corner out of range or, as moved, not finite; only
+///         faces that are looked at are checked
+/// \cost   O(B) time for the B pairs whose boxes overlap and the nodes above them
+/// \same   on any number of threads
+/// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
+[[nodiscard]] TREEFORM_API mesh_intersection_result
+mesh_intersections(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
+                   const mesh_intersection_options& options = {});
+
+/// The same with trees of its own, for a single question.
+[[nodiscard]] TREEFORM_API mesh_intersection_result
+mesh_intersections(mesh_view a, mesh_view b, const mesh_intersection_options& options = {});
+
+/// The same of meshes made ready to be asked many times, wherever they are moved: up to twice as
+/// fast. Pairs, kinds and their order are those of the meshes with their trees.
+///
+/// \throws std::invalid_argument when a transform is not finite, or naming a face with a corner
+///         that is not finite as moved; only faces that are looked at are checked
+/// \cost   O(B) time for the B pairs whose boxes overlap and the nodes above them
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API mesh_intersection_result
+mesh_intersections(const distance_model& a, const distance_model& b,
+                   const mesh_intersection_options& options = {});
+
+/// How each mesh is moved; see `mesh_intersection_options`.
+struct mesh_positions {
+    transform<3> move_a{};
+    transform<3> move_b{};
+};
+
+/// Whether a face of `a` and a face of `b` have a common point, touching included. Exact; returns
+/// as soon as one pair is found.
+///
+/// \pre    \throws as for `mesh_intersections`
+/// \same   in its answer; how much is looked at, and so which bad face is met, is not
+[[nodiscard]] TREEFORM_API bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                           const tree<3>& tree_b,
+                                           const mesh_positions& positions = {});
+[[nodiscard]] TREEFORM_API bool intersects(mesh_view a, mesh_view b,
+                                           const mesh_positions& positions = {});
+
+/// Numbers of the faces, ascending, that have a point in the closed box from `min` to `max`.
+///
+/// Exact: a face whose box overlaps but which passes beside a corner is left out, one that only
+/// touches the box is in. A box may be flat, a line or a point.
+///
+/// \pre    every corner is less than `mesh.points.size()`, every coordinate is finite
+/// \throws std::invalid_argument when a coordinate of the box is not finite or min exceeds max
+/// \cost   O(F) time
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> faces_in_box(mesh_view mesh,
+                                                                   const point3& min,
+                                                                   const point3& max);
+
+}  // namespace treeform

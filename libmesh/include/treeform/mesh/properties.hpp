@@ -1,0 +1,98 @@
+#pragma once
+/// \file
+/// What a mesh is made of: defects, edges, components, whether it is closed, its volume.
+
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/detail/export.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace treeform {
+
+/// Lists of numbers, each ascending. A face is in one list at most.
+struct mesh_defects {
+    std::vector<std::uint32_t> nonfinite_points;    ///< with a NaN or infinite coordinate
+    std::vector<std::uint32_t> nonfinite_faces;     ///< with such a corner
+    std::vector<std::uint32_t> degenerate_faces;    ///< finite, with exactly collinear corners
+    std::vector<std::uint32_t> out_of_range_faces;  ///< with a corner out of range
+    friend bool operator==(const mesh_defects&, const mesh_defects&) = default;
+};
+
+/// Finds the points and faces that algorithms refuse or treat apart.
+///
+/// Collinear is exact: a face with a repeated corner or with equal corners is, a sliver of any
+/// thinness is not. A corner out of range is looked at first, then whether all are finite.
+///
+/// \throws std::invalid_argument for more than 2^32 - 1 points or faces
+/// \cost   O(V + F) time, memory for what is found
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API mesh_defects find_defects(mesh_view mesh);
+
+/// Counts over the faces with three different corners, by number; faces that repeat a corner have
+/// no edges of their own and are counted apart. Faces with collinear corners and duplicates count
+/// like any other. The Euler characteristic is points_used - edges + faces.
+struct topology_counts {
+    std::uint64_t edges = 0;                  ///< undirected
+    std::uint64_t boundary_edges = 0;         ///< used by one face
+    std::uint64_t nonmanifold_edges = 0;      ///< used by three or more faces
+    std::uint64_t misoriented_edges = 0;      ///< used by two faces in the same direction
+    std::uint64_t nonmanifold_points = 0;     ///< whose faces fall into more than one fan
+    std::uint64_t components_by_point = 0;    ///< faces linked by a shared corner
+    std::uint64_t components_by_edge = 0;     ///< faces linked by a shared edge
+    std::uint64_t points_used = 0;            ///< corners of at least one such face
+    std::uint64_t faces = 0;                  ///< faces with three different corners
+    std::uint64_t repeated_corner_faces = 0;  ///< the others
+    std::uint64_t duplicate_faces = 0;        ///< beyond the first with the same three corners
+    bool closed = false;                      ///< a face, no boundary edge, no nonmanifold edge
+};
+
+/// Counts what `topology_counts` names; by the numbers of the corners alone, so corners with equal
+/// coordinates should be one point first (`join_equal_points`).
+///
+/// A fan of a point is a set of its faces linked by edges at that point, whatever the number of
+/// faces at the edge. Neither fans nor components depend on how the faces are oriented.
+///
+/// \throws std::invalid_argument naming the lowest face with a corner that is not less than
+///         `point_count`, or for more than 2^32 - 1 faces
+/// \cost   O(V + F log d) time for at most d faces at a point, about 16 bytes a face and 8 a point
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API topology_counts count_topology(std::size_t point_count,
+                                                          std::span<const face> faces);
+
+/// [F] component of each face, numbered in the order of their lowest face; faces are linked by
+/// shared corners, also those that repeat one.
+///
+/// \throws std::invalid_argument as `count_topology`
+/// \cost   O(V + F) time except for an inverse Ackermann factor, about 8 bytes a point
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> face_components(std::size_t point_count,
+                                                                      std::span<const face> faces);
+
+/// The volume inside a closed mesh, in cubic units; negative when it is inside out. What it winds
+/// around several times counts as often. Of an open mesh, the volume of the cones over its faces
+/// from the origin. 0 of an empty one.
+///
+/// Computed in twice the precision of double and rounded at the end: exact except for a few units
+/// of 2^-100 times the sum, over the faces, of the largest product of three coordinates, so that a
+/// small part far from the origin has its volume, too. Not finite where such a product is beyond
+/// the range of double.
+///
+/// \pre    every corner is less than `mesh.points.size()`, every coordinate is finite
+/// \cost   O(F)
+/// \same   on any number of threads
+/// \source Dekker, A Floating-Point Technique for Extending the Available Precision, Numer. Math.
+///         18 (1971)
+[[nodiscard]] TREEFORM_API double signed_volume(mesh_view mesh);
+
+/// The faces numbered in `faces`, in that order, and the points they use, in the order they have
+/// in `mesh`.
+///
+/// \pre  every number is less than `mesh.faces.size()`
+/// \cost O(V + F) time
+/// \same on any number of threads
+[[nodiscard]] TREEFORM_API mesh select_faces(mesh_view mesh, std::span<const std::uint32_t> faces);
+
+}  // namespace treeform

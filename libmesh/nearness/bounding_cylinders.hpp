@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// Discs around what the nodes of a tree hold: thin where a surface is nearly flat, however it
+/// lies, which a box along the axes is not.
+
+#include <libmesh/nearness/triangle_blocks.hpp>
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/detail/frame_map.hpp>
+#include <treeform/tree/detail/near_pair_walk.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace treeform::detail::nearness {
+
+/// The discs of a node's children, in the frame of the tree. The points of a disc are
+/// center + s n + v with |s| <= half, v at a right angle to n, and |v| <= radius, where n is
+/// `normal` made to have length 1, which it has to 2^-22. An infinite radius says nothing.
+struct alignas(64) eight_cylinders {
+    float center[3][8];
+    float normal[3][8];
+    float half[8];
+    float radius[8];
+};
+
+/// Discs around the triangles of every node but the root: some 5 bytes a triangle.
+class TREEFORM_API bounding_cylinders {
+  public:
+    bounding_cylinders() = default;
+    /// \cost O(F) time
+    bounding_cylinders(const tree<3>& tree, const buffer<eight_triangles>& triangles);
+
+    /// The discs of the children of a node, which are nodes.
+    [[nodiscard]] const eight_cylinders& below(std::uint32_t level, std::uint32_t node) const {
+        return discs_[begin_[level] + node];
+    }
+
+  private:
+    std::array<std::size_t, 12> begin_{};
+    buffer<eight_cylinders> discs_;
+};
+
+/// The discs of two trees, and how they come into the common frame of a search.
+struct disc_pair {
+    const bounding_cylinders& a;
+    const bounding_cylinders& b;
+    const frame_map<3>& map_a;
+    const frame_map<3>& map_b;
+
+    /// As `raise_bounds` says.
+    [[nodiscard]] unsigned raise(const opened_node& at, unsigned mask, float bound,
+                                 float* squared) const;
+};
+
+}  // namespace treeform::detail::nearness

@@ -1,0 +1,104 @@
+#include <libmesh/base/double_double.hpp>
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/round/rounding_defects.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace treeform {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Coordinate k of what `by` makes of p.
+detail::base::double_double image(const transform<3>& by, const point3& p, std::size_t k) {
+    detail::base::double_double sum{by.rows[k][3], 0.0};
+    for (std::size_t j = 0; j < 3; ++j) sum = sum + detail::base::product_of(by.rows[k][j], p[j]);
+    return sum;
+}
+
+double difference(const transform<3>& by, const point3& p, std::size_t k, double placed) {
+    const detail::base::double_double exact = image(by, p, k);
+    const double found = std::abs((placed - exact.high) - exact.low);
+    if (!std::isnan(found)) return found;
+    // Products overflow in halves before they do as a whole.
+    const double plain = std::abs(placed - by(p)[k]);
+    return std::isnan(plain) ? infinity : plain;
+}
+
+using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// Ascending; none where stopped, which `cancelled` then says.
+pairs meeting_pairs(mesh_view mesh, const progress_callback& progress, bool& cancelled) {
+    self_intersection_options options{.vertices = vertex_identity::by_index, .progress = progress};
+    for (const pair_kind kind : {pair_kind::touching, pair_kind::degenerate})
+        options.kinds[static_cast<std::size_t>(kind)] = false;
+    const self_intersection_result found = self_intersections(mesh, options);
+    cancelled = cancelled || found.cancelled;
+    pairs result;
+    result.reserve(found.pairs.size());
+    for (const face_pair& pair : found.pairs) result.emplace_back(pair.a, pair.b);
+    return result;
+}
+
+/// How many are in `now` that were not in `before`, both ascending.
+template <class T>
+std::uint64_t count_new(const std::vector<T>& now, const std::vector<T>& before) {
+    std::uint64_t count = 0;
+    auto known = before.begin();
+    for (const T& one : now) {
+        known = std::lower_bound(known, before.end(), one);
+        count += known == before.end() || *known != one;
+    }
+    return count;
+}
+
+}  // namespace
+
+double coordinate_step(points_view points, bool single) {
+    double largest = 0.0;
+    for (const point3& p : points)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (std::isfinite(p[k])) largest = std::max(largest, std::abs(p[k]));
+    const double least = single ? 0x1p-149 : std::numeric_limits<double>::denorm_min();
+    if (largest == 0.0) return least;
+    return std::max(least, std::ldexp(1.0, std::ilogb(largest) - (single ? 23 : 52)));
+}
+
+double largest_move(points_view points, const transform<3>& by, points_view placed) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            largest = std::max(largest, difference(by, points[i], k, placed[i][k]));
+    return largest;
+}
+
+std::vector<point3> in_single(points_view points) {
+    std::vector<point3> rounded(points.begin(), points.end());
+    for (point3& p : rounded)
+        for (std::size_t k = 0; k < 3; ++k) p[k] = detail::base::nearest_float(p[k]);
+    return rounded;
+}
+
+rounding_defects find_rounding_defects(mesh_view mesh, points_view placed,
+                                       const progress_callback& progress) {
+    if (placed.size() != mesh.points.size())
+        throw std::invalid_argument(
+            "treeform::find_rounding_defects: not as many points as the mesh has");
+    const mesh_view there{placed, mesh.faces};
+    rounding_defects harm;
+    const pairs now = meeting_pairs(there, progress, harm.cancelled);
+    if (!now.empty() && !harm.cancelled)
+        harm.meeting = count_new(now, meeting_pairs(mesh, progress, harm.cancelled));
+    const std::vector<std::uint32_t> flat = find_defects(there).degenerate_faces;
+    if (!flat.empty()) harm.collapsed = count_new(flat, find_defects(mesh).degenerate_faces);
+    return harm;
+}
+
+}  // namespace treeform

@@ -1,0 +1,82 @@
+#pragma once
+/// \file
+/// What searches hand out: candidate pairs, neighbors, and what they count.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace treeform {
+
+/// A block of candidate pairs: primitives `first[i]` and `second[i]` as places in leaf order, so
+/// that neighbors in a block are neighbors in memory for data kept in that order;
+/// `tree.ids()[place]` is the primitive. In a search of two trees, `first` are places of the first
+/// and `second` of the second; in a search of a tree by itself `first[i] < second[i]`.
+struct candidate_block {
+    std::span<const std::uint32_t> first;   ///< [up to `max_candidates`]
+    std::span<const std::uint32_t> second;  ///< [same]
+};
+inline constexpr std::size_t max_candidates = 1024;
+
+/// Two primitives, by their places in the ranges the trees were built over.
+using id_pair = std::pair<std::uint32_t, std::uint32_t>;
+
+/// What a search looked at; the rest of the trees it skipped. Sums over the chunks of a search do
+/// not depend on the number of threads, unless the search was stopped.
+struct search_statistics {
+    std::uint64_t nodes = 0;       ///< nodes opened, or pairs of them
+    std::uint64_t box_tests = 0;   ///< of a box against the eight of a node
+    std::uint64_t candidates = 0;  ///< primitives whose boxes overlap the query, or pairs of them
+
+    search_statistics& operator+=(const search_statistics& other) {
+        nodes += other.nodes;
+        box_tests += other.box_tests;
+        candidates += other.candidates;
+        return *this;
+    }
+    friend bool operator==(const search_statistics&, const search_statistics&) = default;
+};
+
+/// The squared distance that an answer stands for: itself when it is a number, else its member.
+template <class Answer>
+[[nodiscard]] constexpr double squared_distance_of(const Answer& answer) {
+    if constexpr (std::is_arithmetic_v<Answer>)
+        return static_cast<double>(answer);
+    else
+        return static_cast<double>(answer.squared_distance);
+}
+
+/// A primitive near a query, and what the caller's function said about it.
+template <class Answer = double>
+struct neighbor {
+    std::uint32_t id;
+    Answer answer;
+
+    [[nodiscard]] constexpr double squared_distance() const { return squared_distance_of(answer); }
+    friend bool operator==(const neighbor&, const neighbor&) = default;
+};
+
+/// The order of answers: by distance, then by number.
+template <class Neighbor>
+[[nodiscard]] constexpr bool nearer(const Neighbor& a, const Neighbor& b) {
+    const double of_a = a.squared_distance();
+    const double of_b = b.squared_distance();
+    return of_a != of_b ? of_a < of_b : a.id < b.id;
+}
+
+/// A list of answers for each of Q queries, in one array.
+template <class Neighbor>
+struct neighbor_lists {
+    std::vector<std::size_t> begin;  ///< [Q + 1] where each list starts, and the end
+    std::vector<Neighbor> neighbors;
+
+    [[nodiscard]] std::size_t size() const { return begin.empty() ? 0 : begin.size() - 1; }
+    [[nodiscard]] std::span<const Neighbor> operator[](std::size_t query) const {
+        return std::span(neighbors).subspan(begin[query], begin[query + 1] - begin[query]);
+    }
+};
+
+}  // namespace treeform

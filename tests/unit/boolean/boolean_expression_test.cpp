@@ -1,0 +1,160 @@
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/random.hpp>
+
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+using tf::boolean_expression;
+
+/// The values for all sets of the operands; bit i of an index is operand i.
+std::string table(const boolean_expression& expression) {
+    const std::size_t count = expression.operand_count();
+    std::string values;
+    for (std::size_t set = 0; set < std::size_t{1} << count; ++set) {
+        std::array<bool, 8> in{};
+        for (std::size_t i = 0; i < count; ++i) in[i] = (set >> i & 1) != 0;
+        values += expression({in.data(), count}) ? '1' : '0';
+    }
+    return values;
+}
+
+std::string table(const std::string& text, std::size_t count) {
+    return table(boolean_expression(text, count));
+}
+
+std::string complaint(const std::string& text, std::size_t count) {
+    try {
+        const boolean_expression read(text, count);
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return {};
+}
+
+/// A random formula in brackets everywhere, and its value.
+struct formula {
+    std::string text;
+    bool value;
+};
+
+formula random_formula(test::random& source, const std::array<bool, 8>& in, int depth) {
+    if (depth == 0 || source.below(4) == 0) {
+        const std::size_t i = source.below(in.size());
+        return {std::string(1, static_cast<char>('a' + i)), in[i]};
+    }
+    const formula l = random_formula(source, in, depth - 1);
+    const formula r = random_formula(source, in, depth - 1);
+    const std::size_t which = source.below(6);
+    const std::array<bool, 6> values{l.value || r.value, l.value || r.value,  l.value && r.value,
+                                     l.value && r.value, l.value && !r.value, l.value != r.value};
+    return {"(" + l.text + " " + std::string(1, "+|*&-^"[which]) + r.text + ")", values[which]};
+}
+
+}  // namespace
+
+TEST_CASE("expression: each operation is its own") {
+    CHECK(table("a", 1) == "01");
+    CHECK(table("a+b", 2) == "0111");
+    CHECK(table("a|b", 2) == "0111");
+    CHECK(table("a*b", 2) == "0001");
+    CHECK(table("a&b", 2) == "0001");
+    CHECK(table("a-b", 2) == "0100");
+    CHECK(table("a^b", 2) == "0110");
+}
+
+TEST_CASE("expression: products bind tighter, the rest goes from left to right") {
+    CHECK(table("a+b*c", 3) == table("a+(b*c)", 3));
+    CHECK(table("a*b+c", 3) == table("(a*b)+c", 3));
+    CHECK(table("a-b+c", 3) == table("(a-b)+c", 3));
+    CHECK(table("a-b+c", 3) != table("a-(b+c)", 3));
+    CHECK(table("a-b-c", 3) == table("a-(b+c)", 3));
+    CHECK(table("a-b*c-d", 4) == table("(a-(b*c))-d", 4));
+    CHECK(table("a^b+c", 3) == table("(a^b)+c", 3));
+    CHECK(table(" A\t- (( b ))", 2) == table("a-b", 2));
+}
+
+TEST_CASE("expression: the named operations are the formulas they stand for") {
+    CHECK(table(boolean_expression::union_of(3)) == table("a+b+c", 3));
+    CHECK(table(boolean_expression::intersection_of(3)) == table("a*b*c", 3));
+    CHECK(table(boolean_expression::difference_of(3)) == table("a-b-c", 3));
+    CHECK(table(boolean_expression::xor_of(3)) == "01101001");
+    CHECK(table(boolean_expression::union_of(1)) == "01");
+    CHECK(table(boolean_expression::union_of(0)) == "0");
+}
+
+TEST_CASE("expression: operands beyond z have two letters") {
+    const auto in_only = [](std::size_t operand, const std::string& text) {
+        std::array<bool, 702> in{};
+        in[operand] = true;
+        return boolean_expression(text, in.size())({in.data(), in.size()});
+    };
+    CHECK(in_only(25, "z"));
+    CHECK(in_only(26, "aa"));
+    CHECK(in_only(27, "ab"));
+    CHECK(in_only(52, "ba"));
+    CHECK(in_only(701, "zz"));
+    CHECK_FALSE(in_only(26, "z"));
+    CHECK(complaint("aaa", 702).find("702 operands") != std::string::npos);
+}
+
+TEST_CASE("expression: what cannot be read is named with its position") {
+    const auto names = [](const std::string& text, std::size_t count, const std::string& part) {
+        CAPTURE(text);
+        CHECK(complaint(text, count).find(part) != std::string::npos);
+    };
+    names("", 2, "position 1 ");
+    names("a+", 2, "position 3 ");
+    names("a+*b", 2, "position 3 ");
+    names("a b", 2, "position 3 ");
+    names("a+(b", 2, "position 3 ");
+    names("a+b)", 2, "position 4 ");
+    names("()", 2, "position 2 ");
+    names("a-c", 2, "position 3 ");
+    names("a~b", 2, "position 2 ");
+    names("-a", 2, "position 1 ");
+    names("a", 0, "0 operands");
+    names("b", 1, "1 operand only");
+    names(std::string(100, 'z'), 30, "position 1 ");
+    CHECK(complaint("(a-b)*(a+b)", 2).empty());
+}
+
+TEST_CASE("expression: deep brackets are no deep recursion") {
+    const std::size_t depth = 200000;
+    const std::string text = std::string(depth, '(') + "a" + std::string(depth, ')');
+    CHECK(table(text, 1) == "01");
+    CHECK_FALSE(complaint(std::string(depth, '('), 1).empty());
+}
+
+TEST_CASE("expression: random formulas have the values they were made with") {
+    test::random source(1);
+    for (int round = 0; round < 500; ++round) {
+        std::array<bool, 8> in{};
+        for (bool& value : in) value = source.below(2) == 1;
+        const formula made = random_formula(source, in, 6);
+        CAPTURE(made.text);
+        CHECK(boolean_expression(made.text, in.size())({in.data(), in.size()}) == made.value);
+    }
+}
+
+TEST_CASE("boolean expression: what it needs is false without it") {
+    const auto needs = [](const char* text, std::size_t operand) {
+        return tf::boolean_expression(text, 3).needs(operand);
+    };
+    CHECK(needs("a-b", 0));
+    CHECK_FALSE(needs("a-b", 1));
+    CHECK(needs("a*b", 0));
+    CHECK(needs("a*b", 1));
+    CHECK_FALSE(needs("a+b", 0));
+    CHECK_FALSE(needs("a^b", 0));
+    CHECK(needs("(b+c)*a-c", 0));
+    CHECK(needs("(a-b)+(a-c)", 0));
+    CHECK_FALSE(needs("(a-b)+(c-b)", 0));
+    CHECK(tf::boolean_expression::union_of(0).needs(0));
+}

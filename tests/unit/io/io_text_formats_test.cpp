@@ -1,0 +1,278 @@
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace {
+
+tf::mesh_file read(std::string_view text, std::string_view name) {
+    return tf::read_mesh(std::as_bytes(std::span(text)), name, {});
+}
+
+/// What the reader says against `text`; empty when it says nothing.
+std::string complaint(std::string_view text, std::string_view name) {
+    try {
+        (void)read(text, name);
+        return {};
+    } catch (const tf::io_error& e) {
+        return e.what();
+    }
+}
+
+bool holds(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
+const tf::column& column_of(const tf::mesh_file& file, std::string_view e, std::string_view name) {
+    const tf::element* found = tf::find_element(file.attributes, e);
+    REQUIRE(found != nullptr);
+    const tf::column* c = tf::find_column(*found, name);
+    REQUIRE(c != nullptr);
+    return *c;
+}
+
+constexpr std::string_view triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+std::string with_triangle(std::string_view text) {
+    return std::string(triangle) + std::string(text);
+}
+
+}  // namespace
+
+TEST_CASE("obj: corners may be v, v/vt, v//vn, v/vt/vn, and count from the end when negative") {
+    const std::string rows = "vt 0 0\nvt 1 0\nvt 0 1\nvn 1 0 0\nvn 0 1 0\nvn 0 0 1\n";
+    for (const char* const face :
+         {"f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/1/1 2/2/2 3/3/3", "f -3 -2 -1",
+          "f -3/-3/-3 -2/-2/-2 -1/-1/-1", "f\t1\t2\t3 # end", "  f 1 2 3  ", "f 1 2 \\\n3",
+          "f 1 2 \\\r\n 3", "f 1 2 3\\\n\n"}) {
+        CAPTURE(face);
+        const tf::mesh_file file = read(with_triangle(rows + face), "a.obj");
+        CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}});
+        CHECK(file.stored_face.empty());
+    }
+}
+
+TEST_CASE("obj: line ends may be CR, LF or CRLF, and errors count them alike") {
+    for (const std::string end : {"\r", "\n", "\r\n"}) {
+        const std::string text =
+            "v 0 0 0" + end + "v 1 0 0" + end + "v 0 1 0" + end + end + "f 1 2 3" + end;
+        CHECK(read(text, "a.obj").mesh.faces.size() == 1);
+        CHECK(holds(complaint(text + "f 1 2 x" + end, "a.obj"), "a.obj:6: 'x'"));
+    }
+}
+
+TEST_CASE("obj: a polygon is a fan from its first corner, and repeated corners stay") {
+    const tf::mesh_file file = read(with_triangle("f 1 2 3\nf 1 2 3 1\nf 3 2 1\n"), "a.obj");
+    CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {0, 1, 2}, {0, 2, 0}, {2, 1, 0}});
+    CHECK(file.stored_face == std::vector<std::uint32_t>{0, 1, 1, 2});
+    CHECK(file.stored_faces == 3);
+}
+
+TEST_CASE("obj: faces may come ahead of their vertices; what never comes is named by its line") {
+    CHECK(read("f 1 2 3\n" + std::string(triangle), "a.obj").mesh.faces.size() == 1);
+    CHECK(holds(complaint(with_triangle("f 1 2 3\nf 1 2 4\n"), "a.obj"),
+                "a.obj:5: vertex index '4' is out of range"));
+    CHECK(holds(complaint("f 1 1 1\n", "a.obj"), "a.obj:1: vertex index '1' is out of range"));
+    CHECK(holds(complaint(with_triangle("f 0 1 2\n"), "a.obj"), "a.obj:4: vertex index 0"));
+    CHECK(holds(complaint(with_triangle("f -4 1 2\n"), "a.obj"), "a.obj:4: vertex index '-4'"));
+    CHECK(holds(complaint(with_triangle("f 1 2\n"), "a.obj"), "a.obj:4: face with 2 corners"));
+    CHECK(holds(complaint(with_triangle("f 1 2 3.5\n"), "a.obj"), "a.obj:4: '3.5'"));
+    CHECK(holds(complaint(with_triangle("f 1 2 3-1\n"), "a.obj"), "a.obj:4: '3-1'"));
+}
+
+TEST_CASE("obj: numbers end at blanks, and a comma is no decimal mark") {
+    CHECK(holds(complaint("v 1,5 0 0\n", "a.obj"), "the decimal mark is the point"));
+    CHECK(holds(complaint("v 0 0 1.#IND\n", "a.obj"), "a.obj:1: '1.#IND'"));
+    CHECK(holds(complaint("v 0 0\n", "a.obj"), "the line ends where a coordinate should stand"));
+    const tf::mesh_file file = read("v nan -INF 1e400\n", "a.obj");
+    CHECK(std::isnan(file.mesh.points[0].x));
+    CHECK(file.mesh.points[0].y == -INFINITY);
+    CHECK(file.mesh.points[0].z == INFINITY);
+}
+
+TEST_CASE("obj: names make parts, vertex colors a column each") {
+    const tf::mesh_file file = read(
+        "v 0 0 0 1 0.5 0\nv 1 0 0 0 0 1\nv 0 1 0 0 1 0\nf 1 2 3\no body\ng left arm\nusemtl red\n"
+        "f 1 2 3\nf 1 2 3\nusemtl \nf 1 2 3\no next\n",
+        "a.obj");
+    CHECK(file.attributes.parts ==
+          std::vector<tf::part>{{"body", "left arm", "red", 1}, {"body", "left arm", "", 3}});
+    CHECK(tf::number_at(column_of(file, "vertex", "green"), 0) == 0.5);
+    CHECK(tf::number_at(column_of(file, "vertex", "blue"), 1) == 1.0);
+    const tf::mesh_file some = read("v 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0 1 1 1\n", "a.obj");
+    CHECK(some.attributes.elements.empty());
+    CHECK(some.warnings.at(0).code == "vertex-colors");
+}
+
+TEST_CASE(
+    "obj: points and lines are counted, other statements left alone, other files not opened") {
+    const tf::mesh_file file =
+        read(with_triangle(
+                 "mtllib ../../etc/passwd\nvt 0 0\nvn 0 0 1\ns off\np 1 2\nl 1 2 \\\n3\nf 1 2 3\n"),
+             "a.obj");
+    CHECK(file.mesh.faces.size() == 1);
+    CHECK(file.warnings.at(0).text == "2 point and line elements were not read");
+    CHECK(holds(complaint("hello\nworld\n", "a.obj"), "not an OBJ file"));
+}
+
+TEST_CASE("stl text: any case, any blanks, several solids, normals of any kind") {
+    const std::string facet =
+        "FACET NORMAL -nan(ind) -nan(ind) -nan(ind)\r\n\tOuter Loop\rVERTEX 0 0 0\nvertex 1 0 0\n"
+        "vertex 0 1 0\nendloop endfacet\n";
+    const tf::mesh_file file =
+        read("  SOLID first one\n" + facet + facet + "endsolid\nsolid\nendsolid\nsolid last\n" +
+                 facet + "EndSolid whatever",
+             "a.stl");
+    CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
+    CHECK_FALSE(file.indexed);
+    CHECK(file.attributes.parts ==
+          std::vector<tf::part>{{"first one", "", "", 0}, {"", "", "", 2}, {"last", "", "", 2}});
+}
+
+TEST_CASE("stl text: a facet has three vertices and a file ends with endsolid") {
+    const std::string start =
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n";
+    CHECK(holds(complaint(start + "endloop\nendfacet\nendsolid\n", "a.stl"), "with 2 vertices"));
+    CHECK(holds(complaint(start + "vertex 0 1 0\nvertex 1 1 0\nendloop\n", "a.stl"),
+                "a.stl:7: facet with more than 3 vertices"));
+    CHECK(holds(complaint(start + "vertex 0 1 0\nendloop\nendfacet\n", "a.stl"), "cut off?"));
+    CHECK(holds(complaint(start + "vertex 0 1,5 0\n", "a.stl"), "a.stl:6: '1,5'"));
+    CHECK(holds(complaint(start + "vertex 0 1\n", "a.stl"), "a coordinate"));
+}
+
+TEST_CASE("off: first words, comments and counts") {
+    const std::string cell = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    for (const std::string head : {"OFF\n", "OFF ", "# c\nOFF # c\n\n", "", "nOFF 3\n"}) {
+        CAPTURE(head);
+        CHECK(read(head + cell, "a.off").mesh.faces == std::vector<tf::face>{{0, 1, 2}});
+    }
+    // Three more numbers are a point or a color; nobody can tell.
+    CHECK(holds(complaint("OFF\n3 1\n0 0 0 1 0 0 0 1 0\n3 0 1 2", "a.off"), "a.off:3:"));
+    CHECK(read("OFF\n3 1\n0 0\n0\n1 0 0\n0 1 0\n3 0 1 2", "a.off").mesh.points.size() == 3);
+    CHECK(holds(complaint("OFF\n-3 1 0\n", "a.off"), "a.off:2: negative count"));
+    CHECK(holds(complaint("OFF\n3000000000 1 0\n0 0 0\n", "a.off"), "larger than the file"));
+    CHECK(holds(complaint("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "a.off"),
+                "a.off:6: vertex index 3 is out of range"));
+    CHECK(holds(complaint("OFF BINARY\n", "a.off"), "binary OFF"));
+    CHECK(holds(complaint("OFF\n1 0 0\n0 0 0 255 0 0\n", "a.off"), "first word"));
+    CHECK(holds(complaint("4OFF\n1 0 0\n0 0 0 2\n", "a.off"), "weight"));
+}
+
+TEST_CASE("off: normals, colors and texture coordinates become columns") {
+    const tf::mesh_file file = read(
+        "STCNOFF\n3 2 0\n0 0 0 0 0 1 255 0 7 0.5 1\n1 0 0 0 0 1 1 2 3 0 0\n0 1 0 0 0 1 1 2 3 0 0\n"
+        "3 0 1 2 1 0 0.5\n3 2 1 0 0 0 0\n",
+        "a.off");
+    CHECK(tf::number_at(column_of(file, "vertex", "nz"), 0) == 1.0);
+    CHECK(tf::number_at(column_of(file, "vertex", "red"), 0) == 255.0);
+    CHECK(tf::number_at(column_of(file, "vertex", "t"), 0) == 1.0);
+    CHECK(tf::number_at(column_of(file, "face", "blue"), 0) == 0.5);
+    const tf::mesh_file uneven =
+        read("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9\n3 2 1 0\n", "a.off");
+    CHECK(column_of(uneven, "face", "off_color").list_begin == std::vector<std::uint64_t>{0, 1, 1});
+}
+
+TEST_CASE("xyz: separators, headings, further columns") {
+    for (const char* const text : {"1 2 3\n4 5 6\n", "1,2,3\n4,5,6\n", "1, 2, 3\n4, 5, 6\n",
+                                   "1;2;3\n4;5;6", "1\t2\t3\r4\t5\t6", "2\n1 2 3\n4 5 6\n",
+                                   "x y z\n1 2 3\n4 5 6\n", "//X Y Z\n# c\n1 2 3\n\n4 5 6\n"}) {
+        CAPTURE(text);
+        const tf::mesh_file file = read(text, "a.xyz");
+        CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
+        CHECK(file.mesh.faces.empty());
+    }
+    CHECK(tf::number_at(column_of(read("1 2 3 4 5\n1 2 3 4 6\n", "a.xyz"), "vertex", "column_5"),
+                        1) == 6.0);
+    CHECK(read("1 2 3 4\n1 2 3\n", "a.xyz").warnings.at(0).code == "columns");
+    CHECK(holds(complaint("1,5 2,5 3,5\n", "a.xyz"), "the decimal mark is the point"));
+    CHECK(holds(complaint("1 2 3\n1 2\n", "a.xyz"), "a.xyz:2:"));
+    CHECK(holds(complaint("1 2 3\nabc\n", "a.xyz"), "a.xyz:2: 'abc'"));
+}
+
+TEST_CASE("csv: a heading names the columns, x y z are found by name, and text comes back") {
+    const tf::mesh_file file =
+        read("id,\"Z\",y,\"a \"\"b\"\", c\",x\n7,3,2,0.5,1\n8,6,5,-1,4\n", "a.csv");
+    CHECK(file.format == "csv");
+    CHECK(file.warnings.empty());
+    CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
+    CHECK(tf::number_at(column_of(file, "vertex", "id"), 1) == 8.0);
+    CHECK(tf::number_at(column_of(file, "vertex", "a_\"b\",_c"), 0) == 0.5);
+    const std::string csv = tf::write_mesh_to_memory(file, {.format = "csv"});
+    CHECK(csv == "id,z,y,\"a_\"\"b\"\",_c\",x\n7,3,2,0.5,1\n8,6,5,-1,4\n");
+    CHECK(read(csv, "a.csv").attributes == file.attributes);
+    CHECK(read(csv, "stdin").format == "csv");
+    // The properties of another format come with their names.
+    const tf::mesh_file plain = read("1 2 3 4\n5 6 7 8\n", "a.xyz");
+    CHECK(tf::write_mesh_to_memory(plain, {.format = "csv"}) ==
+          "x,y,z,column_4\n1,2,3,4\n5,6,7,8\n");
+    CHECK(tf::write_mesh_to_memory(file, {.format = "txt"}) == "1 2 3 7 0.5\n4 5 6 8 -1\n");
+}
+
+TEST_CASE("csv: headings of other programs, and those that are of no use") {
+    for (const char* const text :
+         {"//X Y Z Intensity\n1 2 3 4\n", "//X Y Z Intensity\n1\n1 2 3 4\n",
+          "# x y z Intensity\n1 2 3 4", "X\tY\tZ\tIntensity\n1\t2\t3\t4\n",
+          "x;y;z;Intensity\n1;2;3;4\n", "Intensity z y x\n4 3 2 1\n",
+          "x, y, z, Intensity\n1, 2, 3, 4\n"}) {
+        CAPTURE(text);
+        const tf::mesh_file file = read(text, "a.txt");
+        CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}});
+        CHECK(tf::number_at(column_of(file, "vertex", "Intensity"), 0) == 4.0);
+    }
+    CHECK(read("easting,northing,height\n1,2,3\n", "a.csv").warnings.at(0).code == "heading");
+    CHECK(read("# some words here more\n1 2 3 4\n", "a.xyz").attributes ==
+          read("1 2 3 4\n", "a.xyz").attributes);
+    // Fewer names than values: they are numbered.
+    CHECK(tf::number_at(column_of(read("x,y,z\n1,2,3,4\n", "a.csv"), "vertex", "column_4"), 0) ==
+          4);
+    CHECK(read("x y z\n1 2 3\n", "stdin").format == "xyz");
+    CHECK(holds(complaint("x,y,z\n", "a.csv"), "no point found"));
+    CHECK(holds(complaint("a,x,y,z\n1,2,3,4\n1,2,3\n", "a.csv"), "a.csv:3:"));
+    CHECK(holds(complaint("a,x,y,z\nred,2,3,4\n", "a.csv"), "a.csv:2: 'red,"));
+}
+
+TEST_CASE("detection: LAS and LAZ are refused with a way out") {
+    const std::string way_out = "pdal translate in.laz out.ply";
+    CHECK(holds(complaint(std::string_view("LASF\0\0\1\2", 8), "stdin"), way_out));
+    CHECK(holds(complaint("anything", "a.laz"), way_out));
+}
+
+TEST_CASE("detection: the content comes first, then the name") {
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+        "property float y\nproperty float z\nend_header\n1 2 3\n";
+    CHECK(read(ply, "a.stl").format == "ply-ascii");
+    CHECK(read("OFF\n0 0 0\n", "a.obj").format == "off");
+    CHECK(read("# c\nv 1 2 3\n", "stdin").format == "obj");
+    CHECK(read("1 2 3\n", "stdin").format == "xyz");
+    CHECK(read("VERSION 1\nFIELDS x y z\nPOINTS 1\nDATA ascii\n1 2 3\n", "a.xyz").format ==
+          "pcd-ascii");
+    CHECK(read("solid\nendsolid\n", "stdin").format == "stl-ascii");
+    CHECK(read("\xef\xbb\xbfv 1 2 3\n", "a.obj").mesh.points.size() == 1);
+    CHECK(holds(complaint("", "a.obj"), "a.obj: empty file"));
+    CHECK(holds(complaint(std::string_view("\xff\xfev\0 \0", 6), "a.obj"), "UTF-16"));
+    CHECK(holds(complaint("hello", "a.nothing"), "not a format"));
+    CHECK(holds(complaint("hello", "stdin"), "not a format"));
+}
+
+TEST_CASE("detection: a binary STL is one by its size, whatever its header says") {
+    std::string stl = "solid facet normal";
+    stl.resize(84 + 50, '\0');
+    stl[80] = 1;
+    CHECK(read(stl, "a.stl").format == "stl-binary");
+    CHECK(read(stl, "stdin").mesh.faces.size() == 1);
+    CHECK(holds(complaint(stl + "x", "a.stl"), "byte 134: trailing 1 bytes"));
+    stl.resize(stl.size() - 1);
+    CHECK(holds(complaint(stl, "a.stl"), "header says 1 triangles, file holds 0"));
+}
+
+TEST_CASE("reading: a missing file and a folder are named") {
+    CHECK_THROWS_WITH_AS(static_cast<void>(tf::read_mesh("/nonexistent/a.stl")),
+                         "/nonexistent/a.stl: No such file or directory", tf::io_error);
+    CHECK_THROWS_WITH_AS(static_cast<void>(tf::read_mesh("/")), "/: Is a directory", tf::io_error);
+}

@@ -1,0 +1,61 @@
+/// \file
+/// Affine maps: what they do to points, and one after another.
+
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+
+namespace {
+
+constexpr tf::transform<2> quarter_turn{{{{0, -1, 0}, {1, 0, 0}}}};
+
+}  // namespace
+
+TEST_CASE("transform: as constructed it leaves every point where it is") {
+    CHECK(tf::transform<3>{}(tf::point3{1.5, -2.0, 1e300}) == tf::point3{1.5, -2.0, 1e300});
+    CHECK(tf::transform<2>{}(tf::point2{0.1, -0.2}) == tf::point2{0.1, -0.2});
+}
+
+TEST_CASE("transform: rows hold the matrix and then the translation") {
+    CHECK(quarter_turn(tf::point2{1, 2}) == tf::point2{-2, 1});
+    CHECK(tf::translation<2>(tf::point2{3, 4})(tf::point2{1, 2}) == tf::point2{4, 6});
+    const tf::transform<3> shear{{{{1, 2, 3, 4}, {0, 1, 0, 5}, {0, 0, 1, 6}}}};
+    CHECK(shear(tf::point3{1, 10, 100}) == tf::point3{325, 15, 106});
+}
+
+TEST_CASE("transform: `after` is the outer map of what the inner one gives") {
+    const tf::transform<2> move = tf::translation<2>(tf::point2{3, 4});
+    const tf::point2 p{1, 2};
+    CHECK(tf::after(quarter_turn, move)(p) == quarter_turn(move(p)));
+    CHECK(tf::after(move, quarter_turn)(p) == move(quarter_turn(p)));
+    CHECK(tf::after(move, quarter_turn) != tf::after(quarter_turn, move));
+}
+
+TEST_CASE("transform: `inverse` undoes a map, exactly where nothing is rounded") {
+    const tf::transform<3> exact{{{{0, -2, 0, 3}, {0, 0, 4, -5}, {0.5, 0, 0, 1e9}}}};
+    CHECK(tf::after(tf::inverse(exact), exact) == tf::transform<3>{});
+    CHECK(tf::after(exact, tf::inverse(exact)) == tf::transform<3>{});
+    CHECK(tf::inverse(quarter_turn)(quarter_turn(tf::point2{3, 4})) == tf::point2{3, 4});
+    const tf::transform<3> skew{{{{1, 2, 3, 4}, {0, 1, 5, 5}, {7, 0, 1, 6}}}};
+    const tf::transform<3> around = tf::after(tf::inverse(skew), skew);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 4; ++j)
+            CHECK(around.rows[i][j] == doctest::Approx(i == j ? 1.0 : 0.0).epsilon(1e-13));
+    const tf::transform<3> flat{{{{1, 2, 3, 4}, {2, 4, 6, 5}, {7, 0, 1, 6}}}};
+    CHECK_THROWS_AS(static_cast<void>(tf::inverse(flat)), std::invalid_argument);
+}
+
+TEST_CASE("transform: knows whether an entry is NaN or infinite") {
+    tf::transform<3> map;
+    CHECK(map.finite());
+    map.rows[1][3] = std::numeric_limits<double>::infinity();
+    CHECK_FALSE(map.finite());
+    map.rows[1][3] = std::numeric_limits<double>::quiet_NaN();
+    CHECK_FALSE(map.finite());
+}
