@@ -87,7 +87,8 @@ struct mesh_positions {
 /// Whether a face of `a` and a face of `b` have a common point, touching included. Exact; returns
 /// as soon as one pair is found.
 ///
-/// \pre    \throws as for `mesh_intersections`
+/// \pre    as for `mesh_intersections`
+/// \throws likewise
 /// \same   in its answer; how much is looked at, and so which bad face is met, is not
 [[nodiscard]] TREEFORM_API bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                            const tree<3>& tree_b,
