@@ -19,7 +19,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-WIDE = "--extra-arg=-Wno-unknown-warning-option"  # BUILD may be by GCC
+# BUILD may be by GCC; and what is asserted is what clang-tidy may take for granted.
+ARGUMENTS = ["--extra-arg=-Wno-unknown-warning-option", "--extra-arg=-UNDEBUG"]
 FOLDERS = ("libtree/", "libmesh/", "tools/")
 
 
@@ -44,12 +45,12 @@ def headers_of(build):
 def key_of(entry, headers, tool):
     """What the findings depend on."""
     made_from = [f"{path} {digest_of(path)}" for path in headers if path.exists()]
-    text = "\n".join([tool, digest_of(ROOT / ".clang-tidy"), entry["command"], *made_from])
+    text = "\n".join([tool, *ARGUMENTS, digest_of(ROOT / ".clang-tidy"), entry["command"], *made_from])
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def findings(build, file):
-    done = subprocess.run(["clang-tidy", "-p", build, "--quiet", WIDE, file], text=True,
+    done = subprocess.run(["clang-tidy", "-p", build, "--quiet", *ARGUMENTS, file], text=True,
                           capture_output=True)
     return done.stdout.strip() if done.returncode or "warning:" in done.stdout else ""
 

@@ -84,6 +84,7 @@ class tree {
     [[nodiscard]] bool is_leaf_level(unsigned level) const { return level + 1 == levels_; }
     /// Primitives below a full node of `level`.
     [[nodiscard]] std::size_t capacity(unsigned level) const {
+        assert(level <= levels_);
         return std::size_t{1} << (3 * (levels_ - level));
     }
     /// At least the root, which a tree built over nothing has, too.
