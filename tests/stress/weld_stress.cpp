@@ -28,7 +28,7 @@ using cloud = std::vector<point3>;
 constexpr std::array searches{neighbor_search::automatic, neighbor_search::window,
                               neighbor_search::cells, neighbor_search::tree};
 
-std::size_t points_a_cloud() { return 10 * test::stress_count(2000); }
+std::size_t points_a_cloud() { return 10 * test::setting("TREEFORM_STRESS_COUNT", 2000); }
 
 std::vector<std::uint32_t> leaders(const cloud& points, const tf::weld_options& options) {
     const tf::point_groups groups = tf::group_points(points, options);
