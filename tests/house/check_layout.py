@@ -33,6 +33,13 @@ FLOORS = [
 # A public header belongs to the room that has a source of its name; but these are of several:
 # to the lowest one.
 ROOM_OF_HEADER = {"as_mesh": "weld", "properties": "topology"}
+# Where the packages of others may be named, of libraries and tools.
+HOME_OF_PACKAGE = {
+    r"(tbb|oneapi)/": "libtree/base/parallel.cpp",
+    r"assimp/": "libmesh/io/",
+    r"Eigen/": "libmesh/place/",
+    r"(CGAL/|gmp|mpfr)": "tests/",
+}
 READS_FILES = ("stream", "carry")  # besides tools and tests, only these rooms know of `io`
 
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
@@ -162,6 +169,27 @@ def check_floors(root):
                 yield path, number, f"{room} is not above {target}: <{name}>"
 
 
+def check_packages(root):
+    for path in sources(root, "libtree", "libmesh", "tools"):
+        place = path.relative_to(root).as_posix()
+        for number, name in includes(path):
+            for package, home in HOME_OF_PACKAGE.items():
+                if re.match(package, name) and not place.startswith(home):
+                    yield path, number, f"only {home} may name <{name}>"
+
+
+TALKS = re.compile(r"\bstd::(cout|cerr|clog|exit|abort|terminate|getenv)\b"
+                   r"|\b(f?printf|f?puts|putchar|perror|getenv|system|exit|abort)\s*\(")
+
+
+def check_silence(root):
+    """The library prints nothing, reads no environment and never ends the program."""
+    for path in sources(root, "libtree", "libmesh"):
+        for number, line in enumerate(code_of(path.read_text()).splitlines(), 1):
+            if match := TALKS.search(line):
+                yield path, number, f"a library does not call {match[0].strip('( ')}"
+
+
 # ---- lengths ----
 
 LEFT_OUT = re.compile(r'R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\''
@@ -170,9 +198,14 @@ SCOPE = re.compile(r"(^|\s)(namespace|class|struct|union|enum|extern)\b(?!.*\)\s
                    r"|override|$))", re.DOTALL)
 
 
+def code_of(text):
+    """Without comments, strings and directives; every line in its place."""
+    return LEFT_OUT.sub(lambda left_out: "\n" * left_out[0].count("\n"), text)
+
+
 def function_lengths(text):
     """(line of the opening brace, lines) of each function: a body that is in no other body."""
-    text = LEFT_OUT.sub(lambda left_out: "\n" * left_out[0].count("\n"), text)
+    text = code_of(text)
     opened, head, depth_of_body = [], "", None
     line = 1
     for char in text:
@@ -199,7 +232,8 @@ def check_lengths(root):
                 yield path, line, f"a function of {length} lines, {FUNCTION_LINES} at most"
 
 
-CHECKS = [check_door, check_headers, check_lists, check_listed, check_floors, check_lengths]
+CHECKS = [check_door, check_headers, check_lists, check_listed, check_floors, check_packages,
+          check_silence, check_lengths]
 
 
 def faults(root):
@@ -215,6 +249,8 @@ WRONG = {  # each file with what is to be said of it
     "libmesh/io/read.cpp": ("int f() {\n" + "    g();\n" * 59 + "}\n", ["of 61 lines"]),
     "libmesh/boolean/b.hpp": ("\n" * 501, ["more than 500"]),
     "libmesh/lost/c.cpp": ("", ["on no floor"]),
+    "libmesh/weld/talks.cpp": ('#include <Eigen/Dense>\nint f() { return std::printf("a"); }\n',
+                               ["only libmesh/place/", "call printf"]),
     "libmesh/weld/CMakeLists.txt": ("target_sources(t PRIVATE\n reads.cpp\n a.cpp)\n",
                                     ["a.cpp after reads.cpp"]),
     "libtree/d.cpp": ("#include <treeform/mesh/mesh.hpp>\n", ["not listed", "nothing of meshes"]),
