@@ -18,9 +18,12 @@ namespace treeform {
 ///         not finite
 /// \cost   O(F log F) time, some 30 bytes a face
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API tree<3> build_face_tree(mesh_view mesh);
+/// `function` is what was called, for the message: "distance: the second mesh".
+[[nodiscard]] TREEFORM_API tree<3> build_face_tree(mesh_view mesh,
+                                                   const char* function = "build_face_tree");
 
 /// The same of a prepared mesh, which keeps it.
-[[nodiscard]] TREEFORM_API const tree<3>& build_face_tree(const prepared_mesh& mesh);
+[[nodiscard]] TREEFORM_API const tree<3>& build_face_tree(const prepared_mesh& mesh,
+                                                          const char* function = "build_face_tree");
 
 }  // namespace treeform

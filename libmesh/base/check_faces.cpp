@@ -1,4 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/finite.hpp>
 #include <libmesh/base/first_bad.hpp>
 
 #include <algorithm>
@@ -27,6 +28,16 @@ void check_faces(const char* function, std::size_t point_count, std::span<const 
     });
     if (bad != faces.size())
         refuse(function, "face " + std::to_string(bad) + " has a corner out of range");
+}
+
+void check_finite_faces(const char* function, mesh_view mesh) {
+    const std::size_t bad = first_bad(mesh.faces.size(), [&](std::size_t i) {
+        const auto& [a, b, c] = mesh.faces[i];
+        return !is_finite(mesh.points[a]) || !is_finite(mesh.points[b]) ||
+               !is_finite(mesh.points[c]);
+    });
+    if (bad != mesh.faces.size())
+        refuse(function, "face " + std::to_string(bad) + " has a corner that is not finite");
 }
 
 }  // namespace treeform::detail::base

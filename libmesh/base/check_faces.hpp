@@ -14,4 +14,10 @@ namespace treeform::detail::base {
 /// \cost   O(F), in parallel
 void check_faces(const char* function, std::size_t point_count, std::span<const face> faces);
 
+/// \throws std::invalid_argument naming `function` and the lowest face with a corner that is not
+///         finite
+/// \pre    every corner is a point
+/// \cost   O(F), in parallel
+void check_finite_faces(const char* function, mesh_view mesh);
+
 }  // namespace treeform::detail::base

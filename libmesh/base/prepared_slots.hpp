@@ -13,11 +13,11 @@ namespace treeform::detail::base {
 
 /// One name a kind of index, so that no two floors take the same place.
 enum class slot_name : std::size_t {
-    build_face_tree,
+    face_tree,
     triangle_blocks,
     closest_triangles,
     joined_corners,
-    open_edge,
+    closed,
     sound_operand,
     count
 };

@@ -3,6 +3,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/boolean/propagate_inside.hpp>
+#include <libmesh/intersect/point_locator.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -251,7 +252,7 @@ class finder {
         for (std::size_t k = 0; k < 2; ++k) {
             if (asking[k].empty()) continue;
             const tree<3> tree = build_face_tree(operands_[k]);
-            const point_locator locator(operands_[k], tree);
+            const intersect::point_locator locator(operands_[k], tree);
             std::vector<point3> points;
             for (const std::uint32_t p : asking[k]) points.push_back(cut_.given_points[p]);
             const auto found = locator.locate(points);

@@ -51,7 +51,7 @@ class block_side {
 struct block_pair_input {
     block_side a;
     block_side b;
-    wanted_kinds kinds;
+    pair_kinds kinds;
 };
 
 /// Drops candidates by the planes of their triangles, one against eight at a time, and has the

@@ -1,5 +1,5 @@
 #include <libmesh/geometry/contact_point.hpp>
-#include <libmesh/intersect/curves.hpp>
+#include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -1,9 +1,13 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/face_boxes.hpp>
 #include <libmesh/intersect/block_pair_sieve.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/intersect/mesh_pair_sieve.hpp>
-#include <libmesh/nearness/distance_model.hpp>
+#include <libmesh/nearness/face_blocks.hpp>
 #include <treeform/mesh/intersections.hpp>
+#include <treeform/tree/build_within.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search_pair.hpp>
 #include <treeform/tree/tree.hpp>
@@ -79,37 +83,40 @@ mesh_intersection_result sieved(const pair_search<3>& search, const Input& input
 
 }  // namespace
 
-mesh_intersection_result mesh_intersections(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                            const tree<3>& tree_b,
-                                            const mesh_intersection_options& options) {
+mesh_intersection_result detail::intersect::mesh_intersections(
+    mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
+    const mesh_intersection_options& options) {
     check_tree("treeform::mesh_intersections", "first", a, tree_a);
     check_tree("treeform::mesh_intersections", "second", b, tree_b);
     const pair_search<3> search(transformed(tree_a, options.move_a),
                                 transformed(tree_b, options.move_b), turned_boxes::both_ways);
-    const detail::intersect::mesh_pair_input input{
+    const mesh_pair_input input{
         {a, tree_a, options.move_a}, {b, tree_b, options.move_b}, options.kinds};
-    return sieved<detail::intersect::mesh_pair_sieve>(search, input, options);
+    return sieved<mesh_pair_sieve>(search, input, options);
 }
 
-mesh_intersection_result mesh_intersections(const distance_model& a, const distance_model& b,
+mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepared_mesh& b,
                                             const mesh_intersection_options& options) {
-    const pair_search<3> search(transformed(a.tree_, options.move_a),
-                                transformed(b.tree_, options.move_b), turned_boxes::both_ways);
-    const detail::intersect::block_pair_input input{{a.triangles_, a.tree_, options.move_a},
-                                                    {b.triangles_, b.tree_, options.move_b},
-                                                    options.kinds};
+    const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: the first mesh");
+    const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: the second mesh");
+    const pair_search<3> search(transformed(tree_a, options.move_a),
+                                transformed(tree_b, options.move_b), turned_boxes::both_ways);
+    const detail::intersect::block_pair_input input{
+        {detail::nearness::face_blocks_of(a).triangles, tree_a, options.move_a},
+        {detail::nearness::face_blocks_of(b).triangles, tree_b, options.move_b},
+        options.kinds};
     return sieved<detail::intersect::block_pair_sieve>(search, input, options);
 }
 
 mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
                                             const mesh_intersection_options& options) {
-    return mesh_intersections(a, build_face_tree(a), b, build_face_tree(b), options);
+    return detail::intersect::mesh_intersections(
+        a, build_face_tree(a, "mesh_intersections: the first mesh"), b,
+        build_face_tree(b, "mesh_intersections: the second mesh"), options);
 }
 
-bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
-                const mesh_positions& positions) {
-    check_tree("treeform::intersects", "first", a, tree_a);
-    check_tree("treeform::intersects", "second", b, tree_b);
+bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                   const tree<3>& tree_b, const mesh_positions& positions) {
     mesh_intersection_options all;
     const detail::intersect::mesh_pair_input input{
         {a, tree_a, positions.move_a}, {b, tree_b, positions.move_b}, all.kinds};
@@ -132,8 +139,29 @@ bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& 
     return found;
 }
 
+bool intersects(const prepared_mesh& a, const prepared_mesh& b, const mesh_positions& positions) {
+    return detail::intersect::intersects(
+        a.view(), build_face_tree(a, "intersects: the first mesh"), b.view(),
+        build_face_tree(b, "intersects: the second mesh"), positions);
+}
+
 bool intersects(mesh_view a, mesh_view b, const mesh_positions& positions) {
-    return intersects(a, build_face_tree(a), b, build_face_tree(b), positions);
+    constexpr const char* first = "intersects: the first mesh";
+    constexpr const char* second = "intersects: the second mesh";
+    if (positions.move_a != transform<3>{} || positions.move_b != transform<3>{})
+        return detail::intersect::intersects(a, build_face_tree(a, first), b,
+                                             build_face_tree(b, second), positions);
+    detail::base::check_faces(first, a.points.size(), a.faces);
+    detail::base::check_faces(second, b.points.size(), b.faces);
+    try {
+        const auto [tree_a, tree_b] = build_overlap(a.faces, detail::base::face_boxes(a.points),
+                                                    b.faces, detail::base::face_boxes(b.points));
+        return detail::intersect::intersects(a, tree_a.boxes, b, tree_b.boxes);
+    } catch (const std::invalid_argument&) {  // a box, and so a face, that is not finite
+        detail::base::check_finite_faces(first, a);
+        detail::base::check_finite_faces(second, b);
+        throw;
+    }
 }
 
 }  // namespace treeform

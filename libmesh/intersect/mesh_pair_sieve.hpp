@@ -51,7 +51,7 @@ class mesh_side {
 struct mesh_pair_input {
     mesh_side a;
     mesh_side b;
-    wanted_kinds kinds;
+    pair_kinds kinds;
 };
 
 /// Gathers the corners of candidates from the meshes and has them decided. 10 kB.

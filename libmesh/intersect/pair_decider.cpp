@@ -80,7 +80,7 @@ void pair_decider::decide(const face_numbers& pair, const triangle3& a, const tr
 
 void pair_decider::record(const face_numbers& pair, pair_kind kind) {
     const auto k = static_cast<std::size_t>(kind);
-    if (!kinds_[k]) return;
+    if (!kinds_.contains(kind)) return;
     ++output_.counts[k];
     output_.pairs.push_back({pair.a, pair.b, kind});
 }

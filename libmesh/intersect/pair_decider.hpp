@@ -13,9 +13,6 @@
 
 namespace treeform::detail::intersect {
 
-/// Kinds to look for.
-using wanted_kinds = std::array<bool, pair_kind_count>;
-
 /// A face of each mesh.
 struct face_numbers {
     std::uint32_t a, b;
@@ -31,7 +28,7 @@ struct bad_faces {
 /// Filters pairs in batches, and has the exact stage decide the rest. 10 kB.
 class pair_decider {
   public:
-    pair_decider(const wanted_kinds& kinds, sieve_output& output, bad_faces& bad)
+    pair_decider(pair_kinds kinds, sieve_output& output, bad_faces& bad)
         : kinds_(kinds), output_(output), bad_(bad) {}
 
     /// One more pair, its faces where they are moved; decided now or with others.
@@ -44,7 +41,7 @@ class pair_decider {
     void record(const face_numbers& pair, pair_kind kind);
     [[nodiscard]] triangle3 batched(std::size_t i, std::size_t first_corner) const;
 
-    const wanted_kinds& kinds_;
+    pair_kinds kinds_;
     sieve_output& output_;
     bad_faces& bad_;
     std::size_t count_ = 0;  ///< pairs in the batch

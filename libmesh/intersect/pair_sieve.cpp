@@ -108,7 +108,7 @@ void pair_sieve::decide(const candidate& pair) {
 
 void pair_sieve::record(const candidate& pair, pair_kind kind) {
     const auto k = static_cast<std::size_t>(kind);
-    if (!input_.options->kinds[k]) return;
+    if (!input_.options->kinds.contains(kind)) return;
     const auto [low, high] = std::minmax(face_a(pair).back(), face_b(pair).back());
     ++output_.counts[k];
     output_.pairs.push_back({low, high, kind});

@@ -1,7 +1,12 @@
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/finite.hpp>
+#include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/geometry/flat_triangle.hpp>
 #include <libmesh/geometry/signs.hpp>
+#include <libmesh/intersect/point_locator.hpp>
+#include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/triangle.hpp>
@@ -28,9 +33,7 @@ constexpr std::size_t star_grain = std::size_t{1} << 14;  // points of the mesh 
 }
 
 bool is_finite(const point2& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-bool is_finite(const point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
+using detail::base::is_finite;
 
 /// What has been found along the ray so far.
 struct tally {
@@ -177,15 +180,20 @@ std::optional<std::array<std::uint32_t, 2>> find_open_edge(mesh_view mesh) {
     return std::nullopt;
 }
 
-point_locator::point_locator(mesh_view mesh, const tree<3>& tree) : mesh_(mesh), tree_(&tree) {
-    if (tree.size() != mesh.faces.size()) refuse("point_locator: the tree is not of these faces");
+void detail::intersect::check_closed(const char* function, mesh_view mesh) {
     if (const auto open = find_open_edge(mesh))
-        refuse("point_locator: the mesh is open at the edge between points " +
+        refuse(std::string(function) + ": the mesh is open at the edge between points " +
                std::to_string((*open)[0]) + " and " + std::to_string((*open)[1]));
 }
 
-point_location point_locator::locate(const point3& point) const {
-    if (!is_finite(point)) refuse("point_locator: the point is not finite");
+bool detail::intersect::is_closed(const prepared_mesh& mesh) {
+    constexpr base::slot<bool> slot{base::slot_name::closed};
+    return base::prepared_slots::get(
+        mesh, slot, [&] { return !find_open_edge(weld::join_faces(mesh).of(mesh.view())); });
+}
+
+point_location detail::intersect::point_locator::locate(const point3& point) const {
+    if (!base::is_finite(point)) refuse("locate: the point is not finite");
     constexpr double infinite = std::numeric_limits<double>::infinity();
     tally found;
     visit_along(*tree_, ray<double, 3>{{point.x, point.y, point.z}, {1, 0, 0}},
@@ -198,9 +206,46 @@ point_location point_locator::locate(const point3& point) const {
     return found.result();
 }
 
-std::vector<point_location> point_locator::locate(std::span<const point3> points) const {
-    return locate_all(*this, points, "point_locator");
+std::vector<point_location> detail::intersect::point_locator::locate(
+    std::span<const point3> points) const {
+    return locate_all(*this, points, "locate");
 }
+
+namespace {
+
+/// Finds the points `asked`, one or a span, after the mesh was checked.
+template <class Asked>
+auto locate_in(const prepared_mesh& mesh, const Asked& asked) {
+    const tree<3>& faces = build_face_tree(mesh, "locate");
+    if (!detail::intersect::is_closed(mesh))
+        detail::intersect::check_closed("locate", detail::weld::join_faces(mesh).of(mesh.view()));
+    return detail::intersect::point_locator(mesh.view(), faces).locate(asked);
+}
+
+bool is_in(const point_location& found) { return found.where != location::outside; }
+
+}  // namespace
+
+point_location locate(const prepared_mesh& mesh, const point3& point) {
+    return locate_in(mesh, point);
+}
+point_location locate(mesh_view mesh, const point3& point) {
+    return locate(prepared_mesh::borrow(mesh), point);
+}
+std::vector<point_location> locate(const prepared_mesh& mesh, std::span<const point3> points) {
+    return locate_in(mesh, points);
+}
+std::vector<point_location> locate(mesh_view mesh, std::span<const point3> points) {
+    return locate(prepared_mesh::borrow(mesh), points);
+}
+
+bool contains(const prepared_mesh& mesh, const point3& point) { return is_in(locate(mesh, point)); }
+bool contains(mesh_view mesh, const point3& point) { return is_in(locate(mesh, point)); }
+
+int winding_number(const prepared_mesh& mesh, const point3& point) {
+    return locate(mesh, point).winding;
+}
+int winding_number(mesh_view mesh, const point3& point) { return locate(mesh, point).winding; }
 
 std::vector<curve_edge> polygon_edges(std::uint32_t count) {
     std::vector<curve_edge> edges(count);

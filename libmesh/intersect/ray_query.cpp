@@ -1,5 +1,6 @@
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/features.hpp>
-#include <treeform/mesh/raycast.hpp>
+#include <libmesh/intersect/ray_query.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/ray.hpp>
 
@@ -10,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace treeform {
+namespace treeform::detail::intersect {
 namespace {
 
 constexpr std::size_t grain = 256;  // rays a chunk
@@ -27,8 +28,7 @@ void check(const ray3& ray, std::size_t number) {
                       : std::isnan(ray.t_min) || std::isnan(ray.t_max)
                           ? " has a parameter that is not a number"
                           : nullptr;
-    if (why)
-        throw std::invalid_argument("treeform::ray_query: ray " + std::to_string(number) + why);
+    if (why) throw std::invalid_argument("treeform::raycast: ray " + std::to_string(number) + why);
 }
 
 void check(std::span<const ray3> rays) {
@@ -45,10 +45,10 @@ struct face_contact {
 std::array<std::uint32_t, 2> place_of(mesh_view mesh, const face_contact& c) {
     constexpr auto none = std::numeric_limits<std::uint32_t>::max();
     const face& f = mesh.faces[c.face];
-    const auto i = static_cast<std::size_t>(detail::geometry::index_of(c.contact.at));
-    if (detail::geometry::is_corner(c.contact.at)) return {f[i], f[i]};
+    const auto i = static_cast<std::size_t>(geometry::index_of(c.contact.at));
+    if (geometry::is_corner(c.contact.at)) return {f[i], f[i]};
     // In a plane, the ray may enter an edge anywhere on it.
-    if (!detail::geometry::is_edge(c.contact.at) || c.contact.coplanar) return {c.face, none};
+    if (!geometry::is_edge(c.contact.at) || c.contact.coplanar) return {c.face, none};
     const std::uint32_t j = f[(i + 1) % 3];
     return {std::min(f[i], j), std::max(f[i], j)};
 }
@@ -81,7 +81,7 @@ std::optional<mesh_hit> ray_query::first(const ray3& ray) const {
     check(ray, 0);
     std::optional<face_contact> best;
     visit_along(*tree_, ray, [&](std::uint32_t id) {
-        if (const auto contact = intersect(ray, corners(id))) {
+        if (const auto contact = treeform::intersect(ray, corners(id))) {
             const face_contact found{id, *contact};
             const int after = best ? order(mesh_, ray, found, *best) : -1;
             if (after < 0 || (after == 0 && id < best->face)) best = found;
@@ -95,7 +95,8 @@ std::vector<mesh_hit> ray_query::all(const ray3& ray) const {
     check(ray, 0);
     std::vector<face_contact> found;
     visit_along(*tree_, ray, [&](std::uint32_t id) {
-        if (const auto contact = intersect(ray, corners(id))) found.push_back({id, *contact});
+        if (const auto contact = treeform::intersect(ray, corners(id)))
+            found.push_back({id, *contact});
         return ray.t_max;
     });
     std::sort(found.begin(), found.end(), [&](const face_contact& a, const face_contact& b) {
@@ -120,8 +121,9 @@ std::vector<mesh_hit> ray_query::all(const ray3& ray) const {
 
 bool ray_query::any(const ray3& ray) const {
     check(ray, 0);
-    return any_hit(*tree_, ray,
-                   [&](std::uint32_t id) { return intersect(ray, corners(id)).has_value(); });
+    return any_hit(*tree_, ray, [&](std::uint32_t id) {
+        return treeform::intersect(ray, corners(id)).has_value();
+    });
 }
 
 std::vector<std::optional<mesh_hit>> ray_query::first(std::span<const ray3> rays) const {
@@ -158,6 +160,41 @@ std::vector<std::uint8_t> ray_query::any(std::span<const ray3> rays) const {
         for (std::size_t i = begin; i < end; ++i) found[i] = any(rays[i]);
     });
     return found;
+}
+
+}  // namespace treeform::detail::intersect
+
+namespace treeform {
+
+using detail::intersect::ray_query;
+
+std::optional<mesh_hit> raycast(const prepared_mesh& mesh, const ray3& ray) {
+    return ray_query(mesh.view(), build_face_tree(mesh, "raycast")).first(ray);
+}
+std::optional<mesh_hit> raycast(mesh_view mesh, const ray3& ray) {
+    return raycast(prepared_mesh::borrow(mesh), ray);
+}
+
+std::vector<std::optional<mesh_hit>> raycast(const prepared_mesh& mesh,
+                                             std::span<const ray3> rays) {
+    return ray_query(mesh.view(), build_face_tree(mesh, "raycast")).first(rays);
+}
+std::vector<std::optional<mesh_hit>> raycast(mesh_view mesh, std::span<const ray3> rays) {
+    return raycast(prepared_mesh::borrow(mesh), rays);
+}
+
+mesh_hits raycast_all(const prepared_mesh& mesh, std::span<const ray3> rays) {
+    return ray_query(mesh.view(), build_face_tree(mesh, "raycast_all")).all(rays);
+}
+mesh_hits raycast_all(mesh_view mesh, std::span<const ray3> rays) {
+    return raycast_all(prepared_mesh::borrow(mesh), rays);
+}
+
+std::vector<std::uint8_t> raycast_any(const prepared_mesh& mesh, std::span<const ray3> rays) {
+    return ray_query(mesh.view(), build_face_tree(mesh, "raycast_any")).any(rays);
+}
+std::vector<std::uint8_t> raycast_any(mesh_view mesh, std::span<const ray3> rays) {
+    return raycast_any(prepared_mesh::borrow(mesh), rays);
 }
 
 }  // namespace treeform

@@ -97,8 +97,8 @@ void point_writer::write(const point_block& block) {
     state& s = *state_;
     s.check(block);
     if (s.result.written_as == precision::float32)
-        s.result.largest_move =
-            std::max(s.result.largest_move,
+        s.result.max_displacement =
+            std::max(s.result.max_displacement,
                      detail::io::largest_move(block.points, s.written, s.file->name()));
     const bool has_rows = find_element(s.head.attributes, "vertex") != nullptr;
     s.rows.rows(block.points, has_rows ? &block.properties : nullptr);

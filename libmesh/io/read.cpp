@@ -9,8 +9,8 @@ namespace treeform {
 
 namespace {
 
-[[nodiscard]] mesh_file read_mesh(const detail::io::source& in, const std::filesystem::path& path,
-                                  std::string_view format, const std::string& extension) {
+[[nodiscard]] mesh_file read(const detail::io::source& in, const std::filesystem::path& path,
+                             std::string_view format, const std::string& extension) {
     const detail::io::detected found =
         detail::io::detect(in, detail::io::plain_extension(format), extension);
     switch (found.kind) {
@@ -38,16 +38,15 @@ namespace {
 
 }  // namespace
 
-mesh_file read_mesh(const std::filesystem::path& path, std::string_view format) {
+mesh_file read(const std::filesystem::path& path, std::string_view format) {
     const detail::io::source in = detail::io::source::open(path);
-    return read_mesh(in, path == "-" ? std::filesystem::path() : path, format,
-                     detail::io::extension_of(path));
+    return read(in, path == "-" ? std::filesystem::path() : path, format,
+                detail::io::extension_of(path));
 }
 
-mesh_file read_mesh(std::span<const std::byte> bytes, std::string_view name,
-                    std::string_view format) {
+mesh_file read(std::span<const std::byte> bytes, std::string_view name, std::string_view format) {
     const detail::io::source in(bytes, name);
-    return read_mesh(in, {}, format, detail::io::extension_of(name));
+    return read(in, {}, format, detail::io::extension_of(name));
 }
 
 }  // namespace treeform

@@ -13,9 +13,7 @@ namespace treeform {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
-    throw std::invalid_argument("write_mesh: " + what);
-}
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("write: " + what); }
 
 }  // namespace
 
@@ -76,7 +74,7 @@ void check_faces(const mesh_file& file) {
     for (std::size_t f = 0; f < faces.size(); ++f)
         for (const std::uint32_t corner : faces[f])
             if (corner >= file.mesh.points.size())
-                refuse("a corner of face " + std::to_string(f) + " is no point");
+                refuse("a corner of face " + std::to_string(f) + " is out of range");
     const auto& stored = file.stored_face;
     if (const auto fault = fault_of(file.attributes.corners, faces.size()); !fault.empty())
         refuse(fault);
@@ -129,7 +127,8 @@ namespace {
 
 class writing {
   public:
-    writing(const std::filesystem::path& path, const mesh_file& file, const write_options& options)
+    writing(const std::filesystem::path& path, const mesh_file& file, const write_options& options,
+            bool may_round = true)
         : file_(file),
           options_(options),
           name_(path.string()),
@@ -147,7 +146,12 @@ class writing {
             !(!text && format_.single_only) && !fits_single(file.mesh.points))
             result_.written_as = precision::float64;
         if (result_.written_as == precision::float32)
-            result_.largest_move = detail::io::largest_move(file.mesh.points, 0, name_);
+            result_.max_displacement = detail::io::largest_move(file.mesh.points, 0, name_);
+        if (!may_round && result_.max_displacement > 0.0)
+            throw io_error(name_ + ": " + result_.format +
+                           " would round coordinates that were certified; ask for "
+                           "precision::float32 where they are made, write a format of doubles, or "
+                           "set write_options::round");
         if (file.mesh.faces.empty() && !file.mesh.points.empty() &&
             (format_.extension == "stl" || format_.extension == "glb"))
             throw io_error(name_ + ": " + std::string(format_.extension) +
@@ -202,11 +206,9 @@ class writing {
     write_result result_{};
 };
 
-}  // namespace
-
-write_result write_mesh(const std::filesystem::path& path, const mesh_file& file,
-                        const write_options& options) {
-    writing job(path, file, options);
+write_result write_file(const std::filesystem::path& path, const mesh_file& file,
+                        const write_options& options, bool may_round) {
+    writing job(path, file, options, may_round);
     detail::io::output_file target(path);
     detail::io::sink out(target.descriptor(), target.name());
     write_result result = job.run(out);
@@ -214,7 +216,23 @@ write_result write_mesh(const std::filesystem::path& path, const mesh_file& file
     return result;
 }
 
-std::string write_mesh_to_memory(const mesh_file& file, const write_options& options) {
+}  // namespace
+
+write_result write(const std::filesystem::path& path, const mesh_file& file,
+                   const write_options& options) {
+    return write_file(path, file, options, true);
+}
+
+write_result write(const std::filesystem::path& path, mesh surface, const write_options& options) {
+    return write_file(path, {.mesh = std::move(surface)}, options, true);
+}
+
+write_result detail::io::write_certified(const std::filesystem::path& path, mesh surface,
+                                         const write_options& options) {
+    return write_file(path, {.mesh = std::move(surface)}, options, false);
+}
+
+std::string write_to_memory(const mesh_file& file, const write_options& options) {
     std::string bytes;
     detail::io::sink out(bytes);
     (void)writing("memory", file, options).run(out);

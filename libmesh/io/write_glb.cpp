@@ -113,8 +113,8 @@ struct box {
     for (std::size_t axis = 0; axis < 3; ++axis)
         middle[axis] = base::nearest_float(b.min[axis] / 2 + b.max[axis] / 2);
     const double moved = largest_move(points, middle);
-    if (moved >= job.result.largest_move) return {};
-    job.result.largest_move = moved;
+    if (moved >= job.result.max_displacement) return {};
+    job.result.max_displacement = moved;
     return middle;
 }
 

@@ -20,7 +20,7 @@
 
 namespace treeform::detail::io {
 
-/// What a writer works on. The checks of `write_mesh` have been made.
+/// What a writer works on. The checks of `write` have been made.
 struct write_job {
     const mesh_file& file;
     const write_options& options;

@@ -18,8 +18,8 @@
 namespace treeform::detail::nearness {
 namespace {
 
-/// One disc, its center in the common frame.
-struct placed_disc {
+/// One cylinder, its center in the common frame.
+struct placed_cylinder {
     float center[3];
     float slack;  ///< how far that is off, the sum over the axes
     float normal[3];
@@ -27,8 +27,8 @@ struct placed_disc {
     float radius;
 };
 
-/// A linear map of discs into the common frame.
-struct disc_map {
+/// A linear map of cylinders into the common frame.
+struct cylinder_map {
     float linear[3][3];
     float size;    ///< the sum of the magnitudes of the entries
     float square;  ///< for a rotation scaled by s: 1 / s^2
@@ -41,8 +41,8 @@ struct axial_extent {
     double squared = 0.0;
 };
 
-/// Where a disc is looked for: a center in the frame of the tree, and a normal of length 1.
-struct disc_axis {
+/// Where a cylinder is looked for: a center in the frame of the tree, and a normal of length 1.
+struct cylinder_axis {
     double center[3];
     double normal[3];
 };
@@ -60,7 +60,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using doubles = hn::CappedTag<double, 8>;
 
 void measure_blocks(const eight_triangles* begin, const eight_triangles* end,
-                    const tree_frame<3>& frame, const disc_axis& axis, axial_extent& extent) {
+                    const tree_frame<3>& frame, const cylinder_axis& axis, axial_extent& extent) {
     const doubles d;
     using vec = hn::Vec<doubles>;
     vec least = hn::Set(d, extent.least), most = hn::Set(d, extent.most);
@@ -101,7 +101,7 @@ HWY_INLINE lanes dot(const vector3& a, const vector3& b) {
 }
 
 /// A row of the map times x, or a column.
-HWY_INLINE vector3 mapped(const disc_map& map, const vector3& x) {
+HWY_INLINE vector3 mapped(const cylinder_map& map, const vector3& x) {
     const floats d;
     vector3 result;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -111,7 +111,7 @@ HWY_INLINE vector3 mapped(const disc_map& map, const vector3& x) {
     }
     return result;
 }
-HWY_INLINE vector3 mapped_back(const disc_map& map, const vector3& x) {
+HWY_INLINE vector3 mapped_back(const cylinder_map& map, const vector3& x) {
     const floats d;
     vector3 result;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -122,11 +122,11 @@ HWY_INLINE vector3 mapped_back(const disc_map& map, const vector3& x) {
     return result;
 }
 
-/// A disc a lane, about its center, and the map into the common frame.
-struct disc_lanes {
+/// A cylinder a lane, about its center, and the map into the common frame.
+struct cylinder_lanes {
     vector3 normal;
     lanes half, radius;
-    const disc_map& map;
+    const cylinder_map& map;
 };
 
 /// What of x lies along the normal, and the rest of it.
@@ -136,36 +136,52 @@ HWY_INLINE lanes split(const vector3& normal, const vector3& x, vector3& across)
     return along;
 }
 
-/// Near the point of a disc that is nearest to `to`, where the map is a rotation or the like; any
+/// Near the point of a cylinder that is nearest to `to`, where the map is a rotation or the like; any
 /// point will do. Both from the center, in the common frame.
-HWY_INLINE vector3 near_point(const disc_lanes& disc, const vector3& to) {
+HWY_INLINE vector3 near_point(const cylinder_lanes& cylinder, const vector3& to) {
     const floats d;
-    vector3 back = mapped_back(disc.map, to);
-    for (auto& axis : back.of) axis = hn::Mul(axis, hn::Set(d, disc.map.square));
+    vector3 back = mapped_back(cylinder.map, to);
+    for (auto& axis : back.of) axis = hn::Mul(axis, hn::Set(d, cylinder.map.square));
     vector3 across;
-    const lanes along = split(disc.normal, back, across);
-    const lanes within = hn::Max(hn::Neg(disc.half), hn::Min(along, disc.half));
+    const lanes along = split(cylinder.normal, back, across);
+    const lanes within = hn::Max(hn::Neg(cylinder.half), hn::Min(along, cylinder.half));
     const lanes length = hn::Sqrt(hn::Max(dot(across, across), hn::Set(d, 1e-30F)));
-    const lanes part = hn::Min(hn::Set(d, 1.0F), hn::Div(disc.radius, length));
+    const lanes part = hn::Min(hn::Set(d, 1.0F), hn::Div(cylinder.radius, length));
     vector3 point;
     for (std::size_t k = 0; k < 3; ++k)
-        point.of[k] = hn::MulAdd(within, disc.normal.of[k], hn::Mul(part, across.of[k]));
-    return mapped(disc.map, point);
+        point.of[k] = hn::MulAdd(within, cylinder.normal.of[k], hn::Mul(part, across.of[k]));
+    return mapped(cylinder.map, point);
 }
 
-/// How far a disc reaches along `direction` from its center.
-HWY_INLINE lanes reach_along(const disc_lanes& disc, const vector3& direction) {
+/// How far a cylinder reaches along `direction` from its center.
+HWY_INLINE lanes reach_along(const cylinder_lanes& cylinder, const vector3& direction) {
     vector3 across;
-    const lanes along = split(disc.normal, mapped_back(disc.map, direction), across);
-    return hn::MulAdd(disc.half, hn::Abs(along),
-                      hn::Mul(disc.radius, hn::Sqrt(dot(across, across))));
+    const lanes along = split(cylinder.normal, mapped_back(cylinder.map, direction), across);
+    return hn::MulAdd(cylinder.half, hn::Abs(along),
+                      hn::Mul(cylinder.radius, hn::Sqrt(dot(across, across))));
 }
 
 HWY_INLINE vector3 minus(const vector3& a, const vector3& b) {
     return {{hn::Sub(a.of[0], b.of[0]), hn::Sub(a.of[1], b.of[1]), hn::Sub(a.of[2], b.of[2])}};
 }
 
-/// Eight discs against one. Along any direction v, of a length within 2^-20 of 1, the discs are
+/// From one cylinder to another whose center is `gap` away, nearly where they are nearest; of length
+/// 1, or 0 where nothing can be said.
+HWY_INLINE vector3 direction_between(const cylinder_lanes& a, const cylinder_lanes& b,
+                                     const vector3& gap) {
+    const floats d;
+    const vector3 on_a = near_point(a, gap);
+    const vector3 on_b = near_point(b, minus(on_a, gap));
+    vector3 direction = minus(gap, minus(on_a, on_b));
+    const lanes square = dot(direction, direction);
+    const lanes per_length =  // nothing can be said of a length that underflows
+        hn::IfThenElseZero(hn::Gt(square, hn::Set(d, 1e-30F)),
+                           hn::Div(hn::Set(d, 1.0F), hn::Sqrt(square)));
+    for (auto& axis : direction.of) axis = hn::Mul(axis, per_length);
+    return direction;
+}
+
+/// Eight cylinders against one. Along any direction v, of a length within 2^-20 of 1, the cylinders are
 /// apart by what their centers are less what each reaches toward the other; the best v runs
 /// between their nearest points, and a projection onto one and from there onto the other is close
 /// to that.
@@ -177,12 +193,12 @@ HWY_INLINE vector3 minus(const vector3& a, const vector3& b) {
 /// reach is off by less than 32 u N (half + radius). The margin is 64 u of all that, and |v| and
 /// the roundings of the square have 2^-17 for them. NaN, and differences of infinities, raise
 /// nothing.
-unsigned raise_eight(const eight_cylinders& discs, const frame_map<3>& frame, const disc_map& map,
-                     const placed_disc& other, const disc_map& map_of_other, float bound,
-                     float* squared) {
+unsigned raise_eight(const eight_cylinders& cylinders, const frame_map<3>& frame,
+                     const cylinder_map& map, const placed_cylinder& other,
+                     const cylinder_map& map_of_other, float bound, float* squared) {
     const floats d;
     const std::size_t width = hn::Lanes(d);
-    const disc_lanes that{
+    const cylinder_lanes that{
         {{hn::Set(d, other.normal[0]), hn::Set(d, other.normal[1]), hn::Set(d, other.normal[2])}},
         hn::Set(d, other.half),
         hn::Set(d, other.radius),
@@ -190,12 +206,13 @@ unsigned raise_eight(const eight_cylinders& discs, const frame_map<3>& frame, co
     unsigned within = 0;
     for (std::size_t i = 0; i < 8; i += width) {
         const auto load = [&](const float* row) { return hn::Load(d, row + i); };
-        const disc_lanes disc{
-            {{load(discs.normal[0]), load(discs.normal[1]), load(discs.normal[2])}},
-            load(discs.half),
-            load(discs.radius),
+        const cylinder_lanes cylinder{
+            {{load(cylinders.normal[0]), load(cylinders.normal[1]), load(cylinders.normal[2])}},
+            load(cylinders.half),
+            load(cylinders.radius),
             map};
-        vector3 center{{load(discs.center[0]), load(discs.center[1]), load(discs.center[2])}};
+        vector3 center{
+            {load(cylinders.center[0]), load(cylinders.center[1]), load(cylinders.center[2])}};
         lanes slack = hn::Set(d, other.slack);
         if (!frame.identity) {
             const vector3 from = center;
@@ -210,22 +227,16 @@ unsigned raise_eight(const eight_cylinders& discs, const frame_map<3>& frame, co
         const vector3 gap = minus({{hn::Set(d, other.center[0]), hn::Set(d, other.center[1]),
                                     hn::Set(d, other.center[2])}},
                                   center);
-        const vector3 on_disc = near_point(disc, gap);
-        const vector3 on_that = near_point(that, minus(on_disc, gap));
-        vector3 direction = minus(gap, minus(on_disc, on_that));
-        const lanes square_of = dot(direction, direction);
-        const lanes per_length =  // nothing can be said of a length that underflows
-            hn::IfThenElseZero(hn::Gt(square_of, hn::Set(d, 1e-30F)),
-                               hn::Div(hn::Set(d, 1.0F), hn::Sqrt(square_of)));
-        for (auto& axis : direction.of) axis = hn::Mul(axis, per_length);
+        const vector3 direction = direction_between(cylinder, that, gap);
 
-        const lanes sizes = hn::MulAdd(hn::Set(d, map.size), hn::Add(disc.half, disc.radius),
-                                       hn::Set(d, map_of_other.size * (other.half + other.radius)));
+        const lanes sizes =
+            hn::MulAdd(hn::Set(d, map.size), hn::Add(cylinder.half, cylinder.radius),
+                       hn::Set(d, map_of_other.size * (other.half + other.radius)));
         const lanes far =
             hn::Add(hn::Add(hn::Abs(gap.of[0]), hn::Abs(gap.of[1])), hn::Abs(gap.of[2]));
         const lanes margin = hn::MulAdd(hn::Set(d, 0x1p-18F), hn::Add(far, sizes), slack);
         const lanes apart =
-            hn::Sub(hn::Sub(hn::Sub(dot(direction, gap), reach_along(disc, direction)),
+            hn::Sub(hn::Sub(hn::Sub(dot(direction, gap), reach_along(cylinder, direction)),
                             reach_along(that, direction)),
                     margin);
         const lanes square = hn::Mul(hn::Mul(apart, apart), hn::Set(d, 1.0F - 0x1p-17F));
@@ -251,8 +262,8 @@ namespace {
 HWY_EXPORT(measure_blocks);
 HWY_EXPORT(raise_eight);
 
-disc_map disc_map_of(const frame_map<3>& frame) {
-    disc_map map{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 3.0F, 1.0F};
+cylinder_map disc_map_of(const frame_map<3>& frame) {
+    cylinder_map map{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 3.0F, 1.0F};
     if (frame.identity) return map;
     map.size = 0.0F;
     float squares = 0.0F;
@@ -266,28 +277,28 @@ disc_map disc_map_of(const frame_map<3>& frame) {
     return map;
 }
 
-placed_disc disc_of(const bounding_cylinders& discs, const frame_map<3>& frame, std::uint32_t level,
-                    std::uint32_t node) {
-    const eight_cylinders& of = discs.below(level - 1, node / 8);
+placed_cylinder disc_of(const bounding_cylinders& cylinders, const frame_map<3>& frame,
+                        std::uint32_t level, std::uint32_t node) {
+    const eight_cylinders& of = cylinders.below(level - 1, node / 8);
     const std::size_t slot = node % 8;
-    placed_disc disc{};
-    disc.half = of.half[slot];
-    disc.radius = of.radius[slot];
+    placed_cylinder cylinder{};
+    cylinder.half = of.half[slot];
+    cylinder.radius = of.radius[slot];
     for (std::size_t k = 0; k < 3; ++k) {
-        disc.normal[k] = of.normal[k][slot];
-        disc.center[k] = of.center[k][slot];
+        cylinder.normal[k] = of.normal[k][slot];
+        cylinder.center[k] = of.center[k][slot];
     }
-    if (frame.identity) return disc;
+    if (frame.identity) return cylinder;
     for (std::size_t k = 0; k < 3; ++k) {
         float at = 0.0F;
-        disc.slack += frame.slack_offset[k];
+        cylinder.slack += frame.slack_offset[k];
         for (std::size_t j = 0; j < 3; ++j) {
             at += frame.linear[k][j] * of.center[j][slot];
-            disc.slack += frame.slack[k][j] * std::abs(of.center[j][slot]);
+            cylinder.slack += frame.slack[k][j] * std::abs(of.center[j][slot]);
         }
-        disc.center[k] = at + frame.offset[k];
+        cylinder.center[k] = at + frame.offset[k];
     }
-    return disc;
+    return cylinder;
 }
 
 /// The sum of the normals of eight triangles, each as long as twice its area.
@@ -307,8 +318,8 @@ point3 normal_of(const eight_triangles& t, std::size_t in_use) {
 }
 
 /// About the middle of the node's box.
-disc_axis axis_of(const wide_node<3>& box, std::size_t slot, const point3& normal) {
-    disc_axis axis{};
+cylinder_axis axis_of(const wide_node<3>& box, std::size_t slot, const point3& normal) {
+    cylinder_axis axis{};
     const double length = std::hypot(normal.x, normal.y, normal.z);
     double rounded = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -322,23 +333,23 @@ disc_axis axis_of(const wide_node<3>& box, std::size_t slot, const point3& norma
     return axis;
 }
 
-/// Adds to `extent` how a disc of the same frame reaches.
-void measure_disc(const eight_cylinders& discs, std::size_t slot, const disc_axis& axis,
+/// Adds to `extent` how a cylinder of the same frame reaches.
+void measure_disc(const eight_cylinders& cylinders, std::size_t slot, const cylinder_axis& axis,
                   axial_extent& extent) {
     double along = 0.0, cosine = 0.0, square = 0.0;
     double from[3];
     for (std::size_t k = 0; k < 3; ++k) {
-        from[k] = static_cast<double>(discs.center[k][slot]) - axis.center[k];
+        from[k] = static_cast<double>(cylinders.center[k][slot]) - axis.center[k];
         along += from[k] * axis.normal[k];
-        cosine += static_cast<double>(discs.normal[k][slot]) * axis.normal[k];
+        cosine += static_cast<double>(cylinders.normal[k][slot]) * axis.normal[k];
     }
     for (std::size_t k = 0; k < 3; ++k) {
         const double off = from[k] - along * axis.normal[k];
         square += off * off;
     }
-    const double half = discs.half[slot], radius = discs.radius[slot];
+    const double half = cylinders.half[slot], radius = cylinders.radius[slot];
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-    // The normal of the disc is a little longer or shorter than 1, and the sine a root.
+    // The normal of the cylinder is a little longer or shorter than 1, and the sine a root.
     const double reach = half * std::abs(cosine) + radius * sine + 0x1p-10 * radius;
     extent.least = std::min(extent.least, along - reach);
     extent.most = std::max(extent.most, along + reach);
@@ -347,8 +358,8 @@ void measure_disc(const eight_cylinders& discs, std::size_t slot, const disc_axi
 }
 
 /// The center moves along the normal to the middle of the extent, and is rounded to float; the
-/// disc grows by these roundings and those of the extent.
-void put_disc(const disc_axis& axis, const axial_extent& extent, eight_cylinders& into,
+/// cylinder grows by these roundings and those of the extent.
+void put_disc(const cylinder_axis& axis, const axial_extent& extent, eight_cylinders& into,
               std::size_t slot) {
     const double middle = 0.5 * (extent.least + extent.most);
     const double half = 0.5 * (extent.most - extent.least);
@@ -378,14 +389,14 @@ bounding_cylinders::bounding_cylinders(const tree<3>& tree,
         begin_[level] = total;
         total += tree.nodes_in_level(level);
     }
-    discs_.resize(total);
+    cylinders_.resize(total);
     std::vector<point3> normals(tree.nodes_in_level(last));
     for_chunks(normals.size(), 512, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
             normals[i] = normal_of(triangles[i], tree.children(last, i));
     });
     // From the triangles themselves while they stay in the cache; far above, where surfaces are
-    // round, from the discs below.
+    // round, from the cylinders below.
     constexpr std::size_t most_measured = 8;
     for (unsigned level = last; level-- > 0;) {
         const std::size_t nodes = tree.nodes_in_level(level);
@@ -394,13 +405,13 @@ bounding_cylinders::bounding_cylinders(const tree<3>& tree,
         const std::size_t grain = std::max<std::size_t>(1, 64 / blocks_of_child);
         for_chunks(nodes, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t node = begin; node < end; ++node) {
-                eight_cylinders& discs = discs_[begin_[level] + node];
-                discs = {};
+                eight_cylinders& cylinders = cylinders_[begin_[level] + node];
+                cylinders = {};
                 for (std::size_t slot = 0; slot < tree.children(level, node); ++slot) {
                     const std::size_t child = node * 8 + slot;
                     const point3& normal = normals[child];
                     for (std::size_t k = 0; k < 3; ++k) sums[node][k] += normal[k];
-                    const disc_axis axis = axis_of(tree.level(level)[node], slot, normal);
+                    const cylinder_axis axis = axis_of(tree.level(level)[node], slot, normal);
                     axial_extent extent;
                     if (blocks_of_child <= most_measured) {
                         const std::size_t first = child * blocks_of_child;
@@ -411,9 +422,9 @@ bounding_cylinders::bounding_cylinders(const tree<3>& tree,
                          extent);
                     } else {
                         for (std::size_t i = 0; i < tree.children(level + 1, child); ++i)
-                            measure_disc(discs_[begin_[level + 1] + child], i, axis, extent);
+                            measure_disc(cylinders_[begin_[level + 1] + child], i, axis, extent);
                     }
-                    put_disc(axis, extent, discs, slot);
+                    put_disc(axis, extent, cylinders, slot);
                 }
             }
         });
@@ -421,14 +432,15 @@ bounding_cylinders::bounding_cylinders(const tree<3>& tree,
     }
 }
 
-unsigned disc_pair::raise(const opened_node& at, unsigned mask, float bound, float* squared) const {
+unsigned cylinder_pair::raise(const opened_node& at, unsigned mask, float bound,
+                              float* squared) const {
     if (mask == 0 || at.other_level == 0) return mask;
     const frame_map<3>& frame = at.of_a ? map_a : map_b;
     const frame_map<3>& frame_of_other = at.of_a ? map_b : map_a;
-    const placed_disc other =
+    const placed_cylinder other =
         disc_of(at.of_a ? b : a, frame_of_other, at.other_level, at.other_index);
-    const eight_cylinders& discs = (at.of_a ? a : b).below(at.level, at.index);
-    return mask & HWY_DYNAMIC_DISPATCH(raise_eight)(discs, frame, disc_map_of(frame), other,
+    const eight_cylinders& cylinders = (at.of_a ? a : b).below(at.level, at.index);
+    return mask & HWY_DYNAMIC_DISPATCH(raise_eight)(cylinders, frame, disc_map_of(frame), other,
                                                     disc_map_of(frame_of_other), bound, squared);
 }
 

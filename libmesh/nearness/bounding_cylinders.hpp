@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Discs around what the nodes of a tree hold: thin where a surface is nearly flat, however it
+/// Cylinders around what the nodes of a tree hold: thin where a surface is nearly flat, however it
 /// lies, which a box along the axes is not.
 
 #include <libmesh/nearness/triangle_blocks.hpp>
@@ -16,7 +16,7 @@
 
 namespace treeform::detail::nearness {
 
-/// The discs of a node's children, in the frame of the tree. The points of a disc are
+/// The cylinders of a node's children, in the frame of the tree. The points of a cylinder are
 /// center + s n + v with |s| <= half, v at a right angle to n, and |v| <= radius, where n is
 /// `normal` made to have length 1, which it has to 2^-22. An infinite radius says nothing.
 struct alignas(64) eight_cylinders {
@@ -26,25 +26,25 @@ struct alignas(64) eight_cylinders {
     float radius[8];
 };
 
-/// Discs around the triangles of every node but the root: some 5 bytes a triangle.
+/// Cylinders around the triangles of every node but the root: some 5 bytes a triangle.
 class TREEFORM_API bounding_cylinders {
   public:
     bounding_cylinders() = default;
     /// \cost O(F) time
     bounding_cylinders(const tree<3>& tree, const buffer<eight_triangles>& triangles);
 
-    /// The discs of the children of a node, which are nodes.
+    /// The cylinders of the children of a node, which are nodes.
     [[nodiscard]] const eight_cylinders& below(std::uint32_t level, std::uint32_t node) const {
-        return discs_[begin_[level] + node];
+        return cylinders_[begin_[level] + node];
     }
 
   private:
     std::array<std::size_t, 12> begin_{};
-    buffer<eight_cylinders> discs_;
+    buffer<eight_cylinders> cylinders_;
 };
 
-/// The discs of two trees, and how they come into the common frame of a search.
-struct disc_pair {
+/// The cylinders of two trees, and how they come into the common frame of a search.
+struct cylinder_pair {
     const bounding_cylinders& a;
     const bounding_cylinders& b;
     const frame_map<3>& map_a;

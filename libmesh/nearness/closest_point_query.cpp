@@ -1,9 +1,9 @@
-#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/finite.hpp>
+#include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/geometry/based_triangle.hpp>
 #include <libmesh/geometry/closest_point.hpp>
-#include <treeform/mesh/distance.hpp>
-#include <treeform/tree/build.hpp>
+#include <libmesh/nearness/closest_point_query.hpp>
 #include <treeform/tree/detail/morton_order.hpp>
 #include <treeform/tree/detail/near_query.hpp>
 #include <treeform/tree/detail/squared_radius.hpp>
@@ -134,13 +134,10 @@ void search_closest(const triangle_blocks& blocks, const point3& p, const near_q
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace treeform {
-namespace detail::nearness {
+namespace treeform::detail::nearness {
 namespace {
 
 HWY_EXPORT(search_closest);
-
-constexpr const char* name = "closest_point_query";
 
 /// With the largest coordinate below 2^300, a query whose coordinates exceed 2^500 is as far from
 /// every point of the mesh, to 2^-200 of the distance.
@@ -179,8 +176,7 @@ double distance_between(const point3& a, const point3& b) {
 
 void check_query(const point3& query, const std::string& which) {
     if (!detail::base::is_finite(query))
-        throw std::invalid_argument(std::string("treeform::") + name + ": " + which +
-                                    " is not finite");
+        throw std::invalid_argument("treeform::closest_point: " + which + " is not finite");
 }
 
 /// A search with all lengths multiplied by a power of two.
@@ -226,69 +222,55 @@ class closest_searcher {
 constexpr std::size_t queries_per_chunk = 256;
 
 }  // namespace
-}  // namespace detail::nearness
 
-closest_point_query::closest_point_query(mesh_view mesh) {
-    detail::base::check_faces(detail::nearness::name, mesh.points.size(), mesh.faces);
-    tree_ = build(mesh.faces, [&](const face& f) {
-        aabb<double, 3> box;
-        bool finite = true;
-        for (const std::uint32_t corner : f) {
-            box.include(mesh.points[corner]);
-            finite &= detail::base::is_finite(mesh.points[corner]);
-        }
-        return finite ? box : aabb<double, 3>();  // `include` overlooks NaN
-    });
+closest_point_query::closest_point_query(mesh_view mesh, const char* function) {
+    tree_ = build_face_tree(mesh, function);
     const std::size_t blocks = chunk_count(tree_.size(), 8);
-    triangles_.resize(blocks * detail::nearness::rows * 8);
-    largest_ = detail::nearness::largest_of(mesh);
-    unit_ = detail::nearness::unit_for(tree_.frame().scale, largest_);
+    triangles_.resize(blocks * rows * 8);
+    largest_ = largest_of(mesh);
+    unit_ = unit_for(tree_.frame().scale, largest_);
     for_chunks(blocks, 512, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t place = begin * 8; place < end * 8; ++place) {
-            double* const slot =
-                triangles_.data() + place / 8 * detail::nearness::rows * 8 + place % 8;
+            double* const slot = triangles_.data() + place / 8 * rows * 8 + place % 8;
             if (place >= tree_.size()) {
-                for (std::size_t row = 0; row < detail::nearness::rows; ++row) slot[row * 8] = 0.0;
+                for (std::size_t row = 0; row < rows; ++row) slot[row * 8] = 0.0;
                 continue;
             }
             const face& f = mesh.faces[tree_.ids()[place]];
-            const detail::geometry::based_triangle t(
-                {detail::nearness::scaled(mesh.points[f[0]], unit_),
-                 detail::nearness::scaled(mesh.points[f[1]], unit_),
-                 detail::nearness::scaled(mesh.points[f[2]], unit_)});
+            const geometry::based_triangle t({scaled(mesh.points[f[0]], unit_),
+                                              scaled(mesh.points[f[1]], unit_),
+                                              scaled(mesh.points[f[2]], unit_)});
             for (std::size_t k = 0; k < 3; ++k) {
-                slot[(detail::nearness::corner + k) * 8] = t.corner[k];
-                slot[(detail::nearness::base + k) * 8] = t.base[k];
-                slot[(detail::nearness::height + k) * 8] = t.height[k];
+                slot[(corner + k) * 8] = t.corner[k];
+                slot[(base + k) * 8] = t.base[k];
+                slot[(height + k) * 8] = t.height[k];
             }
-            slot[detail::nearness::apex * 8] = t.apex;
-            slot[detail::nearness::per_base * 8] = t.per_base;
-            slot[detail::nearness::per_height * 8] = t.per_height;
+            slot[apex * 8] = t.apex;
+            slot[per_base * 8] = t.per_base;
+            slot[per_height * 8] = t.per_height;
         }
     });
 }
 
 std::optional<closest_point_result> closest_point_query::nearest(const point3& query,
                                                                  double radius) const {
-    detail::check_radius("treeform::closest_point_query", radius);
-    detail::nearness::check_query(query, "the query");
-    return detail::nearness::closest_searcher({&tree_, triangles_.data()}, unit_)(query, radius);
+    check_radius("treeform::closest_point", radius);
+    check_query(query, "the query");
+    return closest_searcher({&tree_, triangles_.data()}, unit_)(query, radius);
 }
 
 std::vector<std::optional<closest_point_result>> closest_point_query::nearest(
     std::span<const point3> queries, double radius) const {
-    detail::check_radius("treeform::closest_point_query", radius);
+    check_radius("treeform::closest_point", radius);
     for (std::size_t i = 0; i < queries.size(); ++i)
-        detail::nearness::check_query(queries[i], "query " + std::to_string(i));
-    const std::vector<std::uint32_t> order =
-        detail::morton_order<3>(queries.size(), [&](std::size_t i) {
-            return std::array<double, 3>{queries[i].x, queries[i].y, queries[i].z};
-        });
+        check_query(queries[i], "query " + std::to_string(i));
+    const std::vector<std::uint32_t> order = morton_order<3>(queries.size(), [&](std::size_t i) {
+        return std::array<double, 3>{queries[i].x, queries[i].y, queries[i].z};
+    });
     std::vector<std::optional<closest_point_result>> found(queries.size());
-    const detail::nearness::closest_searcher search({&tree_, triangles_.data()}, unit_);
+    const closest_searcher search({&tree_, triangles_.data()}, unit_);
     for_chunks(
-        order.size(), detail::nearness::queries_per_chunk,
-        [&](std::size_t begin, std::size_t end, std::size_t) {
+        order.size(), queries_per_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
             // What was nearest to the query before is not far from this one. It was
             // rounded, and distances are: by some 2^-50 of the largest coordinate.
             const double slack = 0x1p-44 * largest_;
@@ -297,9 +279,8 @@ std::vector<std::optional<closest_point_result>> closest_point_query::nearest(
                 const point3& query = queries[order[i]];
                 double limit = radius;
                 if (near)
-                    limit = std::min(
-                        limit,
-                        detail::nearness::distance_between(*near, query) * (1.0 + 0x1p-40) + slack);
+                    limit =
+                        std::min(limit, distance_between(*near, query) * (1.0 + 0x1p-40) + slack);
                 found[order[i]] = search(query, limit);
                 if (found[order[i]]) near = found[order[i]]->point;
             }
@@ -307,5 +288,38 @@ std::vector<std::optional<closest_point_result>> closest_point_query::nearest(
     return found;
 }
 
+const closest_point_query& closest_point_query_of(const prepared_mesh& mesh) {
+    constexpr base::slot<closest_point_query> slot{base::slot_name::closest_triangles};
+    return base::prepared_slots::get(mesh, slot, [&] { return closest_point_query(mesh.view()); });
+}
+
+}  // namespace treeform::detail::nearness
+
+namespace treeform {
+
+using detail::nearness::closest_point_query;
+using detail::nearness::closest_point_query_of;
+
+std::optional<closest_point_result> closest_point(const prepared_mesh& mesh, const point3& query,
+                                                  double radius) {
+    return closest_point_query_of(mesh).nearest(query, radius);
+}
+std::optional<closest_point_result> closest_point(mesh_view mesh, const point3& query,
+                                                  double radius) {
+    return closest_point_query(mesh).nearest(query, radius);
+}
+
+std::vector<std::optional<closest_point_result>> closest_point(const prepared_mesh& mesh,
+                                                               std::span<const point3> queries,
+                                                               double radius) {
+    return closest_point_query_of(mesh).nearest(queries, radius);
+}
+std::vector<std::optional<closest_point_result>> closest_point(mesh_view mesh,
+                                                               std::span<const point3> queries,
+                                                               double radius) {
+    return closest_point_query(mesh).nearest(queries, radius);
+}
+
 }  // namespace treeform
+
 #endif

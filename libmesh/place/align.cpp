@@ -3,6 +3,7 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_faces.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/nearness/closest_point_query.hpp>
 #include <libmesh/place/align_steps.hpp>
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -93,7 +94,7 @@ class target {
         points_.reserve(fixed.points.size());
         for (const point3& p : fixed.points) points_.push_back(f.fixed(p));
         if (faces_.empty()) faces_ = detail::base::point_faces(points_.size());
-        query_ = closest_point_query({points_, faces_});
+        query_ = detail::nearness::closest_point_query({points_, faces_});
     }
 
     /// The partners of points, those that have one within `radius`.
@@ -135,7 +136,7 @@ class target {
 
     std::vector<point3> points_;
     std::vector<face> faces_;
-    closest_point_query query_;
+    detail::nearness::closest_point_query query_;
 };
 
 /// How good a place is: the mean of the squared distances that count, each no more than the

@@ -1,4 +1,5 @@
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/placement.hpp>
@@ -22,7 +23,8 @@ void mark(contact_class& present, contact_class one) {
 }
 
 void mark_meeting(const shape& placed, const shape& part, classes& a, classes& b) {
-    const auto found = mesh_intersections(placed.mesh(), placed.faces(), part.mesh(), part.faces());
+    const auto found = detail::intersect::mesh_intersections(placed.mesh(), placed.faces(),
+                                                             part.mesh(), part.faces());
     for (const face_pair& pair : found.pairs) {
         const contact_class one =
             pair.kind == pair_kind::crossing ? contact_class::penetrating : contact_class::touching;

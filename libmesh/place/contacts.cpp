@@ -1,4 +1,5 @@
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/contacts.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -79,8 +80,8 @@ std::vector<placement_contact> contacts_at(const shape& there, const surrounding
         const auto& other = among.box_of(number);
         if (!box || !other || !within(*box, *other, 0.0)) continue;
         const shape part = among.shape_of(number);
-        const auto found = mesh_intersections(there.mesh(), there.faces(), part.mesh(),
-                                              part.faces(), {.limit = limit});
+        const auto found = intersect::mesh_intersections(there.mesh(), there.faces(), part.mesh(),
+                                                         part.faces(), {.limit = limit});
         for (const std::uint64_t of_kind : found.counts) count += of_kind;
         for (const face_pair& pair : found.pairs) {
             const triangle3 a = triangle_of(there.mesh(), pair.a);

@@ -1,5 +1,6 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/nearness/closest_points.hpp>
 #include <libmesh/place/measure_of.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -115,8 +116,9 @@ std::optional<mesh_measure> detail::place::measure_of(const shape& of_a, const s
         }
     }
     const bool separate = result.relation.relation == mesh_relation::separate;
-    const auto nearest = mesh_distance(a, of_a.faces(), b, of_b.faces(),
-                                       separate ? radius : std::numeric_limits<double>::infinity());
+    const auto nearest = detail::nearness::closest_points(
+        a, of_a.faces(), b, of_b.faces(),
+        separate ? radius : std::numeric_limits<double>::infinity());
     work.reach(1.0);
     if (!nearest) return std::nullopt;
     result.surface_distance = nearest->distance;

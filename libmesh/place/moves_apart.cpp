@@ -1,5 +1,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/nearness/closest_points.hpp>
 #include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/sweep_among.hpp>
@@ -136,7 +138,8 @@ class clearing {
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             if (!boxes_within(i, offset)) continue;
             const double radius = best ? best->distance : options_.clearance;
-            const auto one = mesh_distance(a_, there, parts_[i].mesh(), parts_[i].faces(), radius);
+            const auto one =
+                nearness::closest_points(a_, there, parts_[i].mesh(), parts_[i].faces(), radius);
             if (one && (!best || one->distance < best->distance)) best = one;
         }
         return best;
@@ -162,10 +165,10 @@ class clearing {
         const mesh_view there{points, a_.faces};
         mesh_intersection_options crossing{.move_a = translation<3>(offset), .first_only = true};
         crossing.progress = asking_;
-        crossing.kinds = {};
-        crossing.kinds[static_cast<std::size_t>(pair_kind::crossing)] = true;
+        crossing.kinds = pair_kind::crossing;
         for (const std::size_t i : close)
-            if (!mesh_intersections(a_, tree_, parts_[i].mesh(), parts_[i].faces(), crossing)
+            if (!intersect::mesh_intersections(a_, tree_, parts_[i].mesh(), parts_[i].faces(),
+                                               crossing)
                      .pairs.empty())
                 return false;
         const tree<3> faces = build_face_tree(there);
@@ -259,8 +262,8 @@ class clearing {
 
     [[nodiscard]] std::vector<face_pair> touching_pairs(std::size_t i) {
         if (!boxes_within(i, {})) return {};
-        return mesh_intersections(a_, tree_, parts_[i].mesh(), parts_[i].faces(),
-                                  {.limit = options_.face_pairs, .progress = asking_})
+        return intersect::mesh_intersections(a_, tree_, parts_[i].mesh(), parts_[i].faces(),
+                                             {.limit = options_.face_pairs, .progress = asking_})
             .pairs;
     }
 
@@ -269,7 +272,8 @@ class clearing {
     void offer_through_walls(const Offer& offer) const {
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             if (!boxes_within(i, {})) continue;
-            const auto pair = mesh_distance(a_, tree_, parts_[i].mesh(), parts_[i].faces());
+            const auto pair =
+                nearness::closest_points(a_, tree_, parts_[i].mesh(), parts_[i].faces());
             const point3 line{pair->on_b.x - pair->on_a.x, pair->on_b.y - pair->on_a.y,
                               pair->on_b.z - pair->on_a.z};
             offer(direction_of(line));

@@ -1,5 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/nearest_float.hpp>
+#include <libmesh/nearness/closest_points.hpp>
 #include <libmesh/place/plate.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -132,8 +133,8 @@ bool plate::apart(const resident& a, const resident& b) {
         both.max[k] = std::max(both.max[k], b.box.max[k]);
     }
     const double error = 0x1p-48 * diagonal(both);
-    const auto found =
-        mesh_distance(a.mesh(), a.faces_tree, b.mesh(), b.faces_tree, spacing + 2.0 * error);
+    const auto found = nearness::closest_points(a.mesh(), a.faces_tree, b.mesh(), b.faces_tree,
+                                                spacing + 2.0 * error);
     return !found || (found->distance > 0.0 && found->distance - error >= spacing);
 }
 
@@ -147,7 +148,8 @@ double plate::distance_to(const std::vector<const resident*>& others, const turn
                           const tree<3>& faces_tree, const point3& by, double most) const {
     const transformed<3> moved(faces_tree, translation<3>(by));
     for (const resident* r : others) {
-        const auto found = mesh_distance(part.mesh(), moved, r->mesh(), r->faces_tree, most);
+        const auto found =
+            nearness::closest_points(part.mesh(), moved, r->mesh(), r->faces_tree, most);
         if (found) most = std::min(most, found->distance);
     }
     return most;

@@ -1,4 +1,6 @@
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -6,7 +8,6 @@
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -17,12 +18,6 @@ using detail::place::check_operand;
 using detail::place::shape;
 
 namespace {
-
-std::array<bool, pair_kind_count> only(pair_kind kind) {
-    std::array<bool, pair_kind_count> kinds{};
-    kinds[static_cast<std::size_t>(kind)] = true;
-    return kinds;
-}
 
 plane_points plane_of(mesh_view mesh, std::uint32_t f) {
     const face& corners = mesh.faces[f];
@@ -35,9 +30,10 @@ std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
                                         const progress_callback& progress) {
     mesh_intersection_options options;
     options.first_only = true;
-    options.kinds = only(pair_kind::crossing);
+    options.kinds = pair_kind::crossing;
     options.progress = progress;
-    const auto crossing = mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), options);
+    const auto crossing =
+        detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), options);
     if (!crossing.pairs.empty()) return crossing.pairs[0];
     return std::nullopt;
 }
@@ -45,9 +41,10 @@ std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
 std::optional<face_pair> same_facing_faces(const shape& a, const shape& b,
                                            const progress_callback& progress) {
     mesh_intersection_options options;
-    options.kinds = only(pair_kind::overlap);
+    options.kinds = pair_kind::overlap;
     options.progress = progress;
-    const auto found = mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), options);
+    const auto found =
+        detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), options);
     for (const face_pair& pair : found.pairs)
         if (normal_dot(plane_of(a.mesh(), pair.a), plane_of(b.mesh(), pair.b)) > 0) return pair;
     return std::nullopt;
@@ -93,7 +90,8 @@ std::optional<std::uint32_t> face_inside(const shape& of, const shape& solid, bo
             points.push_back(a.points[corner]);
         }
     if (points.empty()) return std::nullopt;
-    const auto found = point_locator(solid.joined(), solid.faces()).locate(points);
+    const auto found =
+        detail::intersect::point_locator(solid.joined(), solid.faces()).locate(points);
     for (std::size_t i = 0; i < found.size(); ++i)
         if (found[i].where == location::inside) return faces[i];
     return std::nullopt;
@@ -120,7 +118,8 @@ mesh_relation_result detail::place::relation_of(const shape& a, const shape& b,
     mesh_intersection_options first;
     first.first_only = true;
     first.progress = work.part(0.3, 0.6);
-    const auto touch = mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), first);
+    const auto touch =
+        detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), first);
     if (work.cancelled()) return cancelled;
     const bool touching = !touch.pairs.empty();
     if (touching) {

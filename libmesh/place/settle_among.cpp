@@ -2,6 +2,7 @@
 #include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/nearness/closest_points.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/settle_among.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -115,8 +116,8 @@ class settling {
     }
 
     [[nodiscard]] bool nearer(const shape& moved, const shape& part) const {
-        const auto pair = mesh_distance(moved.mesh(), moved.faces(), part.mesh(), part.faces(),
-                                        options_.clearance);
+        const auto pair = nearness::closest_points(moved.mesh(), moved.faces(), part.mesh(),
+                                                   part.faces(), options_.clearance);
         return pair && pair->distance < options_.clearance;
     }
 

@@ -1,7 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
-#include <libmesh/base/prepared_slots.hpp>
+#include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/place/shape.hpp>
 #include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/point_location.hpp>
@@ -23,10 +23,7 @@ mesh_view shape::joined() const {
 
 bool shape::closed() const {
     if (vertices_ == vertex_identity::by_index) return !find_open_edge(mesh());
-    constexpr base::slot<bool> slot{base::slot_name::open_edge};
-    return base::prepared_slots::get(*whose_, slot, [&] {
-        return !find_open_edge(weld::join_faces(*whose_).of(whose_->view()));
-    });
+    return intersect::is_closed(*whose_);
 }
 
 void check_operand(const std::string& function, const std::string& operand, mesh_view mesh) {

@@ -1,6 +1,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/impact_of.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -75,7 +76,7 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
     if (!(options.latest >= 0.0))
         throw std::invalid_argument("treeform::time_of_impact: the latest time is negative or NaN");
     detail::base::work_progress work(options.progress);
-    if (intersects(a, tree_a, b, tree_b, {options.move_a, options.move_b})) {
+    if (detail::intersect::intersects(a, tree_a, b, tree_b, {options.move_a, options.move_b})) {
         result.end = motion_end::at_start;
         work.reach(1.0);
         return result;

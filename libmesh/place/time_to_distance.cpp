@@ -1,5 +1,6 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/nearness/closest_points.hpp>
 #include <libmesh/place/impact_of.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -87,7 +88,7 @@ approach detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_vie
         throw std::invalid_argument(
             "treeform::time_to_distance: the latest time is negative or NaN");
     approach result;
-    const auto near = mesh_distance(a, tree_a, b, tree_b, distance);
+    const auto near = detail::nearness::closest_points(a, tree_a, b, tree_b, distance);
     detail::base::work_progress work(options.progress);
     if (near && near->distance < distance) {
         result.end = motion_end::at_start;

@@ -1,7 +1,7 @@
 #include <libmesh/base/double_double.hpp>
 #include <libmesh/base/nearest_float.hpp>
-#include <libmesh/round/rounding_defects.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 
 #include <algorithm>
@@ -36,9 +36,10 @@ using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// Ascending; none where stopped, which `cancelled` then says.
 pairs meeting_pairs(mesh_view mesh, const progress_callback& progress, bool& cancelled) {
-    self_intersection_options options{.vertices = vertex_identity::by_index, .progress = progress};
-    for (const pair_kind kind : {pair_kind::touching, pair_kind::degenerate})
-        options.kinds[static_cast<std::size_t>(kind)] = false;
+    const self_intersection_options options{
+        .vertices = vertex_identity::by_index,
+        .kinds = pair_kinds::all - pair_kind::touching - pair_kind::degenerate,
+        .progress = progress};
     const self_intersection_result found = self_intersections(mesh, options);
     cancelled = cancelled || found.cancelled;
     pairs result;
@@ -61,7 +62,8 @@ std::uint64_t count_new(const std::vector<T>& now, const std::vector<T>& before)
 
 }  // namespace
 
-double coordinate_step(points_view points, bool single) {
+double coordinate_step(points_view points, precision of) {
+    const bool single = of == precision::float32;
     double largest = 0.0;
     for (const point3& p : points)
         for (std::size_t k = 0; k < 3; ++k)
@@ -71,7 +73,7 @@ double coordinate_step(points_view points, bool single) {
     return std::max(least, std::ldexp(1.0, std::ilogb(largest) - (single ? 23 : 52)));
 }
 
-double largest_move(points_view points, const transform<3>& by, points_view placed) {
+double max_displacement(points_view points, const transform<3>& by, points_view placed) {
     double largest = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k)
@@ -79,11 +81,12 @@ double largest_move(points_view points, const transform<3>& by, points_view plac
     return largest;
 }
 
-std::vector<point3> in_single(points_view points) {
-    std::vector<point3> rounded(points.begin(), points.end());
-    for (point3& p : rounded)
+std::vector<point3> rounded(points_view points, precision to) {
+    std::vector<point3> result(points.begin(), points.end());
+    if (to == precision::float64) return result;
+    for (point3& p : result)
         for (std::size_t k = 0; k < 3; ++k) p[k] = detail::base::nearest_float(p[k]);
-    return rounded;
+    return result;
 }
 
 rounding_defects find_rounding_defects(mesh_view mesh, points_view placed,

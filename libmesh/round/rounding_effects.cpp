@@ -1,6 +1,5 @@
-#include <libmesh/round/rounding_defects.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/rounding.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -24,22 +23,21 @@ rounding_effects effects_of_rounding(const prepared_mesh& mesh, const transform<
     if (placed.size() != moving.points.size())
         throw std::invalid_argument(
             "treeform::effects_of_rounding: as many points placed as there are is needed");
-    const bool was_single = options.before == precision::float32;
-    const bool is_single = options.after == precision::float32;
+    const bool to_float32 =
+        options.after == precision::float32 && options.before == precision::float64;
     rounding_effects found;
-    found.max_displacement = largest_move(moving.points, by, placed);
-    found.step = coordinate_step(placed, is_single);
+    found.max_displacement = treeform::max_displacement(moving.points, by, placed);
+    found.step = coordinate_step(placed, options.after);
     const auto box = bounding_box(moving.points);
-    found.noticeable =
-        found.max_displacement > 0.0 &&
-        ((is_single && !was_single) || found.max_displacement > 1e-6 * (box ? diagonal(*box) : 0));
-    const bool coarser = found.step > coordinate_step(moving.points, was_single);
+    found.noticeable = found.max_displacement > 0.0 &&
+                       (to_float32 || found.max_displacement > 1e-6 * (box ? diagonal(*box) : 0));
+    const bool coarser = found.step > coordinate_step(moving.points, options.before);
     if (!coarser || !(found.max_displacement > 0.0) || mesh.is_cloud()) return found;
-    const rounding_defects harm = find_rounding_defects(moving, placed, options.progress);
+    const rounding_defects defects = find_rounding_defects(moving, placed, options.progress);
     found.compared = true;
-    found.collapsed = harm.collapsed;
-    found.meeting = harm.meeting;
-    if (harm.cancelled) found.status = status::cancelled;
+    found.collapsed = defects.collapsed;
+    found.meeting = defects.meeting;
+    if (defects.cancelled) found.status = status::cancelled;
     return found;
 }
 

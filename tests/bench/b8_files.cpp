@@ -75,8 +75,7 @@ write_options options_for(const file_kind& kind) {
 std::string given_file(const setting& setting, const file_kind& kind) {
     const std::string path = setting.cache_dir + "/" + name_of(setting, file_model(setting)) + "_" +
                              kind.name + "." + kind.extension;
-    if (!fs::exists(path))
-        write_mesh(path, file_of(*load_for(setting, kind), kind), options_for(kind));
+    if (!fs::exists(path)) write(path, file_of(*load_for(setting, kind), kind), options_for(kind));
     return path;
 }
 
@@ -121,8 +120,7 @@ contestant writer(const setting& setting, const file_kind& kind, const std::stri
                 return job{.run = write,
                            .discard = [path] { fs::remove(*path); },
                            .error = [=]() -> std::optional<double> {
-                               return largest_error(read_mesh(*path).mesh,
-                                                    *load_for(setting, kind));
+                               return largest_error(read(*path).mesh, *load_for(setting, kind));
                            }};
             }};
 }
@@ -140,7 +138,7 @@ void files(const setting& setting, const contest_visitor& visit) {
     for (const file_kind& kind : kinds()) {
         contest reading = contest_of(setting, kind, "read");
         reading.contestants = {
-            reader(setting, kind, "treeform", [](const auto& path) { return read_mesh(path); }),
+            reader(setting, kind, "treeform", [](const auto& path) { return read(path); }),
             reader(setting, kind, assimp_name(), assimp_read),
             reader(setting, kind, cgal_name(), cgal_read)};
         visit(reading);
@@ -149,7 +147,7 @@ void files(const setting& setting, const contest_visitor& visit) {
         contest writing = contest_of(setting, kind, "write");
         const auto ours = [kind](const mesh& mesh, const std::string& path) {
             return [file = std::make_shared<const mesh_file>(file_of(mesh, kind)), path, kind] {
-                write_mesh(path, *file, options_for(kind));
+                write(path, *file, options_for(kind));
             };
         };
         const auto assimp = [kind](const mesh& mesh, const std::string& path) {

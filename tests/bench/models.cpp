@@ -41,7 +41,7 @@ fs::path base_of(const setting& setting, const model& model) {
     return path;
 }
 
-mesh read_joined(const fs::path& path) { return join_equal_points(read_mesh(path).mesh); }
+mesh read_joined(const fs::path& path) { return join_equal_points(read(path).mesh); }
 
 /// The bunny of one package has two pairs of faces that meet, that of another none.
 mesh without_meeting_faces(mesh mesh) {

@@ -4,9 +4,9 @@
 #include "bench/nary_nearness.hpp"
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/nearness/distance_model.hpp>
 #include <libtree/paper/nary_search.hpp>
 #include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/strategy/nearness_order.hpp>
 

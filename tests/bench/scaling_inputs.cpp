@@ -20,7 +20,7 @@ void write(const std::string& path, mesh m, precision stored_as = precision::flo
     mesh_file file;
     file.mesh = std::move(m);
     file.stored_as = stored_as;
-    write_mesh(path, file);
+    write(path, file);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace treeform::fuzz {
 /// whose corners are points, of a size in proportion to theirs, and which can be written again.
 inline int read_any(const std::uint8_t* data, std::size_t size, const char* format) {
     try {
-        const mesh_file file = read_mesh(std::as_bytes(std::span(data, size)), "fuzz", format);
+        const mesh_file file = read(std::as_bytes(std::span(data, size)), "fuzz", format);
         // Packed points can be more than bytes, but no more often than that; and of scenes many
         // nodes may show one mesh.
         constexpr std::size_t most_ratio = 32;
@@ -31,7 +31,7 @@ inline int read_any(const std::uint8_t* data, std::size_t size, const char* form
                 if (corner >= file.mesh.points.size()) std::abort();
         for (const char* const to : {"ply", format})
             if (std::string_view(to) != "stl" || !file.mesh.faces.empty())
-                (void)write_mesh_to_memory(file, {.format = to, .ascii = size % 2 == 0});
+                (void)write_to_memory(file, {.format = to, .ascii = size % 2 == 0});
     } catch (const io_error&) {
         return -1;  // nothing to learn for the corpus
     }
@@ -43,7 +43,7 @@ inline int read_any(const std::uint8_t* data, std::size_t size, const char* form
 inline void check_round_trip(const std::uint8_t* data, std::size_t size,
                              const write_options& options) {
     const auto written = [&](std::span<const std::byte> bytes) {
-        return write_mesh_to_memory(read_mesh(bytes, "fuzz", options.format), options);
+        return write_to_memory(read(bytes, "fuzz", options.format), options);
     };
     const std::string once = written(std::as_bytes(std::span(data, size)));
     const auto is_odd = [](char c) { return c >= '\0' && c < ' ' && c != '\n'; };

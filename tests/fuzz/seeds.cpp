@@ -152,14 +152,14 @@ void write_seeds(const std::filesystem::path& folder) {
             const tf::mesh_file file{.mesh = stress_mesh(family, 12, 1)};
             for (const bool ascii : {false, true})
                 write(to / (std::string(name_of(family)) + (ascii ? "-ascii" : "")),
-                      write_mesh_to_memory(file, {.format = format, .ascii = ascii}));
+                      write_to_memory(file, {.format = format, .ascii = ascii}));
         }
         const tf::mesh_file textured =
             with_corner_values(stress_mesh(static_cast<stress_family>(0), 12, 1));
         if (format == std::string_view("obj") || format == std::string_view("ply"))
             for (const bool ascii : {false, true})
                 write(to / (ascii ? "textured-ascii" : "textured"),
-                      write_mesh_to_memory(textured, {.format = format, .ascii = ascii}));
+                      write_to_memory(textured, {.format = format, .ascii = ascii}));
     }
     for (const char* const target : deciders) {
         const auto to = folder_of(target);

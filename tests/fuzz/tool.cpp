@@ -223,7 +223,7 @@ class tool_test {
         if (name.ends_with(".glb") && !tf::reads_scenes()) return;
         tf::mesh mesh;
         try {
-            mesh = tf::read_mesh(std::as_bytes(std::span(content)), name, {}).mesh;
+            mesh = tf::read(std::as_bytes(std::span(content)), name, {}).mesh;
         } catch (const tf::io_error& error) {
             require(false, error.what());
         }

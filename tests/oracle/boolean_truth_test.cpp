@@ -23,7 +23,7 @@
 namespace {
 
 tf::mesh read(const std::filesystem::path& path, const tf::transform<3>& by) {
-    tf::mesh mesh = tf::read_mesh(path).mesh;
+    tf::mesh mesh = tf::read(path).mesh;
     for (tf::point3& p : mesh.points) p = by(p);
     return mesh;
 }

@@ -43,7 +43,7 @@ std::size_t most_faces() { return test::setting("TREEFORM_STRESS_COUNT", 12'000)
 tf::mesh read(const std::filesystem::path& path, const tf::transform<3>& by = {}) {
     tf::mesh mesh;
     try {
-        mesh = tf::join_equal_points(tf::read_mesh(path).mesh);
+        mesh = tf::join_equal_points(tf::read(path).mesh);
     } catch (const tf::io_error&) {
         return {};
     }

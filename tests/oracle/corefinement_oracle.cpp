@@ -119,7 +119,7 @@ std::vector<named_solid> solids(const std::filesystem::path& folder) {
     for (const std::string& file : files) {
         tf::mesh mesh;
         try {
-            mesh = tf::join_equal_points(tf::read_mesh(folder / file).mesh);
+            mesh = tf::join_equal_points(tf::read(folder / file).mesh);
         } catch (const tf::io_error&) {
             continue;  // files that no reader should take
         }

@@ -4,6 +4,7 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/nearest_float.hpp>
+#include <libmesh/nearness/closest_points.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
@@ -33,7 +34,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 tf::mesh read(const std::filesystem::path& path) {
-    return tf::join_equal_points(tf::read_mesh(path).mesh);
+    return tf::join_equal_points(tf::read(path).mesh);
 }
 
 double largest_coordinate(const tf::mesh& mesh) {
@@ -157,7 +158,8 @@ TEST_CASE("models: fifty parts on a plate keep their distance, and those left ou
         for (const tf::mesh& part : placed) trees.push_back(tf::build_face_tree(part));
         for (std::size_t i = 0; i < placed.size(); ++i)
             for (std::size_t j = i + 1; j < placed.size(); ++j) {
-                const auto gap = tf::mesh_distance(placed[i], trees[i], placed[j], trees[j], 2.5);
+                const auto gap = tf::detail::nearness::closest_points(placed[i], trees[i],
+                                                                      placed[j], trees[j], 2.5);
                 if (gap) CHECK(gap->distance >= 2.0);
             }
         MESSAGE(placed.size() << " of 50 parts on a plate of " << side);

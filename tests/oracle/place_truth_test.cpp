@@ -5,7 +5,9 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/read.hpp>
@@ -26,7 +28,7 @@
 namespace {
 
 tf::mesh read(const std::filesystem::path& path, const tf::transform<3>& by) {
-    tf::mesh mesh = tf::join_equal_points(tf::read_mesh(path).mesh);
+    tf::mesh mesh = tf::join_equal_points(tf::read(path).mesh);
     for (tf::point3& p : mesh.points) p = by(p);
     return mesh;
 }
@@ -76,7 +78,8 @@ TEST_CASE("truth: every distance of every pair of files is that of the exact ker
 
         if (row.number("degenerate_a") == 0 && row.number("degenerate_b") == 0) {
             std::uint64_t pairs = 0;
-            for (const std::uint64_t n : tf::mesh_intersections(a, tree_a, b, tree_b).counts)
+            for (const std::uint64_t n :
+                 tf::detail::intersect::mesh_intersections(a, tree_a, b, tree_b).counts)
                 pairs += n;
             CHECK(static_cast<std::int64_t>(pairs) == row.number("intersecting_pairs"));
         }

@@ -4,6 +4,7 @@
 /// TREEFORM_STRESS_COUNT sets the pairs of each family (default 5,000).
 
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/intersect/point_locator.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/raycast.hpp>
@@ -93,7 +94,7 @@ void check_points(const tf::mesh& mesh, std::uint64_t seed) {
     REQUIRE(in_cgal.number_of_faces() == mesh.faces.size());
     const CGAL::Side_of_triangle_mesh<surface, kernel> side(in_cgal);
     const auto tree = tf::build_face_tree(mesh);
-    const tf::point_locator locator(mesh, tree);
+    const tf::detail::intersect::point_locator locator(mesh, tree);
     tf::point3 low = mesh.points[0], high = low;
     for (const tf::point3& p : mesh.points)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -144,7 +145,7 @@ TEST_CASE("points lie on the side of a closed model on which CGAL's exact kernel
         const std::string kind = path.extension().string();
         if (kind != ".off" && kind != ".stl" && kind != ".obj" && kind != ".ply") continue;
         if (std::filesystem::file_size(path) > 4'000'000 || models == 12) continue;
-        const tf::mesh mesh = tf::join_equal_points(tf::read_mesh(path.string()).mesh);
+        const tf::mesh mesh = tf::join_equal_points(tf::read(path.string()).mesh);
         if (mesh.faces.size() < 4 || tf::find_open_edge(mesh)) continue;
         const surface in_cgal = exact_surface(mesh);
         if (in_cgal.number_of_faces() != mesh.faces.size() || !CGAL::is_closed(in_cgal)) continue;

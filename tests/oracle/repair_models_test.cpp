@@ -5,6 +5,7 @@
 /// TREEFORM_STRESS_COUNT sets the points whose winding is compared for each file (default 500).
 
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/intersect/point_locator.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -45,7 +46,7 @@ std::size_t wrong_points(const tf::mesh& mesh, const tf::mesh& repaired) {
     test::random source(11);
     const tf::tree<3> tree = tf::build_face_tree(mesh),
                       repaired_tree = tf::build_face_tree(repaired);
-    const tf::point_locator before(mesh, tree), after(repaired, repaired_tree);
+    const tf::detail::intersect::point_locator before(mesh, tree), after(repaired, repaired_tree);
     const tf::box3 box = tf::bounding_box(mesh.points).value();
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < point_count(); ++i) {
@@ -66,7 +67,7 @@ TEST_CASE("models: the outer surface of whatever passes through itself") {
         CAPTURE(file);
         tf::mesh mesh;
         try {
-            mesh = tf::join_equal_points(tf::read_mesh(folder / file).mesh);
+            mesh = tf::join_equal_points(tf::read(folder / file).mesh);
         } catch (const tf::io_error&) {
             continue;  // files that no reader should take
         }

@@ -137,7 +137,7 @@ TEST_CASE("truth: every count of every file is that of the exact kernel") {
         if (row.text("status") != "ok") continue;
         CAPTURE(row.text("file"));
         CAPTURE(row.text("precision"));
-        const tf::mesh_file file = tf::read_mesh(folder / row.text("file"));
+        const tf::mesh_file file = tf::read(folder / row.text("file"));
         const counts found = measure(file.mesh, row.text("precision") == "f32");
         for (const auto& [name, count] : found) {
             const auto& column = name;  // Clang 14 captures no structured binding
@@ -164,7 +164,7 @@ TEST_CASE("truth: order, axes, scale and threads change no pair of a model") {
     for (const test::truth_row& row : test::read_truth(folder / "TRUTH.csv")) {
         if (row.text("status") != "ok" || row.text("precision") == "f32") continue;
         CAPTURE(row.text("file"));
-        const tf::mesh stored = tf::read_mesh(folder / row.text("file")).mesh;
+        const tf::mesh stored = tf::read(folder / row.text("file")).mesh;
         if (stored.faces.empty() || stored.faces.size() > most_faces) continue;
         const tf::mesh mesh = tf::join_equal_points(finite_part(stored, tf::find_defects(stored)));
         if (tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index}).box_pairs >

@@ -57,7 +57,7 @@ TEST_CASE("truth: chains are as many as an exact kernel found, by every search")
         if (row.text("status") != "ok") continue;
         CAPTURE(row.text("file"));
         CAPTURE(row.text("precision"));
-        const tf::mesh_file file = tf::read_mesh(folder / row.text("file"));
+        const tf::mesh_file file = tf::read(folder / row.text("file"));
         const std::vector<tf::point3> points =
             finite_points(file.mesh.points, row.text("precision") == "f32");
         for (const tolerance_column& column : columns)

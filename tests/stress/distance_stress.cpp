@@ -5,9 +5,10 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/nearness/distance_model.hpp>
+#include <libmesh/nearness/closest_points.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/transform.hpp>
 
@@ -70,7 +71,8 @@ TEST_CASE("no pose has another distance than all pairs of faces give") {
     }
     const tf::mesh b = test::box(0.5, 1.5, 0.25);
     const tf::tree<3> tree_a = tf::build_face_tree(a), tree_b = tf::build_face_tree(b);
-    const tf::distance_model model_a(a), model_b(b);
+    const tf::prepared_mesh model_a = tf::prepared_mesh::borrow(a),
+                            model_b = tf::prepared_mesh::borrow(b);
     std::size_t meeting = 0;
     for (std::size_t i = 0; i < poses(); ++i) {
         CAPTURE(i);
@@ -80,9 +82,10 @@ TEST_CASE("no pose has another distance than all pairs of faces give") {
         const double truth = by_all_pairs(a, moved);
         meeting += truth == 0.0;
         const double most = 1e-14;  // 16 u times the largest distance of corners
-        const auto by_trees = tf::mesh_distance(a, tree_a, b, tf::transformed<3>(tree_b, pose));
-        const auto by_models = tf::mesh_distance(model_a, model_b, {.move_b = pose});
-        const auto other_way = tf::mesh_distance(model_b, model_a, {.move_a = pose});
+        const auto by_trees =
+            tf::detail::nearness::closest_points(a, tree_a, b, tf::transformed<3>(tree_b, pose));
+        const auto by_models = tf::closest_points(model_a, model_b, {.move_b = pose});
+        const auto other_way = tf::closest_points(model_b, model_a, {.move_a = pose});
         const auto measured = tf::measure(a, moved);
         for (const double found : {by_trees->distance, by_models->distance, other_way->distance,
                                    measured->surface_distance}) {

@@ -39,8 +39,8 @@ class stress_folder {
         const std::string file = name + '-' + placement + '-' + kind + ".ply";
         index_ << file << ',' << name.substr(0, name.find('-')) << ',' << placement << ',' << kind
                << ',' << shape.points.size() << ',' << shape.faces.size() << '\n';
-        write_mesh(folder_ / file, {.mesh = std::move(shape)},
-                   {.precision = single ? precision::float32 : precision::float64});
+        write(folder_ / file, {.mesh = std::move(shape)},
+              {.precision = single ? precision::float32 : precision::float64});
         ++written_;
     }
 

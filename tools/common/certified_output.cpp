@@ -2,9 +2,9 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
-#include <libmesh/round/rounding_defects.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/read.hpp>
+#include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ std::vector<std::array<std::array<double, 3>, 3>> sorted_corners(const tf::mesh&
 /// for it have nothing to look with.
 void look_again_at_glb(const std::filesystem::path& path, const tf::mesh& surface) {
     if (!tf::reads_scenes()) return;
-    if (sorted_corners(tf::read_mesh(path, "glb").mesh) != sorted_corners(surface))
+    if (sorted_corners(tf::read(path, "glb").mesh) != sorted_corners(surface))
         throw std::logic_error("the file written does not hold what was certified");
 }
 
@@ -54,7 +54,7 @@ void look_again(const std::filesystem::path& path, const std::string& format,
     std::error_code error;
     if (path == "-" || !std::filesystem::is_regular_file(path, error)) return;
     if (format == "glb") return look_again_at_glb(path, surface);
-    const tf::mesh_file written = tf::read_mesh(path, format);
+    const tf::mesh_file written = tf::read(path, format);
     if (!same_corners(written.mesh, surface) ||
         (written.indexed && written.mesh.faces != surface.faces))
         throw std::logic_error("the file written does not hold what was certified");
@@ -63,7 +63,8 @@ void look_again(const std::filesystem::path& path, const std::string& format,
 }  // namespace
 
 void warn_of_moves(job& work, tf::points_view points, double max_move, bool to_single) {
-    const double step = tf::coordinate_step(points, to_single);
+    const double step =
+        tf::coordinate_step(points, to_single ? tf::precision::float32 : tf::precision::float64);
     if (!(max_move > step)) return;
     work.warn("moved", "so that no faces meet when rounded, points moved by up to " +
                            shortest(max_move) + ", " + shortest(std::ceil(max_move / step)) +
@@ -77,14 +78,14 @@ tf::write_result write_certified(job& work, tf::mesh_file& file, const written_f
     output_place place(path, o.force || o.in_place, work.keeper);
     tf::write_result written;
     try {
-        written = tf::write_mesh(
-            place.writable(), file,
-            {.format = form.format, .ascii = form.ascii, .precision = file.stored_as});
+        written =
+            tf::write(place.writable(), file,
+                      {.format = form.format, .ascii = form.ascii, .precision = file.stored_as});
         look_again(place.writable(), form.format, file.mesh);
     } catch (const tf::io_error& error) {
         throw failure(bad_output, "output", place.said_of_path(error.what()));
     }
-    if (written.largest_move > 0.0)
+    if (written.max_displacement > 0.0)
         throw std::logic_error("coordinates were rounded that had been certified");
     place.commit();
     return written;

@@ -96,7 +96,7 @@ void check_format(const common_options& o) {
     if (o.format.empty()) return;
     constexpr std::byte blank{' '};
     try {
-        static_cast<void>(tf::read_mesh(std::span(&blank, 1), "--format", o.format));
+        static_cast<void>(tf::read(std::span(&blank, 1), "--format", o.format));
     } catch (const tf::io_error& error) {
         const std::string text = error.what();
         if (text.ends_with("' is not read")) refuse(text);

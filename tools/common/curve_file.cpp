@@ -3,7 +3,6 @@
 #include "tools/common/common_options.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/exit_status.hpp"
-#include <libmesh/intersect/curves.hpp>
 #include <treeform/mesh/curves.hpp>
 #include <treeform/tf.hpp>
 

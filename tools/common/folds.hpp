@@ -3,7 +3,7 @@
 /// Faces that rounding has folded, in words.
 
 #include "tools/common/run.hpp"
-#include <libmesh/round/rounding_defects.hpp>
+#include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 
 namespace tools {

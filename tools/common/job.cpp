@@ -75,13 +75,13 @@ tf::mesh_file job::read(const std::string& input, json& about) {
             sum.add(bytes);
             digest = sum.hex();
         }
-        file = tf::read_mesh(bytes, label, options.format);
+        file = tf::read(bytes, label, options.format);
     } else {
         std::error_code error;
         if (std::filesystem::is_directory(input, error))
             throw failure(bad_input, "read", input + ": is a folder");
         if (options.detailed()) digest = sha256_of_file(input);
-        file = tf::read_mesh(input, options.format);
+        file = tf::read(input, options.format);
     }
     if (const auto output = mesh_output(options, input)) {
         tf::attributes& all = file.attributes;

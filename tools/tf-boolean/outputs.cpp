@@ -6,15 +6,15 @@
 #include "tools/common/material_words.hpp"
 #include "tools/common/output_file.hpp"
 #include "tools/tf-boolean/words.hpp"
-#include <libmesh/base/finite.hpp>
-#include <libmesh/round/rounding_defects.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -29,6 +29,10 @@ json meeting_list(const tf::boolean_result& result) {
         list.push_back({{"faces", {f, g}}, {"near", {at.x, at.y, at.z}}});
     }
     return list;
+}
+
+bool finite(const tf::point3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
 bool printable(const std::string& text) {
@@ -118,25 +122,27 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
     const auto cut =
         std::count(result.vertex_source.begin(), result.vertex_source.end(), tf::operand_element{});
-    entry["output"] = {{"file", nullptr},
-                       {"format", nullptr},
-                       {"precision_out", to_single ? "float" : "double"},
-                       {"vertices", surface.points.size()},
-                       {"cut_vertices", cut},
-                       {"faces", surface.faces.size()},
-                       {"components", topology.components_by_point},
-                       {"nonmanifold_edges", topology.nonmanifold_edges},
-                       {"volume", bounds_solid ? json(tf::signed_volume(surface)) : json(nullptr)},
-                       {"closed", bounds_solid ? json(true) : json(topology.boundary_edges == 0)},
-                       {"oriented", bounds_solid ? json(true) : json(nullptr)},
-                       {"self_intersections", result.certificate.meeting_count},
-                       {"meeting", meeting_list(result)},
-                       {"exact_faces", result.statistics.exact_faces},
-                       {"lost_parts", {{"count", result.vanished_components}, {"list", places}}},
-                       {"certified", static_cast<bool>(result.certificate)},
-                       {"max_move", result.certificate.max_displacement},
-                       {"step", tf::coordinate_step(surface.points, to_single)},
-                       {"rounding_steps", result.statistics.rounding_steps}};
+    entry["output"] = {
+        {"file", nullptr},
+        {"format", nullptr},
+        {"precision_out", to_single ? "float" : "double"},
+        {"vertices", surface.points.size()},
+        {"cut_vertices", cut},
+        {"faces", surface.faces.size()},
+        {"components", topology.components_by_point},
+        {"nonmanifold_edges", topology.nonmanifold_edges},
+        {"volume", bounds_solid ? json(tf::signed_volume(surface)) : json(nullptr)},
+        {"closed", bounds_solid ? json(true) : json(topology.boundary_edges == 0)},
+        {"oriented", bounds_solid ? json(true) : json(nullptr)},
+        {"self_intersections", result.certificate.meeting_count},
+        {"meeting", meeting_list(result)},
+        {"exact_faces", result.statistics.exact_faces},
+        {"lost_parts", {{"count", result.vanished_components}, {"list", places}}},
+        {"certified", static_cast<bool>(result.certificate)},
+        {"max_move", result.certificate.max_displacement},
+        {"step", tf::coordinate_step(surface.points,
+                                     to_single ? tf::precision::float32 : tf::precision::float64)},
+        {"rounding_steps", result.statistics.rounding_steps}};
 }
 
 void write_surface(job& work, const boolean_settings& settings, const std::vector<solid>& solids,
@@ -171,7 +177,7 @@ void write_curves(job& work, const boolean_settings& settings, const std::vector
         const tf::mesh& one = solids[i].file.mesh;
         const auto offset = static_cast<std::uint32_t>(all.points.size());
         for (const tf::point3& p : one.points)  // none of the faces has one that is not finite
-            all.points.push_back(tf::detail::base::is_finite(p) ? p : tf::point3{});
+            all.points.push_back(finite(p) ? p : tf::point3{});
         for (const auto& [a, b, c] : one.faces) {
             all.faces.push_back({a + offset, b + offset, c + offset});
             mesh_of_face.push_back(i);

@@ -45,9 +45,8 @@ void write_file(job& work, const tf::mesh_file& file, const std::filesystem::pat
     output_place place(path, o.force || o.in_place, work.keeper);
     tf::write_result written;
     try {
-        written =
-            tf::write_mesh(place.writable(), file,
-                           {.format = form.format, .ascii = form.ascii, .precision = precision});
+        written = tf::write(place.writable(), file,
+                            {.format = form.format, .ascii = form.ascii, .precision = precision});
     } catch (const tf::io_error& error) {
         throw failure(bad_output, "output", place.said_of_path(error.what()));
     }
@@ -56,12 +55,12 @@ void write_file(job& work, const tf::mesh_file& file, const std::filesystem::pat
         {"file", path.string()},
         {"format", written.format},
         {"precision_out", written.written_as == tf::precision::float32 ? "float" : "double"},
-        {"max_move", written.largest_move},
+        {"max_move", written.max_displacement},
         {"scene", scene}};
     for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
-    if (written.largest_move > 0.0)  // of measure, which moves nothing, and of what is fixed
+    if (written.max_displacement > 0.0)  // of measure, which moves nothing, and of what is fixed
         work.warn("rounded", "written in single precision: coordinates move by up to " +
-                                 shortest(written.largest_move));
+                                 shortest(written.max_displacement));
 }
 
 }  // namespace

@@ -53,11 +53,11 @@ void enter_output(job& work, const std::filesystem::path& path, const tf::write_
         {"file", path.string()},
         {"format", written.format},
         {"precision_out", written.written_as == tf::precision::float32 ? "float" : "double"},
-        {"max_move", written.largest_move}};
+        {"max_move", written.max_displacement}};
     for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
-    if (written.largest_move > 0.0)
+    if (written.max_displacement > 0.0)
         work.warn("rounded", "the marked copy is in single precision: coordinates move by up to " +
-                                 shortest(written.largest_move));
+                                 shortest(written.max_displacement));
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ void write_marked(job& work, tf::mesh_file& file, const findings& result,
     if (o.precision == "double") options.precision = tf::precision::float64;
     output_place place(path, o.force, work.keeper);
     try {
-        enter_output(work, path, tf::write_mesh(place.writable(), file, options));
+        enter_output(work, path, tf::write(place.writable(), file, options));
     } catch (const tf::io_error& error) {
         throw failure(bad_output, "output", place.said_of_path(error.what()));
     }

@@ -4,7 +4,7 @@
 #include "tools/common/page/page.hpp"
 #include "tools/tf-selfintersect/marks.hpp"
 #include "tools/tf-selfintersect/words.hpp"
-#include <libmesh/intersect/curves.hpp>
+#include <treeform/mesh/curves.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/version.hpp>
 

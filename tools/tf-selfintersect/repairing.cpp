@@ -4,10 +4,10 @@
 #include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
 #include "tools/tf-selfintersect/words.hpp"
-#include <libmesh/round/rounding_defects.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 
 #include <cmath>
@@ -68,7 +68,8 @@ void enter_repair(job& work, const findings& result, const repair_settings& sett
          {{"given", settings.max_move.given},
           {"used", allowed},
           {"largest", repaired.certificate.max_displacement},
-          {"step", tf::coordinate_step(surface.points, to_single)}}},
+          {"step", tf::coordinate_step(surface.points, to_single ? tf::precision::float32
+                                                                 : tf::precision::float64)}}},
         {"removed_faces", repaired.statistics.removed},
         {"covered_faces", repaired.statistics.covered},
         {"filled_faces", repaired.statistics.filled},
@@ -206,7 +207,7 @@ void write_repaired(job& work, const tf::mesh_file& input, const findings& resul
     work.entry["output"] = {{"file", output.string()},
                             {"format", written.format},
                             {"precision_out", to_single ? "float" : "double"},
-                            {"max_move", written.largest_move}};
+                            {"max_move", written.max_displacement}};
     for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
 }
 

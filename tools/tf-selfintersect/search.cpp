@@ -77,7 +77,8 @@ tf::self_intersection_options library_options(job& work, const findings& result,
     options.vertices = tf::vertex_identity::by_index;  // joined as asked
     options.first_only = settings.first;
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k)
-        options.kinds[k] = settings.looks_for(static_cast<tf::pair_kind>(k));
+        if (const auto kind = static_cast<tf::pair_kind>(k); !settings.looks_for(kind))
+            options.kinds = options.kinds - kind;
     options.between = settings.between;
     options.within = settings.within;
     if (settings.between || settings.within) options.component_of_face = result.component;

@@ -24,7 +24,7 @@ tf::write_result write_file(pending_outputs& outputs, const std::filesystem::pat
                             const tf::mesh_file& file, const tf::write_options& options) {
     const std::filesystem::path& writable = outputs.add(path, force);
     try {
-        return tf::write_mesh(writable, file, options);
+        return tf::write(writable, file, options);
     } catch (const tf::io_error& error) {
         throw failure(bad_output, "output", outputs.said_of_paths(error.what()));
     }
@@ -32,11 +32,11 @@ tf::write_result write_file(pending_outputs& outputs, const std::filesystem::pat
 
 void warn_of_rounding(job& work, const tf::write_result& written,
                       const std::optional<std::uint64_t>& again, const weld_request& request) {
-    if (written.largest_move > 0.0)
+    if (written.max_displacement > 0.0)
         work.warn("rounded", "written in single precision: coordinates move by up to " +
-                                 shortest(written.largest_move));
+                                 shortest(written.max_displacement));
     if (again.value_or(0) == 0) return;
-    const bool rounded = written.largest_move > 0.0;
+    const bool rounded = written.max_displacement > 0.0;
     work.warn(rounded ? "precision" : "within-tolerance",
               counted(*again, "point", "points") + " that were kept " +
                   (request.settings.options.keep == tf::weld_keep::first
@@ -47,7 +47,7 @@ void warn_of_rounding(job& work, const tf::write_result& written,
 }
 
 void look_for_folds(job& work, const tf::mesh& welded) {
-    const std::vector<tf::point3> rounded = tf::in_single(welded.points);
+    const std::vector<tf::point3> rounded = tf::rounded(welded.points, tf::precision::float32);
     const auto harm = tf::find_rounding_defects(welded, rounded, work.progress("rounding"));
     work.out.end_progress();
     work.keeper.check();
@@ -229,7 +229,7 @@ void enter_output(job& work, const std::filesystem::path& path, const tf::write_
         {"file", path.string()},
         {"format", written.format},
         {"precision_out", written.written_as == tf::precision::float32 ? "float" : "double"},
-        {"max_move", written.largest_move},
+        {"max_move", written.max_displacement},
         {"within_tolerance", again ? json(*again) : json(nullptr)}};
 }
 
@@ -245,7 +245,7 @@ void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& weld
     enter_output(work, path, written, again);
     for (const tf::io_warning& warning : written.warnings) work.warn(warning.code, warning.text);
     warn_of_rounding(work, written, again, request);
-    if (written.largest_move > 0.0 && w.result.statistics.non_finite == 0)
+    if (written.max_displacement > 0.0 && w.result.statistics.non_finite == 0)
         look_for_folds(work, welded.mesh);
 }
 

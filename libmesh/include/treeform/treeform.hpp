@@ -27,8 +27,10 @@
 #include <treeform/mesh/raycast.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/resolve.hpp>
+#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/slide.hpp>
+#include <treeform/mesh/solid.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/mesh/weld.hpp>

@@ -1,6 +1,7 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/intersect/point_locator.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
@@ -97,7 +98,7 @@ std::size_t check_windings(test::random& random, const scene& s, double low, dou
     for (int i = 0; i < 100; ++i) points.push_back(any_point(random, low, high));
     for (std::size_t k = 0; k < s.operands.size(); ++k) {
         const auto tree = tf::build_face_tree(s.operands[k]);
-        const auto found = tf::point_locator(s.operands[k], tree).locate(points);
+        const auto found = tf::detail::intersect::point_locator(s.operands[k], tree).locate(points);
         for (std::size_t i = 0; i < points.size(); ++i) {
             CAPTURE(i);
             const std::uint32_t cell = cell_at(rounded, cells, points[i]);

@@ -1,4 +1,5 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/intersect/point_locator.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -178,7 +179,8 @@ TEST_CASE("boolean: of turned boxes, volumes add up and points are where they sh
         const tf::mesh solid = solid_of({a, b}, "a-b");
         const tf::tree<3> tree_a = tf::build_face_tree(a), tree_b = tf::build_face_tree(b),
                           tree = tf::build_face_tree(solid);
-        const tf::point_locator in_a(a, tree_a), in_b(b, tree_b), in_solid(solid, tree);
+        const tf::detail::intersect::point_locator in_a(a, tree_a), in_b(b, tree_b),
+            in_solid(solid, tree);
         for (int i = 0; i < 100; ++i) {
             const tf::point3 p{source.in(-2, 2), source.in(-2, 2), source.in(-2, 2)};
             CHECK(in_solid.locate(p).winding ==

@@ -1,4 +1,5 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/intersect/point_locator.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -99,7 +100,7 @@ TEST_CASE("clip: of sheets and boxes at random, pieces are where they should be"
         const auto outside = clipped({rough, b}, "a-b"), inside = clipped({rough, b}, "a*b");
         CHECK(area_of(outside.mesh) + area_of(inside.mesh) == doctest::Approx(area_of(rough)));
         const tf::tree<3> tree = tf::build_face_tree(b);
-        const tf::point_locator where(b, tree);
+        const tf::detail::intersect::point_locator where(b, tree);
         const auto middles_are = [&](const tf::mesh& part, tf::location wanted) {
             for (const auto& [i, j, k] : part.faces) {
                 const tf::point3 &p = part.points[i], &q = part.points[j], &r = part.points[k];

@@ -23,7 +23,7 @@ const std::filesystem::path folder = std::filesystem::path(TREEFORM_SOURCE_DIR) 
 
 /// faces, faces without area, then the pairs by kind: a row of expected.csv.
 std::vector<std::uint64_t> measured(const std::filesystem::path& path) {
-    const tf::mesh_file file = tf::read_mesh(path);
+    const tf::mesh_file file = tf::read(path);
     const tf::mesh mesh = file.indexed ? file.mesh : tf::join_equal_points(file.mesh);
     std::vector<std::uint64_t> row{mesh.faces.size(),
                                    tf::find_defects(mesh).degenerate_faces.size()};

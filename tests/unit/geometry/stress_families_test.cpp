@@ -342,6 +342,6 @@ TEST_CASE("the families are written to files as they are, the same each time") {
         CHECK(content("one") == content("two"));
     }
     CHECK(lines == written);
-    const auto read = tf::read_mesh(scratch.path() / "one" / "soup-100-plain-double.ply");
+    const auto read = tf::read(scratch.path() / "one" / "soup-100-plain-double.ply");
     CHECK(read.mesh == stress_mesh(stress_family::soup, 100, 1));
 }

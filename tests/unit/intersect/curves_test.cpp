@@ -1,4 +1,4 @@
-#include <libmesh/intersect/curves.hpp>
+#include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>

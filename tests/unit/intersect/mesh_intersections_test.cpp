@@ -2,8 +2,9 @@
 /// Intersections of two meshes against all pairs looked at one by one, and under moves.
 
 #include <libmesh/base/build_face_tree.hpp>
-#include <libmesh/nearness/distance_model.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
 #include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -52,7 +53,7 @@ pairs found_in(const tf::mesh& a, const tf::mesh& b,
     CHECK(result.searched.candidates == result.box_pairs);
     CHECK(tf::intersects(a, b, {options.move_a, options.move_b}) == !result.pairs.empty());
     const auto of_models =
-        tf::mesh_intersections(tf::distance_model(a), tf::distance_model(b), options);
+        tf::mesh_intersections(tf::prepared_mesh::borrow(a), tf::prepared_mesh::borrow(b), options);
     CHECK(of_models.pairs == result.pairs);
     CHECK(of_models.counts == result.counts);
     CHECK(of_models.box_pairs == result.box_pairs);
@@ -297,7 +298,8 @@ TEST_CASE("mesh_intersections: threads change nothing, not even the first pair o
     const auto tree_a = tf::build_face_tree(a), tree_b = tf::build_face_tree(b);
     const auto on = [&](unsigned threads, bool first_only) {
         const tf::thread_scope scope(threads);
-        return tf::mesh_intersections(a, tree_a, b, tree_b, {.first_only = first_only});
+        return tf::detail::intersect::mesh_intersections(a, tree_a, b, tree_b,
+                                                         {.first_only = first_only});
     };
     const auto all = on(1, false);
     const auto first = on(1, true);
@@ -310,7 +312,8 @@ TEST_CASE("mesh_intersections: threads change nothing, not even the first pair o
         CHECK(on(threads, false).searched == all.searched);
         CHECK(on(threads, true).pairs == first.pairs);
         const tf::thread_scope scope(threads);
-        const tf::distance_model model_a(a), model_b(b);
+        const tf::prepared_mesh model_a = tf::prepared_mesh::borrow(a),
+                                model_b = tf::prepared_mesh::borrow(b);
         CHECK(tf::mesh_intersections(model_a, model_b).pairs == all.pairs);
         CHECK(tf::mesh_intersections(model_a, model_b, {.first_only = true}).pairs == first.pairs);
     }
@@ -321,8 +324,7 @@ TEST_CASE("mesh_intersections: kinds that are not wanted are not counted, and th
     const tf::mesh a = test::lattice_soup(source, 60, 30, 4);
     const tf::mesh b = test::lattice_soup(source, 60, 30, 4);
     const auto all = tf::mesh_intersections(a, b);
-    const auto some = tf::mesh_intersections(
-        a, b, {.kinds = {true, false, false, false, false, false, false}, .limit = 5});
+    const auto some = tf::mesh_intersections(a, b, {.kinds = tf::pair_kind::crossing, .limit = 5});
     pairs crossings = all.pairs;
     std::erase_if(crossings, [](const auto& p) { return p.kind != tf::pair_kind::crossing; });
     REQUIRE(crossings.size() > 5);
@@ -338,7 +340,7 @@ TEST_CASE("mesh_intersections: refuses what it cannot compute with and says what
     bad.faces[7][1] = 1000;
     CHECK_THROWS_WITH_AS((void)tf::build_face_tree(bad), doctest::Contains("face 7"),
                          std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)tf::mesh_intersections(sheet, tree, bad, tree),
+    CHECK_THROWS_WITH_AS((void)tf::detail::intersect::mesh_intersections(sheet, tree, bad, tree),
                          doctest::Contains("face 7 of the second mesh"), std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tf::intersects({}, sheet, {{{{{nan}}}}, {}}),
                          doctest::Contains("not finite"), std::invalid_argument);
@@ -346,16 +348,18 @@ TEST_CASE("mesh_intersections: refuses what it cannot compute with and says what
     bad.points[6].y = nan;
     CHECK_THROWS_WITH_AS((void)tf::build_face_tree(bad), doctest::Contains("element 0"),
                          std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)tf::mesh_intersections(bad, tree, sheet, tree),
+    CHECK_THROWS_WITH_AS((void)tf::detail::intersect::mesh_intersections(bad, tree, sheet, tree),
                          doctest::Contains("face 0 of the first mesh"), std::invalid_argument);
-    CHECK_THROWS_AS((void)tf::mesh_intersections({}, tree, sheet, tree), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::detail::intersect::mesh_intersections({}, tree, sheet, tree),
+                    std::invalid_argument);
     const auto far = tf::translation<3>(tf::point3{1.7e308, 0, 0});
     tf::mesh_intersection_options options{.move_a = far, .move_b = far};
     options.move_a.rows[0][0] = 1e308;
     options.move_b.rows[0][0] = 1e308;
-    CHECK_THROWS_AS((void)tf::mesh_intersections(sheet, tree, sheet, tree, options),
-                    std::invalid_argument);
-    const tf::distance_model model(sheet);
+    CHECK_THROWS_AS(
+        (void)tf::detail::intersect::mesh_intersections(sheet, tree, sheet, tree, options),
+        std::invalid_argument);
+    const tf::prepared_mesh model = tf::prepared_mesh::borrow(sheet);
     CHECK_THROWS_AS((void)tf::mesh_intersections(model, model, options), std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tf::mesh_intersections(model, model, {{{{{nan}}}}, {}}),
                          doctest::Contains("not finite"), std::invalid_argument);

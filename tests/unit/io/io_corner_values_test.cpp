@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t none = tf::corner_values::none;
 
 tf::mesh_file read(std::string_view text, std::string_view name = "a.obj") {
-    return tf::read_mesh(std::as_bytes(std::span(text)), name, {});
+    return tf::read(std::as_bytes(std::span(text)), name, {});
 }
 
 tf::corner_values corners_of(std::string_view text) { return read(text).attributes.corners; }
@@ -31,7 +31,7 @@ std::string complaint(std::string_view text) {
 }
 
 std::string written(const tf::mesh_file& file, const char* format, bool ascii = false) {
-    return tf::write_mesh_to_memory(file, {.format = format, .ascii = ascii});
+    return tf::write_to_memory(file, {.format = format, .ascii = ascii});
 }
 
 using faces = std::vector<tf::face>;
@@ -254,7 +254,7 @@ TEST_CASE("writing: formats that do not hold what corners have say so once") {
         const tf::mesh_file file = read(text);
         const auto path = std::filesystem::temp_directory_path() /
                           ("io_corner_values_test." + std::string(format));
-        for (const auto& w : tf::write_mesh(path, file, {}).warnings)
+        for (const auto& w : tf::write(path, file, {}).warnings)
             if (w.code == "corner-values") codes.push_back(w.text);
         std::filesystem::remove(path);
         return codes;
@@ -306,7 +306,7 @@ TEST_CASE("writing: formats that do not hold names of texture files say so") {
         CAPTURE(format);
         const auto path = std::filesystem::temp_directory_path() /
                           ("io_corner_values_test_textures." + std::string(format));
-        const auto warnings = tf::write_mesh(path, file, {}).warnings;
+        const auto warnings = tf::write(path, file, {}).warnings;
         std::filesystem::remove(path);
         CHECK(warnings.size() == (format == std::string("ply") ? 0 : 1));
         for (const auto& w : warnings) {
@@ -321,7 +321,7 @@ TEST_CASE("writing: formats that do not hold materials say so") {
         std::vector<std::string> all;
         const auto path = std::filesystem::temp_directory_path() /
                           ("io_corner_values_test_materials." + std::string(format));
-        for (const auto& w : tf::write_mesh(path, read(text), {}).warnings) all.push_back(w.code);
+        for (const auto& w : tf::write(path, read(text), {}).warnings) all.push_back(w.code);
         std::filesystem::remove(path);
         return all;
     };

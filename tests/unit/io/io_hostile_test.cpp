@@ -36,7 +36,7 @@ std::vector<sample> samples() {
         "vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
         "element edge 1\nproperty int v\nend_header\n0.1 0 0 0\n1 0 0 2 -1 5\n1 1 0 0\n0 1 0 0\n"
         "-1 0.5 3 0\n3 0 1 2 255 0 0\n4 0 2 3 4 1 2 3\n7\n";
-    tf::mesh_file file = tf::read_mesh(std::as_bytes(std::span(ply)), "a.ply", {});
+    tf::mesh_file file = tf::read(std::as_bytes(std::span(ply)), "a.ply", {});
     std::vector<sample> all{
         {"a.ply", ply},
         {"a.obj",
@@ -56,25 +56,25 @@ std::vector<sample> samples() {
     for (const char* const format : {"ply", "stl", "obj", "off", "xyz", "csv", "pcd"})
         for (const bool ascii : {false, true})
             all.push_back({std::string("a.") + format,
-                           tf::write_mesh_to_memory(file, {.format = format, .ascii = ascii})});
+                           tf::write_to_memory(file, {.format = format, .ascii = ascii})});
     file.format = "ply-binary-be";
-    all.push_back({"a.ply", tf::write_mesh_to_memory(file, {.format = "ply"})});
+    all.push_back({"a.ply", tf::write_to_memory(file, {.format = "ply"})});
     file.format = "pcd-binary-compressed";
-    all.push_back({"a.pcd", tf::write_mesh_to_memory(file, {.format = "pcd"})});
+    all.push_back({"a.pcd", tf::write_to_memory(file, {.format = "pcd"})});
     return all;
 }
 
 /// True when the bytes are a mesh whose corners are points, false when they are refused.
 bool reads(const std::string& bytes, const std::string& name) {
     try {
-        const auto file = tf::read_mesh(std::as_bytes(std::span(bytes)), name, {});
+        const auto file = tf::read(std::as_bytes(std::span(bytes)), name, {});
         for (const tf::face& f : file.mesh.faces)
             for (const std::uint32_t corner : f) REQUIRE(corner < file.mesh.points.size());
         // Packed points can be more than bytes, but not without bound.
         REQUIRE(file.mesh.points.size() <= (name.ends_with(".pcd") ? 30 : 1) * bytes.size());
         // Whatever is accepted can be written, its attributes too.
         for (const char* const format : {"ply", "pcd", "csv"})
-            (void)tf::write_mesh_to_memory(file, {.format = format});
+            (void)tf::write_to_memory(file, {.format = format});
         return true;
     } catch (const tf::io_error& e) {
         REQUIRE(std::string_view(e.what()).starts_with(name));
@@ -87,7 +87,7 @@ bool reads_exactly(const std::string& bytes, const std::string& name) {
     std::vector<std::byte> block(bytes.size());
     if (!bytes.empty()) std::memcpy(block.data(), bytes.data(), bytes.size());
     try {
-        (void)tf::read_mesh(block, name, {});
+        (void)tf::read(block, name, {});
         return true;
     } catch (const tf::io_error&) {
         return false;
@@ -97,7 +97,7 @@ bool reads_exactly(const std::string& bytes, const std::string& name) {
 /// What is said of bytes that are refused; nothing when they are read.
 std::string refusal(const std::string& bytes, const std::string& name) {
     try {
-        (void)tf::read_mesh(std::as_bytes(std::span(bytes)), name, {});
+        (void)tf::read(std::as_bytes(std::span(bytes)), name, {});
         return {};
     } catch (const tf::io_error& e) {
         return e.what();
@@ -237,7 +237,7 @@ TEST_CASE("hostile: counts that the bytes cannot hold are refused before room is
 TEST_CASE("hostile: a 3MF with damaged, lost or missing parts is read or refused by its name") {
     if (!tf::reads_scenes()) return;
     const std::string whole = small_3mf();
-    REQUIRE(tf::read_mesh(std::as_bytes(std::span(whole)), "a.3mf", {}).mesh.faces.size() == 4);
+    REQUIRE(tf::read(std::as_bytes(std::span(whole)), "a.3mf", {}).mesh.faces.size() == 4);
     const auto check = [](const std::string& bytes) {
         const std::string said = refusal(bytes, "a.3mf");
         CHECK((said.empty() || said.starts_with("a.3mf: ")));

@@ -38,7 +38,7 @@ bool same_bits(const std::vector<tf::point3>& a, const std::vector<tf::point3>& 
 }
 
 tf::mesh_file reread(const std::string& bytes, const char* name) {
-    return tf::read_mesh(std::as_bytes(std::span(bytes)), name, {});
+    return tf::read(std::as_bytes(std::span(bytes)), name, {});
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ TEST_CASE("models: counts are those of the truth, and malformed files are refuse
         CAPTURE(path.string());
         if (r.text("status") == "malformed") {
             try {
-                (void)tf::read_mesh(path);
+                (void)tf::read(path);
                 FAIL("read without complaint; wrong is: " << r.text("note"));
             } catch (const tf::io_error& e) {
                 const std::string what = e.what();
@@ -59,7 +59,7 @@ TEST_CASE("models: counts are those of the truth, and malformed files are refuse
             }
             continue;
         }
-        const tf::mesh_file file = tf::read_mesh(path);
+        const tf::mesh_file file = tf::read(path);
         CHECK(file.format == r.text("format"));
         CHECK(file.mesh.points.size() == static_cast<std::size_t>(r.number("vertices_stored")));
         CHECK(file.stored_faces == static_cast<std::size_t>(r.number("faces_stored")));
@@ -78,14 +78,14 @@ TEST_CASE("models: what was read comes back bit for bit from every format that c
     for (const test::truth_row& r : truth(folder)) {
         if (r.text("status") == "malformed") continue;
         const auto path = folder / r.text("file");
-        const tf::mesh_file file = tf::read_mesh(path);
+        const tf::mesh_file file = tf::read(path);
         for (const char* const format : {"ply", "off", "obj"}) {
             for (const bool ascii : {false, true}) {
                 CAPTURE(path.string());
                 CAPTURE(format);
                 CAPTURE(ascii);
-                const auto again = reread(
-                    tf::write_mesh_to_memory(file, {.format = format, .ascii = ascii}), format);
+                const auto again =
+                    reread(tf::write_to_memory(file, {.format = format, .ascii = ascii}), format);
                 CHECK(same_bits(again.mesh.points, file.mesh.points));
                 CHECK(again.mesh.faces == file.mesh.faces);
                 CHECK(again.stored_face == file.stored_face);
@@ -95,7 +95,7 @@ TEST_CASE("models: what was read comes back bit for bit from every format that c
             }
         }
         if (file.stored_as == tf::precision::float32 && !file.mesh.faces.empty()) {
-            const auto stl = reread(tf::write_mesh_to_memory(file, {.format = "stl"}), "a.stl");
+            const auto stl = reread(tf::write_to_memory(file, {.format = "stl"}), "a.stl");
             REQUIRE(stl.mesh.faces.size() == file.mesh.faces.size());
             std::vector<tf::point3> corners;
             for (const tf::face& f : file.mesh.faces)
@@ -114,11 +114,11 @@ TEST_CASE("models: scenes come with a part for each node that shows triangles") 
         return;
     }
     try {
-        const tf::mesh_file menger = tf::read_mesh(folder / "mengerSponge3.glb");
+        const tf::mesh_file menger = tf::read(folder / "mengerSponge3.glb");
         CHECK(menger.mesh.faces.size() == 21598);
         CHECK(menger.attributes.parts.size() == 1);
-        CHECK(tf::read_mesh(folder / "cube_gears.3mf").attributes.parts.size() == 17);
-        const tf::mesh_file nested = tf::read_mesh(folder / "nested.glb");
+        CHECK(tf::read(folder / "cube_gears.3mf").attributes.parts.size() == 17);
+        const tf::mesh_file nested = tf::read(folder / "nested.glb");
         CHECK(nested.mesh.faces.size() == 12 * nested.attributes.parts.size());
         CHECK(nested.stored_as == tf::precision::float32);
         CHECK(nested.warnings.back().code == "precision");

@@ -20,11 +20,11 @@ namespace {
 using namespace std::string_literals;
 
 tf::mesh_file read(std::string_view bytes, std::string_view name = "a.pcd") {
-    return tf::read_mesh(std::as_bytes(std::span(bytes)), name, {});
+    return tf::read(std::as_bytes(std::span(bytes)), name, {});
 }
 
 std::string written(const tf::mesh_file& file, const char* format, bool ascii = false) {
-    return tf::write_mesh_to_memory(file, {.format = format, .ascii = ascii});
+    return tf::write_to_memory(file, {.format = format, .ascii = ascii});
 }
 
 /// What the reader says against the bytes; empty when it says nothing.
@@ -201,7 +201,7 @@ TEST_CASE("pcd: an organized cloud and its viewpoint pass through PCD and PLY") 
     // With a point less they are no grid any more, and that is said.
     file.mesh.points.pop_back();
     file.attributes.elements.clear();
-    const auto result = tf::write_mesh("/dev/null", file, {.format = "pcd"});
+    const auto result = tf::write("/dev/null", file, {.format = "pcd"});
     CHECK(result.warnings.at(0).code == "organization");
     CHECK(holds(written(file, "pcd"), "WIDTH 3\nHEIGHT 1\n"));
 }
@@ -262,7 +262,7 @@ TEST_CASE("pcd: faces and lists are left out with a warning, and doubles stay do
         "property list uchar int vertex_indices\nend_header\n0.1 0 0 0\n1 0 0 2 3 4\n0 1 0 0\n"
         "3 0 1 2\n",
         "a.ply");
-    const auto result = tf::write_mesh("/dev/null", file, {.format = "pcd"});
+    const auto result = tf::write("/dev/null", file, {.format = "pcd"});
     CHECK(result.warnings.at(0).code == "columns-dropped");
     CHECK(result.warnings.at(1).code == "faces-dropped");
     CHECK(result.written_as == tf::precision::float64);

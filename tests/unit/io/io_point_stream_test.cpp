@@ -131,8 +131,8 @@ TEST_CASE("point streams: blocks of any size are what the whole file is") {
             file.format = k.read_as;
             const fs::path path =
                 here.put(std::string("a.") + k.format,
-                         tf::write_mesh_to_memory(file, {.format = k.format, .ascii = k.ascii}));
-            const tf::mesh_file whole = tf::read_mesh(path);
+                         tf::write_to_memory(file, {.format = k.format, .ascii = k.ascii}));
+            const tf::mesh_file whole = tf::read(path);
             CHECK(same_bits(whole.mesh.points, file.mesh.points));
             for (const std::size_t most : std::vector<std::size_t>{1, 7, 1000, 1 << 20}) {
                 const tf::mesh_file parts = read_by(most, path);
@@ -154,7 +154,7 @@ TEST_CASE("point streams: blocks written one by one are the bytes of the whole f
                 tf::mesh_file file = cloud(count, single);
                 file.format = k.read_as;
                 const tf::write_options options{.format = k.format, .ascii = k.ascii};
-                const std::string expected = tf::write_mesh_to_memory(file, options);
+                const std::string expected = tf::write_to_memory(file, options);
                 for (const std::size_t most : std::vector<std::size_t>{1, 7, 1000}) {
                     const fs::path path = here.folder / "out";
                     tf::point_writer writer(path, file, count, options);
@@ -183,9 +183,8 @@ TEST_CASE("point streams: lists and rows without coordinates alone pass through"
         "property double x\nproperty float y\nelement face 0\nproperty list uchar int "
         "vertex_indices\nend_header\n1 0 2 3\n4 2 -1 7 5 6\n7 1 9 8 9\n");
     for (const bool ascii : {true, false}) {
-        const tf::mesh_file whole = tf::read_mesh(path);
-        const std::string bytes =
-            tf::write_mesh_to_memory(whole, {.format = "ply", .ascii = ascii});
+        const tf::mesh_file whole = tf::read(path);
+        const std::string bytes = tf::write_to_memory(whole, {.format = "ply", .ascii = ascii});
         const fs::path again = here.put("b.ply", bytes);
         for (const std::size_t most : std::vector<std::size_t>{1, 2, 3})
             CHECK(read_by(most, again).attributes == whole.attributes);
@@ -204,7 +203,7 @@ TEST_CASE("point streams: uneven lines of text lose their further values from th
     const fs::path path = here.put("a.xyz", "1 2 3 4\n1 2 3 4\n1 2 3\n");
     const tf::mesh_file parts = read_by(1, path);
     CHECK(parts.mesh.points.size() == 3);
-    CHECK(parts.attributes == tf::read_mesh(path).attributes);
+    CHECK(parts.attributes == tf::read(path).attributes);
     CHECK(parts.warnings.at(0).code == "columns");
 }
 
@@ -214,8 +213,7 @@ TEST_CASE("point streams: a pipe is read as its file is, more than once where it
         CAPTURE(k.format);
         tf::mesh_file file = cloud(3000, true);
         file.format = k.read_as;
-        const std::string bytes =
-            tf::write_mesh_to_memory(file, {.format = k.format, .ascii = k.ascii});
+        const std::string bytes = tf::write_to_memory(file, {.format = k.format, .ascii = k.ascii});
         const fs::path pipe = here.folder / (std::string("pipe.") + k.format);
         REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
         std::thread feeder([&] { std::ofstream(pipe, std::ios::binary) << bytes; });
@@ -274,7 +272,7 @@ TEST_CASE("point streams: a writer takes what was announced, and leaves nothing 
                               {.precision = tf::precision::float32});
     block.points[0].x = 0.1;
     rounding.write(block);
-    CHECK(rounding.commit().largest_move > 0.0);
-    CHECK(tf::read_mesh(here.folder / "a.ply").mesh.points[0].x ==
+    CHECK(rounding.commit().max_displacement > 0.0);
+    CHECK(tf::read(here.folder / "a.ply").mesh.points[0].x ==
           static_cast<double>(static_cast<float>(0.1)));
 }

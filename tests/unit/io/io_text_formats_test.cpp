@@ -11,7 +11,7 @@
 namespace {
 
 tf::mesh_file read(std::string_view text, std::string_view name) {
-    return tf::read_mesh(std::as_bytes(std::span(text)), name, {});
+    return tf::read(std::as_bytes(std::span(text)), name, {});
 }
 
 /// What the reader says against `text`; empty when it says nothing.
@@ -202,15 +202,14 @@ TEST_CASE("csv: a heading names the columns, x y z are found by name, and text c
     CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
     CHECK(tf::number_at(column_of(file, "vertex", "id"), 1) == 8.0);
     CHECK(tf::number_at(column_of(file, "vertex", "a_\"b\",_c"), 0) == 0.5);
-    const std::string csv = tf::write_mesh_to_memory(file, {.format = "csv"});
+    const std::string csv = tf::write_to_memory(file, {.format = "csv"});
     CHECK(csv == "id,z,y,\"a_\"\"b\"\",_c\",x\n7,3,2,0.5,1\n8,6,5,-1,4\n");
     CHECK(read(csv, "a.csv").attributes == file.attributes);
     CHECK(read(csv, "stdin").format == "csv");
     // The properties of another format come with their names.
     const tf::mesh_file plain = read("1 2 3 4\n5 6 7 8\n", "a.xyz");
-    CHECK(tf::write_mesh_to_memory(plain, {.format = "csv"}) ==
-          "x,y,z,column_4\n1,2,3,4\n5,6,7,8\n");
-    CHECK(tf::write_mesh_to_memory(file, {.format = "txt"}) == "1 2 3 7 0.5\n4 5 6 8 -1\n");
+    CHECK(tf::write_to_memory(plain, {.format = "csv"}) == "x,y,z,column_4\n1,2,3,4\n5,6,7,8\n");
+    CHECK(tf::write_to_memory(file, {.format = "txt"}) == "1 2 3 7 0.5\n4 5 6 8 -1\n");
 }
 
 TEST_CASE("csv: headings of other programs, and those that are of no use") {
@@ -272,7 +271,7 @@ TEST_CASE("detection: a binary STL is one by its size, whatever its header says"
 }
 
 TEST_CASE("reading: a missing file and a folder are named") {
-    CHECK_THROWS_WITH_AS(static_cast<void>(tf::read_mesh("/nonexistent/a.stl")),
+    CHECK_THROWS_WITH_AS(static_cast<void>(tf::read("/nonexistent/a.stl")),
                          "/nonexistent/a.stl: No such file or directory", tf::io_error);
-    CHECK_THROWS_WITH_AS(static_cast<void>(tf::read_mesh("/")), "/: Is a directory", tf::io_error);
+    CHECK_THROWS_WITH_AS(static_cast<void>(tf::read("/")), "/: Is a directory", tf::io_error);
 }

@@ -14,11 +14,11 @@
 namespace {
 
 tf::mesh_file reread(const std::string& bytes, const std::string& name) {
-    return tf::read_mesh(std::as_bytes(std::span(bytes)), name, {});
+    return tf::read(std::as_bytes(std::span(bytes)), name, {});
 }
 
 std::string written(const tf::mesh_file& file, const char* format, bool ascii = false) {
-    return tf::write_mesh_to_memory(file, {.format = format, .ascii = ascii});
+    return tf::write_to_memory(file, {.format = format, .ascii = ascii});
 }
 
 /// A tetrahedron of random doubles.
@@ -138,22 +138,22 @@ TEST_CASE("writing: rounding to float32 is reported, and refused where it would 
     tf::mesh_file file = tetrahedron(1);
     file.mesh.points[0].x = 0.1;
     const auto folder = scratch();
-    const auto result = tf::write_mesh(folder / "a.stl", file);
+    const auto result = tf::write(folder / "a.stl", file);
     CHECK(result.format == "stl-binary");
     CHECK(result.written_as == tf::precision::float32);
-    CHECK(result.largest_move > 0);
-    CHECK(result.largest_move < 1e-6);
-    const auto again = tf::read_mesh(folder / "a.stl");
+    CHECK(result.max_displacement > 0);
+    CHECK(result.max_displacement < 1e-6);
+    const auto again = tf::read(folder / "a.stl");
     CHECK(again.mesh.points[0].x == static_cast<double>(0.1F));
-    CHECK(tf::write_mesh(folder / "b.stl", again).largest_move == 0.0);
+    CHECK(tf::write(folder / "b.stl", again).max_displacement == 0.0);
     for (const char* const format : {"ply", "obj", "off"}) {
-        const auto text = tf::write_mesh_to_memory(
+        const auto text = tf::write_to_memory(
             file, {.format = format, .ascii = true, .precision = tf::precision::float32});
         CHECK(reread(text, std::string("a.") + format).mesh.points[0].x ==
               static_cast<double>(0.1F));
     }
     file.mesh.points[0].x = 1e300;
-    CHECK_THROWS_AS(tf::write_mesh(folder / "c.stl", file), tf::io_error);
+    CHECK_THROWS_AS(tf::write(folder / "c.stl", file), tf::io_error);
     CHECK(written(file, "obj").starts_with("v 1e+300 "));
     std::filesystem::remove_all(folder);
 }
@@ -214,11 +214,11 @@ TEST_CASE("glb: coordinates, one primitive a color, and an offset that loses not
     tf::mesh_file far = file;
     for (auto& p : far.mesh.points) p = {p.x + 0x1p20, p.y - 0x1p22, p.z};
     const auto folder = scratch();
-    CHECK(tf::write_mesh(folder / "far.glb", far).largest_move < 1e-6);
+    CHECK(tf::write(folder / "far.glb", far).max_displacement < 1e-6);
     try {
         const auto again = reread(bytes, "a.glb");
         CHECK(again.mesh.faces.size() == 4);
-        const auto far_again = tf::read_mesh(folder / "far.glb");
+        const auto far_again = tf::read(folder / "far.glb");
         CHECK(std::abs(far_again.mesh.points[0].y) > 0x1p21);
     } catch (const tf::io_error& e) {
         CHECK(std::string(e.what()).find("needs a build with assimp") != std::string::npos);
@@ -253,22 +253,22 @@ TEST_CASE("writing: a mesh of nothing is read again as one") {
 TEST_CASE("writing: a file appears whole or not at all") {
     const auto folder = scratch();
     const tf::mesh_file good = tetrahedron(4);
-    CHECK_THROWS_AS(tf::write_mesh(folder / "none" / "a.ply", good), tf::io_error);
-    CHECK_THROWS_AS(tf::write_mesh(folder / "a.step", good), tf::io_error);
-    CHECK_THROWS_AS(tf::write_mesh(folder, good, {.format = "ply"}), tf::io_error);
+    CHECK_THROWS_AS(tf::write(folder / "none" / "a.ply", good), tf::io_error);
+    CHECK_THROWS_AS(tf::write(folder / "a.step", good), tf::io_error);
+    CHECK_THROWS_AS(tf::write(folder, good, {.format = "ply"}), tf::io_error);
     tf::mesh_file points;
     points.mesh.points = good.mesh.points;
-    CHECK_THROWS_AS(tf::write_mesh(folder / "a.stl", points), tf::io_error);
+    CHECK_THROWS_AS(tf::write(folder / "a.stl", points), tf::io_error);
     CHECK(files_in(folder) == 0);
-    tf::write_mesh(folder / "a.obj", good);
+    tf::write(folder / "a.obj", good);
     std::filesystem::create_symlink("a.obj", folder / "link.obj");
-    tf::write_mesh(folder / "link.obj", tetrahedron(5));
+    tf::write(folder / "link.obj", tetrahedron(5));
     CHECK(std::filesystem::is_symlink(folder / "link.obj"));
-    CHECK(tf::read_mesh(folder / "a.obj").mesh == tetrahedron(5).mesh);
+    CHECK(tf::read(folder / "a.obj").mesh == tetrahedron(5).mesh);
     CHECK(files_in(folder) == 2);
     std::filesystem::remove_all(folder);
     if (std::filesystem::exists("/dev/full")) {
-        CHECK_THROWS_WITH_AS(tf::write_mesh("/dev/full", good, {.format = "ply"}),
+        CHECK_THROWS_WITH_AS(tf::write("/dev/full", good, {.format = "ply"}),
                              "/dev/full: No space left on device", tf::io_error);
     }
 }

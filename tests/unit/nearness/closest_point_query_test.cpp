@@ -1,4 +1,5 @@
 #include <libmesh/geometry/closest_point.hpp>
+#include <libmesh/nearness/closest_point_query.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -58,16 +59,16 @@ std::vector<std::pair<std::string, tf::mesh>> meshes() {
 }  // namespace
 
 TEST_CASE("closest point query: a mesh without faces has no nearest point") {
-    const tf::closest_point_query none;
+    const tf::detail::nearness::closest_point_query none;
     CHECK(!none.nearest({1, 2, 3}));
-    const tf::closest_point_query empty{tf::mesh{}};
+    const tf::detail::nearness::closest_point_query empty{tf::mesh{}};
     CHECK(!empty.nearest({1, 2, 3}));
     const std::vector<tf::point3> queries(3);
     for (const auto& one : empty.nearest(queries)) CHECK(!one);
 }
 
 TEST_CASE("closest point query: the radius is inclusive") {
-    const tf::closest_point_query query(test::grid(3));
+    const tf::detail::nearness::closest_point_query query(test::grid(3));
     CHECK(query.nearest({1.25, 1.5, 2}, 2.0)->distance == 2.0);
     CHECK(!query.nearest({1.25, 1.5, 2}, std::nextafter(2.0, 0.0)));
     CHECK(query.nearest({1.25, 1.5, 0}, 0.0)->point == tf::point3{1.25, 1.5, 0});
@@ -78,7 +79,7 @@ TEST_CASE("closest point query: the answer is that of a loop over all faces, to 
     for (const auto& named : meshes()) {
         CAPTURE(named.first);
         const tf::mesh& mesh = named.second;
-        const tf::closest_point_query query(mesh);
+        const tf::detail::nearness::closest_point_query query(mesh);
         std::vector<tf::point3> queries = queries_around(source, 300, 8.0);
         for (const tf::point3& p : queries_around(source, 300, 1.0)) queries.push_back(p);
         for (const tf::point3& p : mesh.points) queries.push_back(p);
@@ -97,10 +98,10 @@ TEST_CASE("closest point query: the answer is that of a loop over all faces, to 
 TEST_CASE("closest point query: a power of two changes nothing but the scale") {
     test::random source(5);
     const tf::mesh mesh = test::random_soup(source, 200, 0.2);
-    const tf::closest_point_query query(mesh);
+    const tf::detail::nearness::closest_point_query query(mesh);
     for (const double factor : {0x1p-900, 0x1p-300, 0x1p+300, 0x1p+1000}) {
         CAPTURE(factor);
-        const tf::closest_point_query scaled(test::scaled(mesh, factor));
+        const tf::detail::nearness::closest_point_query scaled(test::scaled(mesh, factor));
         for (const tf::point3& p : queries_around(source, 30, 2.0)) {
             const auto expected = query.nearest(p);
             const auto found = scaled.nearest({p.x * factor, p.y * factor, p.z * factor});
@@ -111,7 +112,7 @@ TEST_CASE("closest point query: a power of two changes nothing but the scale") {
 }
 
 TEST_CASE("closest point query: from the ends of the range of double the distance is finite") {
-    const tf::closest_point_query query(test::grid(2));
+    const tf::detail::nearness::closest_point_query query(test::grid(2));
     CHECK(query.nearest({1e300, 0, 0})->distance == 1e300);
     CHECK(query.nearest({0, 1e-300, -1e-300})->distance <= 1e-150);
     CHECK(!query.nearest({1e300, 0, 0}, 1e299));
@@ -121,16 +122,16 @@ TEST_CASE("closest point query: answers are the same on any number of threads") 
     test::random source(6);
     const tf::mesh mesh = test::random_soup(source, 3000, 0.05);
     const std::vector<tf::point3> queries = queries_around(source, 2000, 1.0);
-    const auto expected = tf::closest_point_query(mesh).nearest(queries);
+    const auto expected = tf::detail::nearness::closest_point_query(mesh).nearest(queries);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK(tf::closest_point_query(mesh).nearest(queries) == expected);
+        CHECK(tf::detail::nearness::closest_point_query(mesh).nearest(queries) == expected);
     }
 }
 
 TEST_CASE("closest point query: what cannot be meant is refused by name") {
     tf::mesh mesh = test::grid(2);
-    const tf::closest_point_query query(mesh);
+    const tf::detail::nearness::closest_point_query query(mesh);
     const std::vector<tf::point3> queries{{0, 0, 0}, {0, infinity, 0}};
     CHECK_THROWS_WITH_AS((void)query.nearest(queries),
                          "treeform::closest_point_query: query 1 is not finite",
@@ -138,10 +139,10 @@ TEST_CASE("closest point query: what cannot be meant is refused by name") {
     CHECK_THROWS_AS((void)query.nearest(queries[1]), std::invalid_argument);
     CHECK_THROWS_AS((void)query.nearest(queries[0], -1.0), std::invalid_argument);
     mesh.points[3].y = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_AS(tf::closest_point_query{mesh}, std::invalid_argument);
+    CHECK_THROWS_AS(tf::detail::nearness::closest_point_query{mesh}, std::invalid_argument);
     mesh = test::grid(2);
     mesh.faces[5][1] = 99;
-    CHECK_THROWS_WITH_AS(tf::closest_point_query{mesh},
+    CHECK_THROWS_WITH_AS(tf::detail::nearness::closest_point_query{mesh},
                          "treeform::closest_point_query: face 5 has a corner out of range",
                          std::invalid_argument);
 }

@@ -1,5 +1,7 @@
 #include <libmesh/base/build_face_tree.hpp>
-#include <libmesh/nearness/distance_model.hpp>
+#include <libmesh/nearness/closest_points.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -40,10 +42,11 @@ tf::transform<3> turned(test::random& source, double scale, double away) {
 /// The answer of the models must be that of the meshes and their trees.
 void compare(const tf::mesh& a, const tf::mesh& b, const tf::transform<3>& move_a,
              const tf::transform<3>& move_b) {
-    const auto found =
-        tf::mesh_distance(tf::distance_model(a), tf::distance_model(b), {move_a, move_b});
-    const auto expected = tf::mesh_distance(a, tf::transformed<3>(tf::build_face_tree(a), move_a),
-                                            b, tf::transformed<3>(tf::build_face_tree(b), move_b));
+    const auto found = tf::closest_points(tf::prepared_mesh::borrow(a),
+                                          tf::prepared_mesh::borrow(b), {move_a, move_b});
+    const auto expected =
+        tf::detail::nearness::closest_points(a, tf::transformed<3>(tf::build_face_tree(a), move_a),
+                                             b, tf::transformed<3>(tf::build_face_tree(b), move_b));
     REQUIRE(found);
     REQUIRE(expected);
     if (expected->distance > 0.0)
@@ -55,33 +58,33 @@ void compare(const tf::mesh& a, const tf::mesh& b, const tf::transform<3>& move_
 }  // namespace
 
 TEST_CASE("distance model: one without faces is near to nothing") {
-    const tf::distance_model none;
-    const tf::distance_model one(test::grid(1));
+    const tf::prepared_mesh none;
+    const tf::prepared_mesh one = tf::prepared_mesh::borrow(test::grid(1));
     CHECK(none.size() == 0);
-    CHECK(!tf::mesh_distance(none, one));
-    CHECK(!tf::mesh_distance(one, none));
-    CHECK(!tf::mesh_distance(none, tf::distance_model(tf::mesh{})));
+    CHECK(!tf::closest_points(none, one));
+    CHECK(!tf::closest_points(one, none));
+    CHECK(!tf::closest_points(none, tf::prepared_mesh::borrow(tf::mesh{})));
     const auto away =
-        tf::mesh_distance(one, one, {.move_b = tf::translation<3>(tf::point3{0, 0, 2})});
+        tf::closest_points(one, one, {.move_b = tf::translation<3>(tf::point3{0, 0, 2})});
     REQUIRE(away);
     CHECK(away->distance == 2.0);
 }
 
 TEST_CASE("distance model: the radius is inclusive, and what cannot be meant is refused") {
-    const tf::distance_model one(test::grid(1));
+    const tf::prepared_mesh one = tf::prepared_mesh::borrow(test::grid(1));
     const auto above = tf::translation<3>(tf::point3{0, 0, 2});
-    CHECK(tf::mesh_distance(one, one, {.move_b = above, .radius = 2.0}));
-    CHECK(!tf::mesh_distance(one, one, {.move_b = above, .radius = std::nextafter(2.0, 0.0)}));
-    CHECK_THROWS_AS((void)tf::mesh_distance(one, one, {.radius = -1.0}), std::invalid_argument);
+    CHECK(tf::closest_points(one, one, {.move_b = above, .radius = 2.0}));
+    CHECK(!tf::closest_points(one, one, {.move_b = above, .radius = std::nextafter(2.0, 0.0)}));
+    CHECK_THROWS_AS((void)tf::closest_points(one, one, {.radius = -1.0}), std::invalid_argument);
     tf::transform<3> bad;
     bad.rows[1][2] = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_AS((void)tf::mesh_distance(one, one, {.move_a = bad}), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::closest_points(one, one, {.move_a = bad}), std::invalid_argument);
     tf::mesh broken = test::grid(2);
     broken.points[1].y = std::numeric_limits<double>::infinity();
-    CHECK_THROWS_AS(tf::distance_model{broken}, std::invalid_argument);
+    CHECK_THROWS_AS(tf::prepared_mesh{broken}, std::invalid_argument);
     broken = test::grid(2);
     broken.faces[1][2] = 77;
-    CHECK_THROWS_AS(tf::distance_model{broken}, std::invalid_argument);
+    CHECK_THROWS_AS(tf::prepared_mesh{broken}, std::invalid_argument);
 }
 
 TEST_CASE("node discs: the discs of every node hold the triangles below it") {
@@ -178,17 +181,18 @@ TEST_CASE("distance model: meshes of any size and far from each other are measur
 
 TEST_CASE("distance model: many equally near faces give one answer on any number of threads") {
     const tf::mesh flat = test::grid(60);
-    const tf::distance_model one(flat), other(test::moved(flat, {0.25, 0.5, 3}));
-    const auto expected = tf::mesh_distance(one, other);
+    const tf::prepared_mesh one = tf::prepared_mesh::borrow(flat),
+                            other(test::moved(flat, {0.25, 0.5, 3}));
+    const auto expected = tf::closest_points(one, other);
     CHECK(expected->distance == 3.0);
     CHECK(expected->face_a == 0);
-    const auto meeting = tf::mesh_distance(one, one);
+    const auto meeting = tf::closest_points(one, one);
     CHECK(meeting->distance == 0.0);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK(tf::mesh_distance(one, other) == expected);
-        CHECK(tf::mesh_distance(one, one) == meeting);
-        const tf::distance_model again(flat);
-        CHECK(tf::mesh_distance(again, other) == expected);
+        CHECK(tf::closest_points(one, other) == expected);
+        CHECK(tf::closest_points(one, one) == meeting);
+        const tf::prepared_mesh again = tf::prepared_mesh::borrow(flat);
+        CHECK(tf::closest_points(again, other) == expected);
     }
 }

@@ -1,4 +1,5 @@
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/nearness/closest_points.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/build.hpp>
@@ -65,8 +66,8 @@ TEST_CASE("closest points: corners, edges and insides of triangles are found") {
 }
 
 TEST_CASE("mesh distance: a mesh without faces has none") {
-    CHECK(!tf::mesh_distance(tf::mesh{}, test::grid(2)));
-    CHECK(!tf::mesh_distance(test::grid(2), tf::mesh{}));
+    CHECK(!tf::closest_points(tf::mesh{}, test::grid(2)));
+    CHECK(!tf::closest_points(test::grid(2), tf::mesh{}));
 }
 
 TEST_CASE("mesh distance: the nearest faces are those of a loop over all pairs") {
@@ -81,26 +82,26 @@ TEST_CASE("mesh distance: the nearest faces are those of a loop over all pairs")
                                                       : test::lattice_soup(source, 100, 80, 4),
                                        {x, source.in(-1, 1), source.in(-1, 1)});
         const tf::closest_points_result expected = by_brute_force(a, b);
-        const auto found = tf::mesh_distance(a, b);
+        const auto found = tf::closest_points(a, b);
         REQUIRE(found);
         REQUIRE(found->distance == expected.distance);
         if (expected.distance > 0.0) REQUIRE(*found == expected);
-        CHECK(tf::mesh_distance(a, b, expected.distance).has_value());
+        CHECK(tf::closest_points(a, b, expected.distance).has_value());
         if (expected.distance > 0.0)
-            CHECK(!tf::mesh_distance(a, b, std::nextafter(expected.distance * 0.999999, 0.0)));
+            CHECK(!tf::closest_points(a, b, std::nextafter(expected.distance * 0.999999, 0.0)));
     }
 }
 
 TEST_CASE("mesh distance: many equally near faces give one answer on any number of threads") {
     const tf::mesh a = test::grid(70);
     const tf::mesh b = test::moved(test::grid(70), {0.25, 0.5, 3});
-    const auto expected = tf::mesh_distance(a, b);
+    const auto expected = tf::closest_points(a, b);
     CHECK(expected->distance == 3.0);
     CHECK(expected->face_a == 0);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK(tf::mesh_distance(a, b) == expected);
-        CHECK(tf::mesh_distance(a, a) == tf::mesh_distance(a, a));
+        CHECK(tf::closest_points(a, b) == expected);
+        CHECK(tf::closest_points(a, a) == tf::closest_points(a, a));
     }
 }
 
@@ -114,17 +115,17 @@ TEST_CASE("mesh distance: a mesh that is treated as transformed is measured wher
     for (tf::point3& p : there.points) p = turn(p);
     const tf::tree<3> tree_a = tree_of(a);
     const tf::tree<3> tree_b = tree_of(b);
-    CHECK(tf::mesh_distance(a, tree_a, b, tf::transformed<3>(tree_b, turn)) ==
-          tf::mesh_distance(a, there));
+    CHECK(tf::detail::nearness::closest_points(a, tree_a, b, tf::transformed<3>(tree_b, turn)) ==
+          tf::closest_points(a, there));
 }
 
 TEST_CASE("mesh distance: a power of two changes nothing but the scale") {
     test::random source(3);
     const tf::mesh a = test::random_soup(source, 100, 0.1);
     const tf::mesh b = test::moved(test::random_soup(source, 100, 0.1), {3, 0, 0});
-    const auto expected = tf::mesh_distance(a, b);
+    const auto expected = tf::closest_points(a, b);
     for (const double factor : {0x1p-900, 0x1p-300, 0x1p+300, 0x1p+1000}) {
-        const auto found = tf::mesh_distance(test::scaled(a, factor), test::scaled(b, factor));
+        const auto found = tf::closest_points(test::scaled(a, factor), test::scaled(b, factor));
         CHECK(found->face_a == expected->face_a);
         CHECK(found->face_b == expected->face_b);
         CHECK(found->distance == expected->distance * factor);
@@ -135,9 +136,10 @@ TEST_CASE("mesh distance: what cannot be meant is refused") {
     const tf::mesh a = test::grid(2);
     const tf::tree<3> tree = tree_of(a);
     const tf::tree<3> other = tree_of(test::grid(3));
-    CHECK_THROWS_AS((void)tf::mesh_distance(a, tree, a, other), std::invalid_argument);
-    CHECK_THROWS_AS((void)tf::mesh_distance(a, a, -1.0), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::detail::nearness::closest_points(a, tree, a, other),
+                    std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::closest_points(a, a, -1.0), std::invalid_argument);
     tf::mesh bad = a;
     bad.faces[1][2] = 77;
-    CHECK_THROWS_AS((void)tf::mesh_distance(a, bad), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::closest_points(a, bad), std::invalid_argument);
 }

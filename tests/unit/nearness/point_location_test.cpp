@@ -1,4 +1,5 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/intersect/point_locator.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
@@ -74,7 +75,7 @@ TEST_CASE("point location: agrees with rays in random directions, on every kind 
         test::random random(seed);
         const tf::mesh mesh = tetrahedra(random, 1 + seed % 12, 6 + seed % 12, 4);
         const auto tree = tf::build_face_tree(mesh);
-        const tf::point_locator locator(mesh, tree);
+        const tf::detail::intersect::point_locator locator(mesh, tree);
         const auto points = lattice(6, 0.5);
         const auto found = locator.locate(points);
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -108,7 +109,7 @@ tf::mesh cube() {
 
 tf::point_location located(const tf::mesh& mesh, const tf::point3& p) {
     const auto tree = tf::build_face_tree(mesh);
-    return tf::point_locator(mesh, tree).locate(p);
+    return tf::detail::intersect::point_locator(mesh, tree).locate(p);
 }
 
 TEST_CASE("point location: a cube's inside winds once, its mirror image's once the other way") {
@@ -139,10 +140,10 @@ TEST_CASE("point location: scale, offset, order and threads do not matter") {
     const tf::mesh mesh = tetrahedra(random, 8, 12, 4);
     const auto points = lattice(6, 0.5);
     const auto tree = tf::build_face_tree(mesh);
-    const auto found = tf::point_locator(mesh, tree).locate(points);
+    const auto found = tf::detail::intersect::point_locator(mesh, tree).locate(points);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK(tf::point_locator(mesh, tree).locate(points) == found);
+        CHECK(tf::detail::intersect::point_locator(mesh, tree).locate(points) == found);
     }
     const auto same_place = [](const tf::point_location& a, const tf::point_location& b) {
         return a.where == b.where && a.winding == b.winding;
@@ -154,7 +155,7 @@ TEST_CASE("point location: scale, offset, order and threads do not matter") {
             std::vector<tf::point3> there = lattice(6, 0.5, offset);
             for (tf::point3& p : there) p = {p.x * scale, p.y * scale, p.z * scale};
             const auto placed_tree = tf::build_face_tree(placed);
-            CHECK(tf::point_locator(placed, placed_tree).locate(there) == found);
+            CHECK(tf::detail::intersect::point_locator(placed, placed_tree).locate(there) == found);
         }
     const tf::mesh tiny = test::scaled(mesh, 0x1p-1073);
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -162,7 +163,7 @@ TEST_CASE("point location: scale, offset, order and threads do not matter") {
                              points[i].z * 0x1p-1073}) == found[i]);
     const test::shuffled_mesh other = test::shuffled(random, mesh);
     const auto other_tree = tf::build_face_tree(other.mesh);
-    const auto others = tf::point_locator(other.mesh, other_tree).locate(points);
+    const auto others = tf::detail::intersect::point_locator(other.mesh, other_tree).locate(points);
     for (std::size_t i = 0; i < points.size(); ++i) CHECK(same_place(others[i], found[i]));
 }
 
@@ -176,7 +177,7 @@ TEST_CASE("point location: an open mesh is refused, naming the edge") {
     CHECK(*edge == std::array<std::uint32_t, 2>{5, 6});
     const auto tree = tf::build_face_tree(open);
     CHECK_THROWS_WITH_AS(
-        tf::point_locator(open, tree),
+        tf::detail::intersect::point_locator(open, tree),
         "treeform::point_locator: the mesh is open at the edge between points 5 and 6",
         std::invalid_argument);
     tf::mesh turned = cube();
@@ -190,14 +191,14 @@ TEST_CASE("point location: an open mesh is refused, naming the edge") {
 TEST_CASE("point location: empty meshes and bad numbers") {
     const tf::mesh none;
     const auto tree = tf::build_face_tree(none);
-    const tf::point_locator locator(none, tree);
+    const tf::detail::intersect::point_locator locator(none, tree);
     CHECK(locator.locate(tf::point3{1, 2, 3}) == tf::point_location{});
     CHECK(locator.locate(std::vector<tf::point3>{}).empty());
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK_THROWS_WITH_AS(
         static_cast<void>(locator.locate(std::vector<tf::point3>{{}, {0, nan, 0}})),
         "treeform::point_locator: point 1 is not finite", std::invalid_argument);
-    CHECK_THROWS_AS(tf::point_locator(cube(), tree), std::invalid_argument);
+    CHECK_THROWS_AS(tf::detail::intersect::point_locator(cube(), tree), std::invalid_argument);
 }
 
 struct curves {

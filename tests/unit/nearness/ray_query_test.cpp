@@ -1,4 +1,5 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/intersect/ray_query.hpp>
 #include <treeform/mesh/raycast.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -38,7 +39,7 @@ std::vector<std::pair<std::uint32_t, tf::ray_contact>> by_brute_force(const tf::
 
 void check_against_brute_force(const tf::mesh& mesh, const std::vector<tf::ray3>& rays) {
     const auto tree = tf::build_face_tree(mesh);
-    const tf::ray_query query(mesh, tree);
+    const tf::detail::intersect::ray_query query(mesh, tree);
     const auto first = query.first(rays);
     const auto any = query.any(rays);
     const auto all = query.all(rays);
@@ -144,7 +145,7 @@ TEST_CASE("rays and a mesh: none slips out of a closed surface, through vertices
         test::random random(seed);
         const tf::mesh mesh = star_shaped(random, 3);
         const auto tree = tf::build_face_tree(mesh);
-        const tf::ray_query query(mesh, tree);
+        const tf::detail::intersect::ray_query query(mesh, tree);
         std::vector<std::size_t> faces_at(mesh.points.size());
         for (const tf::face& f : mesh.faces)
             for (const std::uint32_t corner : f) ++faces_at[corner];
@@ -191,13 +192,13 @@ TEST_CASE("rays and a mesh: scale, offset, face order and threads change nothing
     std::vector<tf::ray3> rays;
     for (int i = 0; i < 600; ++i) rays.push_back(whole_ray(random, 6));
     const auto tree = tf::build_face_tree(mesh);
-    const auto hits = tf::ray_query(mesh, tree).all(rays);
+    const auto hits = tf::detail::intersect::ray_query(mesh, tree).all(rays);
     REQUIRE(hits.hits.size() > 300);
 
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
         const auto again = tf::build_face_tree(mesh);
-        CHECK(tf::ray_query(mesh, again).all(rays).hits == hits.hits);
+        CHECK(tf::detail::intersect::ray_query(mesh, again).all(rays).hits == hits.hits);
     }
 
     std::vector<tf::ray3> placed = rays;
@@ -208,7 +209,7 @@ TEST_CASE("rays and a mesh: scale, offset, face order and threads change nothing
         }
     const tf::mesh moved = test::scaled(test::moved(mesh, {0x1p20, 0x1p20, 0x1p20}), 0x1p-300);
     const auto moved_tree = tf::build_face_tree(moved);
-    const auto moved_hits = tf::ray_query(moved, moved_tree).all(placed);
+    const auto moved_hits = tf::detail::intersect::ray_query(moved, moved_tree).all(placed);
     REQUIRE(moved_hits.begin == hits.begin);
     for (std::size_t i = 0; i < hits.hits.size(); ++i) {
         CHECK(moved_hits.hits[i].face == hits.hits[i].face);
@@ -217,7 +218,7 @@ TEST_CASE("rays and a mesh: scale, offset, face order and threads change nothing
 
     const test::shuffled_mesh other = test::shuffled(random, mesh);
     const auto other_tree = tf::build_face_tree(other.mesh);
-    const auto other_hits = tf::ray_query(other.mesh, other_tree).all(rays);
+    const auto other_hits = tf::detail::intersect::ray_query(other.mesh, other_tree).all(rays);
     REQUIRE(other_hits.begin == hits.begin);
     for (std::size_t i = 0; i + 1 < hits.begin.size(); ++i) {
         std::vector<std::uint32_t> faces, others;
@@ -232,7 +233,7 @@ TEST_CASE("rays and a mesh: scale, offset, face order and threads change nothing
 TEST_CASE("rays and a mesh: an empty mesh is never met, and what cannot be meant is refused") {
     const tf::mesh none;
     const auto empty = tf::build_face_tree(none);
-    const tf::ray_query query(none, empty);
+    const tf::detail::intersect::ray_query query(none, empty);
     const tf::ray3 x_axis{{0, 0, 0}, {1, 0, 0}};
     CHECK_FALSE(query.first(x_axis));
     CHECK_FALSE(query.any(x_axis));
@@ -246,7 +247,7 @@ TEST_CASE("rays and a mesh: an empty mesh is never met, and what cannot be meant
         static_cast<void>(query.any(std::vector<tf::ray3>{x_axis, {{0, 0, 0}, {0, 0, 0}}})),
         "treeform::ray_query: ray 1 has no direction", std::invalid_argument);
     const tf::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {nan, 0, 0}}, {{0, 1, 2}}};
-    CHECK_THROWS_AS(tf::ray_query(one, empty), std::invalid_argument);
+    CHECK_THROWS_AS(tf::detail::intersect::ray_query(one, empty), std::invalid_argument);
     CHECK_NOTHROW(static_cast<void>(tf::build_face_tree(one)));
     for (const tf::face& bad : {tf::face{0, 1, 3}, tf::face{0, 1, 4}}) {
         const tf::mesh broken{one.points, {{0, 1, 2}, bad}};

@@ -3,6 +3,8 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/point_faces.hpp>
+#include <libmesh/intersect/point_locator.hpp>
+#include <libmesh/nearness/closest_point_query.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/point_location.hpp>
@@ -52,7 +54,7 @@ tf::triangle3 triangle_of(const tf::mesh& mesh, std::size_t f) {
 /// By asking each point on its own.
 mesh_relation relation_by_points(const tf::mesh& points, const tf::mesh& solid) {
     const tf::tree<3> tree = tf::build_face_tree(solid);
-    const tf::point_locator locator(solid, tree);
+    const tf::detail::intersect::point_locator locator(solid, tree);
     auto how = mesh_relation::separate;
     for (const tf::point3& p : points.points) {
         const auto where = locator.locate(p).where;
@@ -124,7 +126,7 @@ TEST_CASE("clouds: the distance is the least of that of all points") {
         const tf::mesh solid = test::ball(2, 1.0);
         const tf::mesh given = random_cloud(source, 1 + source.below(60), 1.0,
                                             {source.in(-1, 1), 3.0, source.in(-1, 1)});
-        const tf::closest_point_query query{tf::mesh_view(solid)};
+        const tf::detail::nearness::closest_point_query query{tf::mesh_view(solid)};
         double least = std::numeric_limits<double>::infinity();
         for (const tf::point3& p : given.points)
             least = std::min(least, query.nearest(p)->distance);

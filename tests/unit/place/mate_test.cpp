@@ -87,7 +87,7 @@ TEST_CASE("mate: the place is at the part that is nearest of all, and penetrates
         const tf::mesh a = moved(test::ball(1, 0.4), {source.in(-3, 3), source.in(-3, 3), 6.0});
         double least = std::numeric_limits<double>::infinity();
         for (const tf::mesh& part : among.meshes)
-            least = std::min(least, tf::mesh_distance(a, part)->distance);
+            least = std::min(least, tf::closest_points(a, part)->distance);
         const auto found = tf::mate(prepared_mesh::borrow(a), among.prepared);
         REQUIRE(found);
         CHECK(found.travel == doctest::Approx(least).epsilon(1e-12));
@@ -95,7 +95,7 @@ TEST_CASE("mate: the place is at the part that is nearest of all, and penetrates
         for (const tf::mesh& part : among.meshes) {
             const tf::mesh at{found.points, a.faces};
             CHECK(tf::relation(at, part).relation != tf::mesh_relation::penetrating);
-            there = std::min(there, tf::mesh_distance(at, part)->distance);
+            there = std::min(there, tf::closest_points(at, part)->distance);
         }
         CHECK(there < 1e-14);
     }

@@ -93,7 +93,7 @@ void check(const std::vector<tf::mesh>& parts, const tf::pack_options& o,
             if (!found.parts[i].placed || !found.parts[j].placed) continue;
             const tf::mesh a{found.parts[i].points, parts[i].faces};
             const tf::mesh b{found.parts[j].points, parts[j].faces};
-            const auto nearest = tf::mesh_distance(a, b);
+            const auto nearest = tf::closest_points(a, b);
             if (!nearest) continue;
             CAPTURE(i);
             CAPTURE(j);

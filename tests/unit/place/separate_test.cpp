@@ -100,7 +100,7 @@ TEST_CASE("separate: every move given leads to a place that settles nearby") {
             CHECK(placed.time - found[i].time < 1e-9);
             const tf::mesh there{placed.points, a.faces};
             CHECK(tf::relation(there, b).relation != mesh_relation::penetrating);
-            CHECK(tf::mesh_distance(there, b)->distance >= clearance);
+            CHECK(tf::closest_points(there, b)->distance >= clearance);
         }
         // The balls lie within spheres, which the line of the centers takes apart.
         const tf::point3& tip = a.points[0];
@@ -151,7 +151,7 @@ TEST_CASE("separate: the mesh comes out of all, in coordinates that hold") {
         const tf::mesh there{found.points, a.faces};
         for (const prepared_mesh& one : fixed) {
             CHECK(tf::relation(there, one.view()).relation != mesh_relation::penetrating);
-            CHECK(tf::mesh_distance(there, one.view())->distance >= clearance);
+            CHECK(tf::closest_points(there, one.view())->distance >= clearance);
         }
         if (found.travel == 0.0) continue;
         const auto barred =

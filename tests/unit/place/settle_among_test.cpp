@@ -74,8 +74,8 @@ TEST_CASE(
         const tf::point3 motion{source.in(-0.2, 0.2), source.in(-0.2, 0.2), source.in(0.5, 2)};
         const auto found = approach(a, b, motion, distance);
         const auto at = [&](double time) {
-            return tf::mesh_distance(moved(a, {time * motion.x, time * motion.y, time * motion.z}),
-                                     b)
+            return tf::closest_points(moved(a, {time * motion.x, time * motion.y, time * motion.z}),
+                                      b)
                 ->distance;
         };
         const double end = found.end == motion_end::contact ? found.time : 20.0;
@@ -144,7 +144,7 @@ TEST_CASE("settle among: what is written neither penetrates nor is nearer than t
         const tf::mesh there{settled.points, a.faces};
         for (const tf::mesh& part : among.meshes) {
             CHECK(tf::relation(there, part).relation != mesh_relation::penetrating);
-            CHECK(tf::mesh_distance(there, part)->distance >= clearance);
+            CHECK(tf::closest_points(there, part)->distance >= clearance);
         }
         for (const tf::point3& p : there.points)
             if (single) CHECK(p.z == double{static_cast<float>(p.z)});

@@ -121,7 +121,7 @@ TEST_CASE("slide: what is returned does not penetrate, and keeps the clearance")
         const tf::mesh there{found.points, a.faces};
         for (const tf::mesh& part : among.meshes) {
             CHECK(tf::relation(there, part).relation != tf::mesh_relation::penetrating);
-            least = std::min(least, tf::mesh_distance(there, part)->distance);
+            least = std::min(least, tf::closest_points(there, part)->distance);
         }
         CHECK(least >= clearance);
         CHECK(least < clearance + 1e-2);

@@ -2,6 +2,7 @@
 /// Repair: what is certified, what is inside, what stays as it was.
 
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/repair/greedy_vertex_cover.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
@@ -50,7 +51,7 @@ std::size_t wrong_points(const tf::mesh& mesh, tf::fill_rule rule, const tf::mes
                          std::size_t count) {
     test::random source(3);
     const tf::tree<3> tree = tf::build_face_tree(mesh), solid_tree = tf::build_face_tree(solid);
-    const tf::point_locator before(mesh, tree), after(solid, solid_tree);
+    const tf::detail::intersect::point_locator before(mesh, tree), after(solid, solid_tree);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const tf::point3 p{source.in(-1.2, 2.0), source.in(-1.2, 1.6), source.in(-1.2, 1.4)};

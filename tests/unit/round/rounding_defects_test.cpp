@@ -1,4 +1,4 @@
-#include <libmesh/round/rounding_defects.hpp>
+#include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -24,47 +24,49 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 TEST_CASE("step: it is the distance to the next number at the largest coordinate") {
     for (const double x : {1.0, 1.5, 2.0, -3.0, 1e6, 1e-300, 0x1p1000}) {
         const points one{{0, x, 0}};
-        CHECK(tf::coordinate_step(one, false) ==
+        CHECK(tf::coordinate_step(one, tf::precision::float64) ==
               std::nextafter(std::abs(x), infinity) - std::abs(x));
     }
     for (const float x : {1.0F, 3.0F, 1e6F, 1e-40F})
-        CHECK(tf::coordinate_step(points{{1e-50, -1e-50, x}}, true) ==
+        CHECK(tf::coordinate_step(points{{1e-50, -1e-50, x}}, tf::precision::float32) ==
               static_cast<double>(std::nextafter(x, 1e30F)) - static_cast<double>(x));
-    CHECK(tf::coordinate_step({}, true) == 0x1p-149);
-    CHECK(tf::coordinate_step(points{{infinity, std::nan(""), 1}}, false) == 0x1p-52);
+    CHECK(tf::coordinate_step({}, tf::precision::float32) == 0x1p-149);
+    CHECK(tf::coordinate_step(points{{infinity, std::nan(""), 1}}, tf::precision::float64) ==
+          0x1p-52);
 }
 
 TEST_CASE("in single: every coordinate is the nearest float, infinite beyond their range") {
-    const points rounded = tf::in_single(points{{0.1, 1e300, -1e-300}, {1, -2, 16777217.0}});
+    const points rounded =
+        tf::rounded(points{{0.1, 1e300, -1e-300}, {1, -2, 16777217.0}}, tf::precision::float32);
     CHECK(rounded[0].x == static_cast<double>(0.1F));
     CHECK(rounded[0].y == infinity);
     CHECK(rounded[0].z == 0.0);
     CHECK(rounded[1] == tf::point3{1, -2, 16777216.0});
-    CHECK(tf::in_single({}).empty());
+    CHECK(tf::rounded({}, tf::precision::float32).empty());
 }
 
 TEST_CASE("largest move: it sees what the doubles of the place itself lose") {
     const points one{{0.1, 1, 2}, {0.2, 1, 2}};
-    CHECK(tf::largest_move(one, {}, one) == 0.0);
+    CHECK(tf::max_displacement(one, {}, one) == 0.0);
     const auto far = tf::translation<3>(tf::point3{0x1p60, 0, 0});
     points there;
     for (const tf::point3& p : one) there.push_back(far(p));
     CHECK(there[0] == there[1]);
-    CHECK(tf::largest_move(one, far, there) == 0.2);
+    CHECK(tf::max_displacement(one, far, there) == 0.2);
     there[1].z = 3;
-    CHECK(tf::largest_move(one, far, there) == 1.0);
+    CHECK(tf::max_displacement(one, far, there) == 1.0);
     there[1].y = infinity;
-    CHECK(tf::largest_move(one, far, there) == infinity);
+    CHECK(tf::max_displacement(one, far, there) == infinity);
     const auto huge = tf::translation<3>(tf::point3{1e300, 0, 0});
-    CHECK(tf::largest_move(points{{1e300, 0, 0}}, huge, points{{2e300, 0, 0}}) == 0.0);
-    CHECK(tf::largest_move({}, {}, {}) == 0.0);
+    CHECK(tf::max_displacement(points{{1e300, 0, 0}}, huge, points{{2e300, 0, 0}}) == 0.0);
+    CHECK(tf::max_displacement({}, {}, {}) == 0.0);
 }
 
 TEST_CASE("harm: floats far from the origin make faces of a fine mesh collapse and meet") {
     const tf::mesh ball = test::ball(4, 1.0);
     const auto harm = [&](double away) {
         const tf::mesh there = test::moved(ball, {away, away / 3, 0});
-        return tf::find_rounding_defects(there, tf::in_single(there.points));
+        return tf::find_rounding_defects(there, tf::rounded(there.points, tf::precision::float32));
     };
     CHECK(harm(0.0).collapsed == 0);
     CHECK(harm(0.0).meeting == 0);
@@ -101,7 +103,7 @@ TEST_CASE("harm: nothing, a stop, bad input, and any number of threads") {
     const tf::mesh none;
     CHECK(tf::find_rounding_defects(none, {}).meeting == 0);
     const tf::mesh ball = test::ball(4, 1.0);
-    const auto far = tf::in_single(test::moved(ball, {1e7, 3e6, 0}).points);
+    const auto far = tf::rounded(test::moved(ball, {1e7, 3e6, 0}).points, tf::precision::float32);
     CHECK(tf::find_rounding_defects(ball, far, [](double) { return false; }).cancelled);
     CHECK_THROWS_AS(static_cast<void>(tf::find_rounding_defects(ball, {})), std::invalid_argument);
     points broken = ball.points;

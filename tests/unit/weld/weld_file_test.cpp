@@ -57,7 +57,7 @@ TEST_CASE("weld: a cloud keeps its first points and their properties") {
 }
 
 TEST_CASE("weld: one line will do, for a mesh and for a prepared one") {
-    const tf::mesh soup = tf::read_mesh(data / "cube.stl").mesh;
+    const tf::mesh soup = tf::read(data / "cube.stl").mesh;
     const auto welded = tf::weld(soup);
     CHECK(welded.mesh.points.size() == 8);
     CHECK(tf::weld(tf::prepared_mesh::borrow(soup)).mesh == welded.mesh);
@@ -84,7 +84,7 @@ TEST_CASE("weld: the polygons of a file are polygons again") {
 }
 
 TEST_CASE("weld: the groups of a soup are those of its corners") {
-    const tf::mesh_file file = tf::read_mesh(data / "cube.stl");
+    const tf::mesh_file file = tf::read(data / "cube.stl");
     const auto welded = tf::weld(file);
     CHECK(welded.file.indexed);
     CHECK(welded.file.format == file.format);

@@ -32,7 +32,7 @@ class stream_folder {
         tf::mesh_file file;
         for (std::size_t i = 0; i < count; ++i)
             file.mesh.points.push_back({random.unit(), random.unit(), 0.1 * random.unit()});
-        tf::write_mesh(input(), file);
+        tf::write(input(), file);
         points_ = file.mesh.points;
     }
     ~stream_folder() { fs::remove_all(path_); }
@@ -85,7 +85,7 @@ TEST_CASE("weld_stream: files, map and counts are what weld gives") {
         CHECK(streamed.counts.groups == whole.statistics.groups);
         CHECK(streamed.counts.max_displacement == whole.statistics.max_displacement);
         CHECK(map == whole.groups.group_of_point);
-        CHECK(tf::read_mesh(folder.output()).mesh.points == whole.points);
+        CHECK(tf::read(folder.output()).mesh.points == whole.points);
         CHECK_FALSE(fs::exists(folder.work()));
         const std::string bytes = content_of(folder.output());
         fs::remove(folder.output());
@@ -122,7 +122,7 @@ TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the nex
         options.progress = {};
         const auto again = tf::weld_stream(folder.input(), outputs, options);
         CHECK(again.survey.continued == (at == std::string("weld") || at == std::string("write")));
-        CHECK(tf::read_mesh(folder.output()).mesh.points == whole.points);
+        CHECK(tf::read(folder.output()).mesh.points == whole.points);
         fs::remove(folder.output());
     }
 }

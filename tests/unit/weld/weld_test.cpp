@@ -122,7 +122,7 @@ TEST_CASE("weld: nothing comes of nothing, and one point of one") {
 }
 
 TEST_CASE("weld: the triangles of a cube become eight points and stay twelve faces") {
-    const tf::mesh_file cube = tf::read_mesh(data / "cube.stl");
+    const tf::mesh_file cube = tf::read(data / "cube.stl");
     const auto welded = tf::weld(cube.mesh, cube.attributes, {});
     CHECK(welded.mesh.points.size() == 8);
     CHECK(welded.mesh.faces.size() == 12);

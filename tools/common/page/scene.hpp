@@ -3,7 +3,7 @@
 /// A mesh packed for the 3D view of a page. For looking at only: points are moved to a fine grid,
 /// and where there are too many faces the plain ones are thinned out.
 
-#include <libmesh/intersect/curves.hpp>
+#include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 

@@ -1,13 +1,12 @@
 #pragma once
 /// \file
-/// Distances: of two meshes, and of points from a mesh.
+/// Distances: of two meshes, and of points from a mesh. All are plain, none is squared.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
-#include <treeform/tree/tree.hpp>
+#include <treeform/tree/transform.hpp>
 
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -16,93 +15,87 @@
 
 namespace treeform {
 
+/// Where each of two meshes is, and how far apart they may be.
+struct distance_options {
+    transform<3> move_a{};  ///< corners are moved, rounded to double, and count from there on
+    transform<3> move_b{};
+    /// Nothing is looked for beyond; inclusive.
+    double radius = std::numeric_limits<double>::infinity();
+};
+
 /// The nearest points of two meshes.
 struct closest_points_result {
     std::uint32_t face_a = 0;
     std::uint32_t face_b = 0;
-    double distance = 0.0;  ///< not squared; exactly 0 if and only if the meshes meet
+    double distance = 0.0;  ///< exactly 0 if and only if the meshes meet
     point3 on_a;            ///< rounded, as is `on_b`
     point3 on_b;
     friend bool operator==(const closest_points_result&, const closest_points_result&) = default;
 };
 
-/// The nearest points of the surfaces `a` and `b`, none when one has no faces or they are further
-/// apart than `radius` (inclusive). A mesh inside a closed one is as far as from its surface.
+/// The nearest points of the surfaces `a` and `b`; none when one has no faces or they are further
+/// apart than the radius. A mesh inside a closed one is as far as from its surface.
 ///
-/// `tree_a` and `tree_b` are trees over the faces' boxes; either may are treated as transformed
-/// (`treeform::transformed`), then so do the points, rounded to double (`treeform::transform`), and
-/// the answer is about these.
+/// That meshes meet is decided exactly, on the coordinates as given or as moved. The distance
+/// otherwise is within 16 u L of the true one, where u = 2^-53 and L is the largest distance of two
+/// corners of the faces named; of pairs of faces that are as near, as computed, the one of the
+/// lowest numbers is named, but when meshes meet it may be any pair that does, the same in every
+/// run.
 ///
-/// That meshes meet is decided exactly. The distance otherwise is within 16 u L of the true one,
-/// where u = 2^-53 and L is the largest distance of two corners of the faces named; of pairs of
-/// faces that are as near, as computed, the one of the lowest numbers is named, but when meshes
-/// meet it may be any pair that does, the same in every run.
+/// Prepared meshes keep what bounds their surfaces closely, which makes later questions several
+/// times as fast where surfaces are nearly flat and do not lie along the axes. A map that is no
+/// rotation, uniform scaling or mirror makes it slower, not wrong.
 ///
-/// \pre    coordinates of corners are finite, the trees are those of the meshes' faces
-/// \throws std::invalid_argument when a tree has another size than its mesh, or the radius is
-///         negative or NaN
-/// \cost   see `nearest_pair`; most pairs of faces are passed over by the direction between the
-///         nearest points so far, which separates them by more
+/// \throws std::invalid_argument naming the mesh and its lowest face with a corner out of range or
+///         not finite, when a map is not finite, or the radius is negative or NaN
+/// \cost   O(F log F) for indexes that are not there yet; then as `nearest_pair`: most pairs of
+///         faces are passed over by the direction between the nearest points so far
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::optional<closest_points_result> mesh_distance(
-    mesh_view a, const transformed<3>& tree_a, mesh_view b, const transformed<3>& tree_b,
-    double radius = std::numeric_limits<double>::infinity());
+[[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
+    const prepared_mesh& a, const prepared_mesh& b, const distance_options& options = {});
+[[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
+    mesh_view a, mesh_view b, const distance_options& options = {});
 
-/// The same, trees and all.
-/// \throws std::invalid_argument naming a face with a corner out of range or is not finite
-[[nodiscard]] TREEFORM_API std::optional<closest_points_result> mesh_distance(
-    mesh_view a, mesh_view b, double radius = std::numeric_limits<double>::infinity());
+/// The distance of the surfaces `a` and `b`, infinite where `closest_points` finds none.
+[[nodiscard]] TREEFORM_API double distance(const prepared_mesh& a, const prepared_mesh& b,
+                                           const distance_options& options = {});
+[[nodiscard]] TREEFORM_API double distance(mesh_view a, mesh_view b,
+                                           const distance_options& options = {});
 
 /// The point of a mesh that is nearest to a query.
 struct closest_point_result {
     std::uint32_t face = 0;
-    double distance = 0.0;  ///< not squared
-    point3 point;           ///< on the face, rounded
+    double distance = 0.0;
+    point3 point;  ///< on the face, rounded
     friend bool operator==(const closest_point_result&, const closest_point_result&) = default;
 };
 
-/// A tree over the F faces of a mesh, with a copy of its triangles in leaf order.
+/// The point of the surface of `mesh` that is nearest to `query`; none when the mesh has no faces
+/// or all are beyond `radius` (inclusive).
 ///
 /// The distance is within 16 u L of the true one, where u = 2^-53 and L is the larger of the
 /// distance and the diagonal of the face's box, and in any case a rounding of the coordinates
 /// times u. Degenerate faces count as the segment or point they are. Where several faces are as
 /// near, as computed, the one with the lowest number is named.
 ///
-/// Queries are const and may run on any threads. `radius` is inclusive and not squared.
-///
-/// \cost 128 bytes a face. A query opens O(log F) nodes where the nearest point is clear, more when
-///       much of the mesh is about as far; many when it is further off than 1e5 times the extent
-class TREEFORM_API closest_point_query {
-  public:
-    static constexpr double any_distance = std::numeric_limits<double>::infinity();
+/// \throws std::invalid_argument naming the face with a corner out of range or not finite, or the
+///         query that is not finite; for a radius that is negative or NaN
+/// \cost   O(F log F) and 128 bytes a face for the index, which a prepared mesh keeps. A query
+///         opens O(log F) nodes where the nearest point is clear, more when much of the mesh is
+///         about as far; many when it is further off than 1e5 times the extent
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API std::optional<closest_point_result> closest_point(
+    const prepared_mesh& mesh, const point3& query,
+    double radius = std::numeric_limits<double>::infinity());
+[[nodiscard]] TREEFORM_API std::optional<closest_point_result> closest_point(
+    mesh_view mesh, const point3& query, double radius = std::numeric_limits<double>::infinity());
 
-    /// No face, nothing near.
-    closest_point_query() = default;
-
-    /// Copies what it needs.
-    /// \throws std::invalid_argument naming the face with a corner out of range or not finite
-    /// \same   on any number of threads
-    explicit closest_point_query(mesh_view mesh);
-
-    [[nodiscard]] std::size_t size() const { return tree_.size(); }
-    [[nodiscard]] const tree<3>& faces_tree() const { return tree_; }
-
-    /// The nearest point, none when the mesh has no faces or all are beyond the radius.
-    /// \throws std::invalid_argument for a query that is not finite, a radius negative or NaN
-    [[nodiscard]] std::optional<closest_point_result> nearest(const point3& query,
-                                                              double radius = any_distance) const;
-
-    /// [Q] The same for many queries, in their order, run in parallel and in the order of space.
-    /// \throws std::invalid_argument naming the query
-    /// \same   on any number of threads: as the single queries
-    [[nodiscard]] std::vector<std::optional<closest_point_result>> nearest(
-        std::span<const point3> queries, double radius = any_distance) const;
-
-  private:
-    tree<3> tree_;
-    detail::buffer<double> triangles_;  ///< [blocks][12][8] in leaf order, times `unit_`
-    double unit_ = 1.0;                 ///< a power of two that keeps squares in range
-    double largest_ = 0.0;              ///< magnitude of a coordinate
-};
+/// [Q] The same for many queries, in their order, in parallel.
+[[nodiscard]] TREEFORM_API std::vector<std::optional<closest_point_result>> closest_point(
+    const prepared_mesh& mesh, std::span<const point3> queries,
+    double radius = std::numeric_limits<double>::infinity());
+[[nodiscard]] TREEFORM_API std::vector<std::optional<closest_point_result>> closest_point(
+    mesh_view mesh, std::span<const point3> queries,
+    double radius = std::numeric_limits<double>::infinity());
 
 }  // namespace treeform

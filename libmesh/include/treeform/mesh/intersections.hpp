@@ -4,12 +4,12 @@
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
-#include <treeform/tree/tree.hpp>
 
 #include <array>
 #include <cstddef>
@@ -18,18 +18,16 @@
 
 namespace treeform {
 
-class distance_model;  // libmesh/nearness/distance_model.hpp
-
 struct mesh_intersection_options {
-    /// How each mesh is moved before it is looked at; its tree stays that of the mesh as it is.
-    /// A moved corner is what `transform::operator()` gives, rounded to double: these coordinates
+    /// How each mesh is moved before it is looked at; what a prepared mesh keeps stays that of the
+    /// mesh as it is. A moved corner is what `transform::operator()` gives, rounded to double: these coordinates
     /// are the given ones from there on, and the verdict on them is exact.
     transform<3> move_a{};
     transform<3> move_b{};
     /// Stop at the first pair found. Which one that is does not depend on the thread count.
     bool first_only = false;
     /// Kinds to look for; the others are neither counted nor listed.
-    std::array<bool, pair_kind_count> kinds{true, true, true, true, true, true, true};
+    pair_kinds kinds = pair_kinds::all;
     /// At most this many pairs are listed, those of the lowest face numbers; all are counted.
     std::size_t limit = static_cast<std::size_t>(-1);
     progress_callback progress{};
@@ -52,31 +50,16 @@ struct mesh_intersection_result {
 /// kinds are crossing, overlap, touching and degenerate. This is about surfaces: a mesh inside the
 /// other that touches it nowhere gives no pair. A mesh may be given twice.
 ///
-/// \pre    `tree_a` and `tree_b` are `build_face_tree(a)` and `build_face_tree(b)`
-/// \throws std::invalid_argument when a tree has not one primitive a face, a transform is not
-///         finite, or naming a face with a corner out of range or, as moved, not finite; only
-///         faces that are looked at are checked
-/// \cost   O(B) time for the B pairs whose boxes overlap and the nodes above them
+/// \throws std::invalid_argument when a transform is not finite, or naming the mesh and its face
+///         with a corner out of range or, as moved, not finite
+/// \cost   O(F log F) for indexes that are not there yet; O(B) time for the B pairs whose boxes
+///         overlap and the nodes above them. Of prepared meshes up to twice as fast
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
-[[nodiscard]] TREEFORM_API mesh_intersection_result
-mesh_intersections(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
-                   const mesh_intersection_options& options = {});
-
-/// The same with trees of its own, for a single question.
+[[nodiscard]] TREEFORM_API mesh_intersection_result mesh_intersections(
+    const prepared_mesh& a, const prepared_mesh& b, const mesh_intersection_options& options = {});
 [[nodiscard]] TREEFORM_API mesh_intersection_result
 mesh_intersections(mesh_view a, mesh_view b, const mesh_intersection_options& options = {});
-
-/// The same of meshes made ready to be asked many times, wherever they are moved: up to twice as
-/// fast. Pairs, kinds and their order are those of the meshes with their trees.
-///
-/// \throws std::invalid_argument when a transform is not finite, or naming a face with a corner
-///         that is not finite as moved; only faces that are looked at are checked
-/// \cost   O(B) time for the B pairs whose boxes overlap and the nodes above them
-/// \same   on any number of threads
-[[nodiscard]] TREEFORM_API mesh_intersection_result
-mesh_intersections(const distance_model& a, const distance_model& b,
-                   const mesh_intersection_options& options = {});
 
 /// How each mesh is moved; see `mesh_intersection_options`.
 struct mesh_positions {
@@ -85,13 +68,12 @@ struct mesh_positions {
 };
 
 /// Whether a face of `a` and a face of `b` have a common point, touching included. Exact; returns
-/// as soon as one pair is found.
+/// as soon as one pair is found. Of meshes that are not prepared, only faces that reach into the
+/// common part of both boxes are indexed.
 ///
-/// \pre    as for `mesh_intersections`
-/// \throws likewise
-/// \same   in its answer; how much is looked at, and so which bad face is met, is not
-[[nodiscard]] TREEFORM_API bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                           const tree<3>& tree_b,
+/// \throws std::invalid_argument as `mesh_intersections`
+/// \same   in its answer, on any number of threads
+[[nodiscard]] TREEFORM_API bool intersects(const prepared_mesh& a, const prepared_mesh& b,
                                            const mesh_positions& positions = {});
 [[nodiscard]] TREEFORM_API bool intersects(mesh_view a, mesh_view b,
                                            const mesh_positions& positions = {});

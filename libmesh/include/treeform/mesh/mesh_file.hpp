@@ -63,7 +63,7 @@ struct scene_part {
 ///
 /// Faces with the same object and group are one part, whatever their material, and so are parts
 /// with a point in common, which are patches of one surface; it has the name of the first. Nodes of
-/// a scene are parts where they have been placed: `read_mesh` has applied their transforms.
+/// a scene are parts where they have been placed: `read` has applied their transforms.
 ///
 /// `number` is [F], the number in the file of each face, ascending, or empty where that is its
 /// number in `mesh`; faces before the first of `names` have no name.

@@ -3,6 +3,7 @@
 /// Inside, outside or on: points against a closed mesh, and against closed curves of the plane.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/tree.hpp>
 
@@ -37,34 +38,36 @@ struct point_location {
 [[nodiscard]] TREEFORM_API std::optional<std::array<std::uint32_t, 2>> find_open_edge(
     mesh_view mesh);
 
-/// Points against one closed mesh, as many as wanted; for several threads at once.
+/// Where a point is with respect to a closed mesh.
 ///
 /// Exact on the coordinates as given, for every point: a ray along x is counted through, with each
 /// edge that it grazes taken as lying to one side of it by a rule that all faces share. No other
-/// ray is ever tried.
+/// ray is ever tried. Points with equal coordinates are one.
 ///
+/// \throws std::invalid_argument when the mesh is open, naming an edge that is (`find_open_edge`),
+///         naming a face with a corner out of range or not finite, or the point that is not finite
+/// \cost   O(F log F) for the indexes, which a prepared mesh keeps; O(log F + B) a point, for the B
+///         faces whose boxes meet the ray from the point along +x
+/// \same   on any number of threads
 /// \source the half-open rule is the simulation of a ray moved by (0, eps, eps^2): Edelsbrunner and
 ///         Muecke, Simulation of Simplicity, ACM TOG 9 (1990)
-class TREEFORM_API point_locator {
-  public:
-    /// `tree` is `build_face_tree(mesh)`; it and the arrays of `mesh` outlive the locator.
-    ///
-    /// \throws std::invalid_argument when the mesh is not closed, naming `find_open_edge`, when a
-    ///         face has a corner out of range, or the tree is not of as many faces
-    point_locator(mesh_view mesh, const tree<3>& tree);
+[[nodiscard]] TREEFORM_API point_location locate(const prepared_mesh& mesh, const point3& point);
+[[nodiscard]] TREEFORM_API point_location locate(mesh_view mesh, const point3& point);
 
-    /// \throws std::invalid_argument when a coordinate is not finite; likewise below
-    /// \cost   O(log F + B) for the B faces whose boxes meet the ray from the point along +x
-    [[nodiscard]] point_location locate(const point3& point) const;
+/// [P] The same for many points, in their order, in parallel.
+[[nodiscard]] TREEFORM_API std::vector<point_location> locate(const prepared_mesh& mesh,
+                                                              std::span<const point3> points);
+[[nodiscard]] TREEFORM_API std::vector<point_location> locate(mesh_view mesh,
+                                                              std::span<const point3> points);
 
-    /// [P] the same for many points, in their order.
-    /// \same on any number of threads
-    [[nodiscard]] std::vector<point_location> locate(std::span<const point3> points) const;
+/// Whether the solid that the mesh bounds contains the point, its surface included: where the
+/// winding number is not 0 (`fill_rule::nonzero`), or on a face. As `locate` for the rest.
+[[nodiscard]] TREEFORM_API bool contains(const prepared_mesh& mesh, const point3& point);
+[[nodiscard]] TREEFORM_API bool contains(mesh_view mesh, const point3& point);
 
-  private:
-    mesh_view mesh_;
-    const tree<3>* tree_;
-};
+/// How often the surface winds around the point; 0 on the surface. As `locate` for the rest.
+[[nodiscard]] TREEFORM_API int winding_number(const prepared_mesh& mesh, const point3& point);
+[[nodiscard]] TREEFORM_API int winding_number(mesh_view mesh, const point3& point);
 
 /// An edge of a curve, from one point to another; the inside of a simple curve is on its left.
 using curve_edge = std::array<std::uint32_t, 2>;
@@ -84,7 +87,7 @@ struct curve_view {
 [[nodiscard]] TREEFORM_API tree<2> edge_tree(curve_view curves);
 
 /// Points of the plane against closed curves: any number of them, also crossing or repeated. Exact
-/// in the same sense.
+/// in the same sense as `locate`.
 class TREEFORM_API curve_locator {
   public:
     /// `tree` is `edge_tree(curves)`; it and the arrays of `curves` outlive the locator.

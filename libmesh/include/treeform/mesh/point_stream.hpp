@@ -23,15 +23,15 @@ struct point_block {
 };
 
 /// Reads PLY without faces, PCD, XYZ and CSV from the front to the back. What comes out, block
-/// behind block, is what `read_mesh` gives for the whole file.
+/// behind block, is what `read` gives for the whole file.
 class TREEFORM_API point_reader {
   public:
-    /// Reads the header. `path` and `format` as for `read_mesh`. What is no file that can be mapped
+    /// Reads the header. `path` and `format` as for `read`. What is no file that can be mapped
     /// (standard input, a pipe) goes to a file without a name in /var/tmp first, and so do the
     /// unpacked points of a compressed PCD.
     ///
     /// \throws io_error for a format that is not of points, for a file with faces or other elements
-    ///         that have rows, and as `read_mesh`
+    ///         that have rows, and as `read`
     explicit point_reader(const std::filesystem::path& path, std::string_view format = {});
     ~point_reader();
     point_reader(point_reader&&) noexcept;
@@ -47,7 +47,7 @@ class TREEFORM_API point_reader {
     /// Replaces the content of `block` by the next points, at most `most`; false, and an empty
     /// block, when there are none left.
     ///
-    /// \throws io_error as `read_mesh`
+    /// \throws io_error as `read`
     bool read(point_block& block, std::size_t most);
 
   private:
@@ -55,7 +55,7 @@ class TREEFORM_API point_reader {
     std::unique_ptr<state> state_;
 };
 
-/// Writes what `write_mesh` would write for all blocks together. A compressed PCD, which is what
+/// Writes what `write` would write for all blocks together. A compressed PCD, which is what
 /// becomes of one that was, is put together in a file without a name in /var/tmp.
 class TREEFORM_API point_writer {
   public:
@@ -63,7 +63,7 @@ class TREEFORM_API point_writer {
     /// will come. Coordinates are written with the types of their columns in "vertex", in binary as
     /// doubles where all of these are at most float32 and `stored_as` says float64.
     ///
-    /// \throws io_error as `write_mesh`; also for a format other than ply, pcd, xyz and csv
+    /// \throws io_error as `write`; also for a format other than ply, pcd, xyz and csv
     point_writer(const std::filesystem::path& path, const mesh_file& header, std::uint64_t count,
                  const write_options& options = {});
     ~point_writer();

@@ -29,12 +29,12 @@ namespace treeform {
 /// 640", "num_rows 480", "viewpoint 0 0 0 1 0 0 0".
 ///
 /// \throws io_error naming path, line or byte, and reason
-[[nodiscard]] TREEFORM_API mesh_file read_mesh(const std::filesystem::path& path,
-                                               std::string_view format = {});
+[[nodiscard]] TREEFORM_API mesh_file read(const std::filesystem::path& path,
+                                          std::string_view format = {});
 
 /// The same for bytes in memory; `name` stands for the path in errors.
-[[nodiscard]] TREEFORM_API mesh_file read_mesh(std::span<const std::byte> bytes,
-                                               std::string_view name, std::string_view format);
+[[nodiscard]] TREEFORM_API mesh_file read(std::span<const std::byte> bytes, std::string_view name,
+                                          std::string_view format);
 
 /// Whether scenes (GLB, 3MF, DAE, ...) are read: not by builds without assimp.
 [[nodiscard]] TREEFORM_API bool reads_scenes();

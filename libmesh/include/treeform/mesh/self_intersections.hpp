@@ -28,6 +28,37 @@ enum class pair_kind : std::uint8_t {
 };
 inline constexpr std::size_t pair_kind_count = 7;
 
+/// A set of kinds: `pair_kinds::all - pair_kind::touching`.
+class pair_kinds {
+  public:
+    static const pair_kinds all;
+
+    constexpr pair_kinds() = default;    ///< none
+    constexpr pair_kinds(pair_kind one)  // NOLINT: meant to be implicit
+        : bits_(1U << static_cast<unsigned>(one)) {}
+
+    [[nodiscard]] constexpr bool contains(pair_kind one) const {
+        return (bits_ & pair_kinds(one).bits_) != 0;
+    }
+    friend constexpr pair_kinds operator+(pair_kinds a, pair_kinds b) {
+        return of(a.bits_ | b.bits_);
+    }
+    friend constexpr pair_kinds operator-(pair_kinds a, pair_kinds b) {
+        return of(a.bits_ & ~b.bits_);
+    }
+    friend constexpr bool operator==(pair_kinds, pair_kinds) = default;
+
+  private:
+    static constexpr pair_kinds of(unsigned bits) {
+        pair_kinds result;
+        result.bits_ = bits;
+        return result;
+    }
+
+    unsigned bits_ = 0;
+};
+inline constexpr pair_kinds pair_kinds::all = pair_kinds::of((1U << pair_kind_count) - 1);
+
 struct face_pair {
     std::uint32_t a = 0;  ///< the lower face number
     std::uint32_t b = 0;
@@ -41,7 +72,7 @@ struct self_intersection_options {
     /// Stop at the first pair found. Which one that is does not depend on the thread count.
     bool first_only = false;
     /// Kinds to look for; the others are neither counted nor listed.
-    std::array<bool, pair_kind_count> kinds{true, true, true, true, true, true, true};
+    pair_kinds kinds = pair_kinds::all;
     /// Where not empty, [F]: component of each face; see `between` and `within`.
     std::span<const std::uint32_t> component_of_face{};
     bool between = false;  ///< only pairs of faces of different components

@@ -34,7 +34,7 @@ struct weld_stream_options {
     double tolerance = 0.0;  ///< as in `weld_options`
     bool relative = false;   ///< `tolerance` is a share of the diagonal of the cloud's box
     weld_rule rule = weld_rule::first;
-    std::string format{};               ///< of the input, as for `read_mesh`
+    std::string format{};               ///< of the input, as for `read`
     std::uint64_t memory = 0;           ///< bytes that the process may take; 0: `default_memory`
     std::filesystem::path folder{};     ///< for the tiles; empty: the input's name and ".tiles"
     std::uint64_t points_per_tile = 0;  ///< at most, about; 0: as the memory allows

@@ -2,9 +2,11 @@
 /// \file
 /// Writing a mesh or point file.
 
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tree/detail/export.hpp>
 
+#include <concepts>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,12 +23,16 @@ struct write_options {
     bool ascii = false;
     /// Type of the coordinates; none: as they were stored. Binary STL and GLB hold float32 only.
     std::optional<treeform::precision> precision{};
+    /// Whether coordinates that were certified may be rounded further, which can undo what the
+    /// certificate says. Those of anything else are rounded where the type asks for it.
+    bool round = false;
 };
 
 struct write_result {
     std::string format{};  ///< "stl-binary", "ply-ascii", "obj", ...
     treeform::precision written_as = precision::float64;
-    double largest_move = 0.0;  ///< largest change of a coordinate by rounding to `written_as`
+    /// Largest change of a coordinate by rounding to `written_as`.
+    double max_displacement = 0.0;
     std::vector<io_warning> warnings{};
 };
 
@@ -50,15 +56,43 @@ struct write_result {
 /// A mesh without points and faces can be written in every format of meshes, and read again.
 ///
 /// \throws io_error when the format cannot hold the file or the file cannot be written
-/// \throws std::invalid_argument when a corner is no point, or an element "vertex" or "face" has
+/// \throws std::invalid_argument when a corner is out of range, or an element "vertex" or "face" has
 ///         another number of rows than there are points or stored faces, or a number of a corner
 ///         in `attributes::corners` is none of a row
 /// \same   bytes for the same file and options
-TREEFORM_API write_result write_mesh(const std::filesystem::path& path, const mesh_file& file,
-                                     const write_options& options = {});
+TREEFORM_API write_result write(const std::filesystem::path& path, const mesh_file& file,
+                                const write_options& options = {});
 
-/// The same to memory.
-[[nodiscard]] TREEFORM_API std::string write_mesh_to_memory(const mesh_file& file,
-                                                            const write_options& options);
+/// The same of a mesh that came from no file.
+TREEFORM_API write_result write(const std::filesystem::path& path, mesh surface,
+                                const write_options& options = {});
+
+/// What verbs return that certify coordinates.
+template <class Result>
+concept certified_result = requires(const Result& result) {
+    { result.value() } -> std::convertible_to<const mesh&>;
+    { result.certificate } -> std::convertible_to<const certificate&>;
+};
+
+namespace detail::io {
+TREEFORM_API write_result write_certified(const std::filesystem::path& path, mesh surface,
+                                          const write_options& options);
+}
+
+/// The mesh of a result, in the coordinates that were certified: binary STL and GLB hold those of
+/// `precision::float32` only.
+///
+/// \throws not_certified_error unless the certificate's status is ok
+/// \throws io_error as above, and when a coordinate would be rounded and `options.round` is not set
+template <certified_result Result>
+write_result write(const std::filesystem::path& path, const Result& result,
+                   const write_options& options = {}) {
+    return options.round ? write(path, result.value(), options)
+                         : detail::io::write_certified(path, result.value(), options);
+}
+
+/// The bytes of the file.
+[[nodiscard]] TREEFORM_API std::string write_to_memory(const mesh_file& file,
+                                                       const write_options& options);
 
 }  // namespace treeform

@@ -1,8 +1,9 @@
-#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/nearness/distance_model.hpp>
+#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/face_blocks.hpp>
 #include <treeform/mesh/distance.hpp>
-#include <treeform/tree/build.hpp>
 #include <treeform/tree/detail/near_pair_walk.hpp>
 #include <treeform/tree/detail/squared_radius.hpp>
 
@@ -175,21 +176,7 @@ void visit(const placed_faces& a, const placed_faces& b, const detail::block_pai
 void check_tree(mesh_view mesh, const transformed<3>& tree) {
     if (mesh.faces.size() != tree.original().size())
         throw std::invalid_argument(
-            "treeform::mesh_distance: the tree is not one over the mesh's faces");
-}
-
-tree<3> tree_of(mesh_view mesh) {
-    detail::base::check_faces("mesh_distance", mesh.points.size(), mesh.faces);
-    return build(mesh.faces, [&](const face& f) {
-        aabb<double, 3> box;
-        bool finite = true;
-        for (const std::uint32_t corner : f) {
-            const point3& p = mesh.points[corner];
-            box.include(p);
-            finite &= std::isfinite(p.x) & std::isfinite(p.y) & std::isfinite(p.z);
-        }
-        return finite ? box : aabb<double, 3>();  // `include` overlooks NaN
-    });
+            "treeform::closest_points: the tree is not one over the mesh's faces");
 }
 
 std::optional<closest_points_result> search(const placed_faces& a, const placed_faces& b,
@@ -219,44 +206,69 @@ std::optional<closest_points_result> search(const placed_faces& a, const placed_
 
 }  // namespace
 
-std::optional<closest_points_result> mesh_distance(mesh_view a, const transformed<3>& tree_a,
-                                                   mesh_view b, const transformed<3>& tree_b,
-                                                   double radius) {
+std::optional<closest_points_result> detail::nearness::closest_points(mesh_view a,
+                                                                      const transformed<3>& tree_a,
+                                                                      mesh_view b,
+                                                                      const transformed<3>& tree_b,
+                                                                      double radius) {
     check_tree(a, tree_a);
     check_tree(b, tree_b);
-    detail::check_radius("treeform::mesh_distance", radius);
+    check_radius("treeform::closest_points", radius);
     if (a.faces.empty() || b.faces.empty()) return std::nullopt;
     const double unit = unit_for(tree_a, tree_b);
-    detail::pair_walk<3> walk(tree_a, tree_b, unit);
+    pair_walk<3> walk(tree_a, tree_b, unit);
     return search({a, tree_a, unit}, {b, tree_b, unit}, walk, unit, radius);
 }
 
-std::optional<closest_points_result> mesh_distance(mesh_view a, mesh_view b, double radius) {
-    const tree<3> tree_a = tree_of(a);
-    const tree<3> tree_b = tree_of(b);
-    return mesh_distance(a, tree_a, b, tree_b, radius);
+const detail::nearness::face_blocks& detail::nearness::face_blocks_of(const prepared_mesh& mesh) {
+    constexpr base::slot<face_blocks> slot{base::slot_name::triangle_blocks};
+    const tree<3>& faces = build_face_tree(mesh);
+    return base::prepared_slots::get(mesh, slot, [&] {
+        face_blocks blocks{triangle_blocks(mesh.view(), faces), {}};
+        blocks.cylinders = bounding_cylinders(faces, blocks.triangles);
+        return blocks;
+    });
 }
 
-distance_model::distance_model(mesh_view mesh)
-    : tree_(tree_of(mesh)),
-      triangles_(detail::nearness::triangle_blocks(mesh, tree_)),
-      discs_(tree_, triangles_) {}
+std::optional<closest_points_result> closest_points(mesh_view a, mesh_view b,
+                                                    const distance_options& options) {
+    const tree<3> tree_a = build_face_tree(a, "closest_points: the first mesh");
+    const tree<3> tree_b = build_face_tree(b, "closest_points: the second mesh");
+    return detail::nearness::closest_points(a, {tree_a, options.move_a}, b,
+                                            {tree_b, options.move_b}, options.radius);
+}
 
-std::optional<closest_points_result> mesh_distance(const distance_model& a, const distance_model& b,
-                                                   const mesh_distance_options& options) {
-    detail::check_radius("treeform::mesh_distance", options.radius);
-    const transformed<3> tree_a(a.tree_, options.move_a);
-    const transformed<3> tree_b(b.tree_, options.move_b);
-    if (a.size() == 0 || b.size() == 0) return std::nullopt;
+std::optional<closest_points_result> closest_points(const prepared_mesh& a, const prepared_mesh& b,
+                                                    const distance_options& options) {
+    detail::check_radius("treeform::closest_points", options.radius);
+    const transformed<3> tree_a(build_face_tree(a, "closest_points: the first mesh"),
+                                options.move_a);
+    const transformed<3> tree_b(build_face_tree(b, "closest_points: the second mesh"),
+                                options.move_b);
+    if (a.view().faces.empty() || b.view().faces.empty()) return std::nullopt;
+    const auto& in_a = detail::nearness::face_blocks_of(a);
+    const auto& in_b = detail::nearness::face_blocks_of(b);
     const double unit = unit_for(tree_a, tree_b);
     detail::pair_walk<3> walk(tree_a, tree_b, unit);
-    const detail::nearness::disc_pair discs{a.discs_, b.discs_, walk.map_a(), walk.map_b()};
-    const auto by_discs = [&](const detail::opened_node& at, unsigned mask, float bound,
-                              float* squared) { return discs.raise(at, mask, bound, squared); };
-    const detail::raise_bounds raise = by_discs;
+    const detail::nearness::cylinder_pair cylinders{in_a.cylinders, in_b.cylinders, walk.map_a(),
+                                                    walk.map_b()};
+    const auto by_cylinders = [&](const detail::opened_node& at, unsigned mask, float bound,
+                                  float* squared) {
+        return cylinders.raise(at, mask, bound, squared);
+    };
+    const detail::raise_bounds raise = by_cylinders;
     walk.raise_by(raise);
-    return search({a.triangles_, tree_a, unit}, {b.triangles_, tree_b, unit}, walk, unit,
+    return search({in_a.triangles, tree_a, unit}, {in_b.triangles, tree_b, unit}, walk, unit,
                   options.radius);
+}
+
+double distance(const prepared_mesh& a, const prepared_mesh& b, const distance_options& options) {
+    const auto found = closest_points(a, b, options);
+    return found ? found->distance : std::numeric_limits<double>::infinity();
+}
+double distance(mesh_view a, mesh_view b, const distance_options& options) {
+    const auto found = closest_points(a, b, options);
+    return found ? found->distance : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace treeform

@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// The boxes of faces, for trees.
+
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/aabb.hpp>
+
+#include <cstdint>
+
+namespace treeform::detail::base {
+
+/// What makes the box of a face over `points`; an empty one, which builds name, where a coordinate
+/// is not finite. \pre every corner is a point
+[[nodiscard]] inline auto face_boxes(points_view points) {
+    return [points](const face& f) {
+        aabb<double, 3> box;
+        double sum = 0.0;  // of zeros; NaN where a coordinate is NaN or infinite
+        for (const std::uint32_t corner : f) {
+            const point3& p = points[corner];
+            box.include(p);
+            sum += 0.0 * p.x + 0.0 * p.y + 0.0 * p.z;
+        }
+        return sum == 0.0 ? box : aabb<double, 3>{};
+    };
+}
+
+}  // namespace treeform::detail::base
