@@ -32,6 +32,7 @@ class TREEFORM_API prepared_mesh {
     explicit prepared_mesh(mesh&& owned);
     /// Refers to arrays of the caller, who keeps them, unchanged, while this lives.
     [[nodiscard]] static prepared_mesh borrow(mesh_view view);
+    static prepared_mesh borrow(mesh&&) = delete;  // gone before it is asked: let this own it
 
     /// A cloud: each point is a face of that corner alone, so that clouds are related, measured,
     /// slid and separated as meshes are, and face numbers are those of the points. A cloud bounds
