@@ -96,6 +96,7 @@ std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uin
                 face_of_point[p - exact.given.size()] =
                     joined.face_source(cut.covers_of(face_of[f]).front().face);
     std::vector<std::uint32_t> plane_of;
+    plane_of.reserve(face_of.size());
     for (const std::uint32_t f : face_of) plane_of.push_back(cut.covers_of(f).front().face);
     detail::boolean::merged_faces merged = detail::boolean::merge_coplanar(
         exact, {{exact.given, joined.all.faces}, plane_of, options.face_groups});

@@ -123,8 +123,9 @@ self_intersection_result self_intersections(const prepared_mesh& mesh,
 }
 
 self_intersection_result detail::intersect::pairs_by_tree(
-    mesh_view mesh, tree<3> tree, const self_intersection_options& options) {
-    return find_pairs(mesh, tree, options);
+    mesh_view mesh, tree<3>&& tree, const self_intersection_options& options) {
+    const auto ours = std::move(tree);
+    return find_pairs(mesh, ours, options);
 }
 
 }  // namespace treeform

@@ -1,9 +1,9 @@
 #include <libmesh/base/stars.hpp>
-#include <libmesh/base/union_find.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/round/cancelled_faces.hpp>
 #include <libmesh/round/face_pieces.hpp>
+#include <libmesh/round/flat_patches.hpp>
 #include <libmesh/round/joint_geometry.hpp>
 #include <libmesh/round/snap_nearby.hpp>
 #include <treeform/tree/build.hpp>
@@ -122,9 +122,6 @@ class joining {
     }
 
     [[nodiscard]] bool of_operands() const { return !operand_.empty(); }
-    [[nodiscard]] std::uint32_t operand_of(std::uint32_t f) const {
-        return of_operands() ? operand_[result_.face_of[f]] : 0;
-    }
 
     /// What moves in one pass may move again in the next.
     void note(double distance) { pass_ = std::max(pass_, distance); }
@@ -393,60 +390,15 @@ class joining {
         return true;
     }
 
-    /// Whether two faces at edge `e` lie in one plane except for what is near, facing the same way.
-    [[nodiscard]] bool flat(std::uint32_t f, std::uint32_t g, const edge_name& e) const {
-        if (source_[result_.face_of[f]] == source_[result_.face_of[g]]) return true;
-        const auto apex = [&](std::uint32_t face_number) {
-            for (const std::uint32_t c : surface().faces[face_number])
-                if (c != e[0] && c != e[1]) return c;
-            return e[0];
-        };
-        const point3 along = difference(at(e[1]), at(e[0]));
-        point3 large = difference(at(apex(f)), at(e[0])), small = difference(at(apex(g)), at(e[0]));
-        if (length(cross_product(along, large)) < length(cross_product(along, small)))
-            std::swap(large, small);
-        // The apex of the smaller one as seen from the larger one: how high, and on which side.
-        const point3 normal = cross_product(along, large);
-        const double size = length(normal);
-        if (!(size > 0.0)) return false;
-        const double height = std::abs(dot_product(normal, small)) / size;
-        const double across = dot_product(normal, cross_product(along, small)) / size;
-        return height <= near() && across <= near() * length(along);
-    }
-
-    /// Offending faces that are flat with their neighbors, by patches; and the edges that are not
-    /// between two of one patch, ascending.
-    struct flat_patches {
-        std::vector<std::array<std::uint32_t, 2>> by_patch;  ///< patch, face
-        std::vector<edge_name> borders;
-    };
-    [[nodiscard]] flat_patches find_patches() const {
-        std::vector<std::pair<std::pair<edge_name, std::uint32_t>, std::uint32_t>> edges;
-        for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
-            for (const edge_name& e : edges_of(surface().faces[f]))
-                edges.push_back({{e, operand_of(f)}, f});
-        std::sort(edges.begin(), edges.end());
-        base::union_find sets(surface().faces.size());
-        flat_patches found;
-        for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-            while (end < edges.size() && edges[end].first == edges[begin].first) ++end;
-            const std::uint32_t f = edges[begin].second, g = edges[end - 1].second;
-            const edge_name& name = edges[begin].first.first;
-            if (end - begin == 2 && bad_[f] != 0 && bad_[g] != 0 && flat(f, g, name))
-                sets.join(f, g);
-            else
-                found.borders.push_back(name);
-        }
-        for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
-            if (bad_[f] != 0) found.by_patch.push_back({sets.root(f), f});
-        std::sort(found.by_patch.begin(), found.by_patch.end());
-        return found;
-    }
-
     /// Flat patches of offending faces get the triangles of Delaunay, so that patches that lie on
     /// each other are cut in the same way. A piece is of the face that its middle lies in.
     void flip() {
-        const auto [by_patch, borders] = find_patches();
+        const auto [by_patch, borders] = find_flat_patches({.surface = surface(),
+                                                            .offending = bad_,
+                                                            .face_of = result_.face_of,
+                                                            .source = source_,
+                                                            .operand = operand_,
+                                                            .near = near()});
         const std::vector<std::uint32_t> face_of = result_.face_of;
         for (std::size_t begin = 0, end = 0; begin < by_patch.size(); begin = end) {
             std::vector<face> faces;

@@ -153,7 +153,9 @@ struct column {
 /// A column with one value a row.
 template <class T>
 [[nodiscard]] column make_column(std::string name, std::span<const T> values) {
-    column c{.name = std::move(name), .type = scalar_type_of<T>()};
+    column c;
+    c.name = std::move(name);
+    c.type = scalar_type_of<T>();
     c.values.resize(values.size_bytes());
     if (!values.empty()) std::memcpy(c.values.data(), values.data(), values.size_bytes());
     return c;

@@ -81,7 +81,9 @@ struct curve_view {
 /// The edges of the closed polygon through points 0, 1, ... count - 1.
 [[nodiscard]] TREEFORM_API std::vector<curve_edge> polygon_edges(std::uint32_t count);
 
-/// The tree over the boxes of the edges. \throws std::invalid_argument as `build_face_tree`
+/// The tree over the boxes of the edges.
+///
+/// \throws std::invalid_argument as `build_face_tree`
 [[nodiscard]] TREEFORM_API tree<2> edge_tree(curve_view curves);
 
 /// Points of the plane against closed curves: any number of them, also crossing or repeated. Exact

@@ -45,7 +45,9 @@ class TREEFORM_API point_reader {
     /// Points in the file, where its header says so.
     [[nodiscard]] std::optional<std::uint64_t> count() const;
     /// Replaces the content of `block` by the next points, at most `most`; false, and an empty
-    /// block, when there are none left. \throws io_error as `read`
+    /// block, when there are none left.
+    ///
+    /// \throws io_error as `read`
     bool read(point_block& block, std::size_t most);
 
   private:

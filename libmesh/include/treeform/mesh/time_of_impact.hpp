@@ -78,8 +78,9 @@ struct impact {
 [[nodiscard]] TREEFORM_API impact time_of_impact(mesh_view a, mesh_view b, const point3& motion,
                                                  const impact_options& options = {});
 
-/// The greatest double that is not beyond the exact time of a contact. \pre it is what
-/// `time_of_impact` gave for the motion
+/// The greatest double that is not beyond the exact time of a contact.
+///
+/// \pre it is what `time_of_impact` gave for the motion
 [[nodiscard]] TREEFORM_API double time_not_beyond(const sweep_contact& contact,
                                                   const point3& motion);
 

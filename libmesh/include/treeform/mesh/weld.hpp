@@ -148,7 +148,9 @@ struct file_weld_result {
 /// The groups alone, for callers with arrays of their own. Of `options` those matter that say which
 /// points become one: tolerance, rule, search, label, may_merge and progress.
 ///
-/// \throws std::invalid_argument, \cost and \same as `weld`
+/// \throws std::invalid_argument as `weld`
+/// \cost   as `weld`
+/// \same   as `weld`
 [[nodiscard]] TREEFORM_API point_groups group_points(points_view points,
                                                      const weld_options& options = {});
 

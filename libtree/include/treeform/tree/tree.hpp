@@ -84,7 +84,9 @@ class tree {
     [[nodiscard]] bool is_leaf_level(unsigned level) const { return level + 1 == levels_; }
     /// Primitives below a full node of `level`.
     [[nodiscard]] std::size_t capacity(unsigned level) const {
-        return std::size_t{1} << (3 * (levels_ - level));
+        const unsigned height = levels_ - level;
+        assert(height <= 11);  // a full root of 11 levels is more than max_size
+        return std::size_t{1} << (3 * height);
     }
     /// At least the root, which a tree built over nothing has, too.
     [[nodiscard]] std::size_t nodes_in_level(unsigned level) const {
