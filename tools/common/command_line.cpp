@@ -56,7 +56,7 @@ void command_line::option(option_text text, std::function<void(std::string_view)
     mention(std::move(text));
 }
 
-void command_line::flag_with_value(option_text text, std::string bare,
+void command_line::flag_with_value(option_text text, const std::string& bare,
                                    std::function<void(std::string_view)> accept) {
     CLI::Option* flag = parser_->app.add_flag(names_of(text) + "{" + bare + "}");
     flag->each([accept = std::move(accept)](const std::string& value) { accept(value); });
@@ -65,13 +65,15 @@ void command_line::flag_with_value(option_text text, std::string bare,
 
 void command_line::output(std::filesystem::path& target, option_text text) {
     outputs_.push_back(&target);
-    option(std::move(text), [&target, names = text.names](std::string_view value) {
+    // Before the call: which of its arguments is made first is up to the compiler.
+    auto accept = [&target, names = text.names](std::string_view value) {
         if (value.empty()) throw failure(bad_usage, "usage", names + ": expected a file name");
         target = value;
-    });
+    };
+    option(std::move(text), std::move(accept));
 }
 
-void command_line::refuse(std::string names, bool has_value, std::string why) {
+void command_line::refuse(const std::string& names, bool has_value, std::string why) {
     const auto complain = [names, why = std::move(why)] {
         throw failure(bad_usage, "usage", names + " " + why);
     };
@@ -103,8 +105,8 @@ void command_line::inputs(std::vector<std::string>& target, std::string text, st
 
 void command_line::epilogue(std::string text) { epilogue_ = std::move(text); }
 
-void command_line::version_text(std::string text) {
-    parser_->app.set_version_flag("--version", std::move(text));
+void command_line::version_text(const std::string& text) {
+    parser_->app.set_version_flag("--version", text);
 }
 
 command_line::outcome command_line::parse(int argc, const char* const* argv) {

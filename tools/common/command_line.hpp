@@ -31,12 +31,12 @@ class command_line {
     void option(option_text text, std::function<void(std::string_view)> accept);
     /// An option whose value, if any, follows "=": --name or --name=VALUE. `bare` is accepted for
     /// the first.
-    void flag_with_value(option_text text, std::string bare,
+    void flag_with_value(option_text text, const std::string& bare,
                          std::function<void(std::string_view)> accept);
     /// The value is the name of a file to write; "-" is standard output.
     void output(std::filesystem::path& target, option_text text);
     /// An option of other tools of the family that makes no sense here, and why.
-    void refuse(std::string names, bool has_value, std::string why);
+    void refuse(const std::string& names, bool has_value, std::string why);
     /// An option that may be given several times, with one value each time.
     void repeatable_option(std::vector<std::string>& target, option_text text);
     /// A word that stands ahead of the inputs, such as a mode.
@@ -47,7 +47,7 @@ class command_line {
     void mention(option_text text);
     /// Text at the end of the help.
     void epilogue(std::string text);
-    void version_text(std::string text);
+    void version_text(const std::string& text);
 
     enum class outcome { run, help_shown };
     /// \throws failure (bad_usage) for anything that is not as described

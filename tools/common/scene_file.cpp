@@ -57,6 +57,7 @@ std::vector<tf::mesh_file> described(job& work, std::span<const scene_input> inp
         names.push_back(name_of_input(b.path));
     }
     std::vector<tf::mesh_file*> files;
+    files.reserve(all.size());
     for (tf::mesh_file& one : all) files.push_back(&one);
     for (const tf::io_warning& w : tf::unite_textures(files, names)) work.warn(w.code, w.text);
     if (format == "obj")

@@ -59,6 +59,7 @@ void add_sources(tf::mesh_file& file, const boolean_settings& settings,
 
 std::vector<const tf::mesh_file*> files_of(const std::vector<solid>& solids) {
     std::vector<const tf::mesh_file*> files;
+    files.reserve(solids.size());
     for (const solid& s : solids) files.push_back(&s.file);
     return files;
 }

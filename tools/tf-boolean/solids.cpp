@@ -116,12 +116,14 @@ std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
 
 std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids) {
     std::vector<tf::mesh_view> views;
+    views.reserve(solids.size());
     for (const solid& s : solids) views.push_back(s.file.mesh);
     return views;
 }
 
 std::vector<tf::carry_source> sources_of(const std::vector<solid>& solids) {
     std::vector<tf::carry_source> sources;
+    sources.reserve(solids.size());
     for (const solid& s : solids) sources.push_back(s.source());
     return sources;
 }
