@@ -35,7 +35,8 @@ std::optional<tile_slabs> tile_steps::plan_by(const std::vector<point3>& sample)
         return slabs_of(all / static_cast<double>(task_.options.points_per_tile));
     constexpr double small = 250000.0;
     constexpr double tiles = 1024.0;
-    const double room = 0.6 * static_cast<double>(task_.options.memory / bytes_per_point());
+    const auto points_in_memory = task_.options.memory / bytes_per_point();
+    const double room = 0.6 * static_cast<double>(points_in_memory);
     struct way {
         double most;       ///< points in a tile, about
         double with_halo;  ///< points of all tiles, of all points

@@ -178,6 +178,7 @@ std::vector<tf::operand_element> of_input(const std::vector<std::uint32_t>& indi
 void add_source_faces(tf::mesh_file& file, const findings& result,
                       const std::vector<std::uint32_t>& face_of) {
     std::vector<std::int32_t> sources;
+    sources.reserve(face_of.size());
     for (const std::uint32_t f : face_of)
         sources.push_back(
             f == tf::resolve_result::none ? -1 : static_cast<std::int32_t>(result.stored_face(f)));

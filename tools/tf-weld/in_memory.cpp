@@ -17,6 +17,7 @@ void warn_of_materials(job& work, const std::vector<tf::mesh_file>& files) {
     const auto path = mesh_output(work.options, work.path);
     if (!path || form_of(work, files.front(), *path).format != "obj") return;
     std::vector<const tf::mesh_file*> all;
+    all.reserve(files.size());
     for (const tf::mesh_file& file : files) all.push_back(&file);
     warn_of_ambiguous_materials(work, all);
 }
