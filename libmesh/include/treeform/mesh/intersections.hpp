@@ -20,8 +20,8 @@ namespace treeform {
 
 struct mesh_intersection_options {
     /// How each mesh is moved before it is looked at; what a prepared mesh keeps stays that of the
-    /// mesh as it is. A moved corner is what `transform::operator()` gives, rounded to double: these coordinates
-    /// are the given ones from there on, and the verdict on them is exact.
+    /// mesh as it is. A moved corner is what `transform::operator()` gives, rounded to double:
+    /// these coordinates are the given ones from there on, and the verdict on them is exact.
     transform<3> move_a{};
     transform<3> move_b{};
     /// Stop at the first pair found. Which one that is does not depend on the thread count.

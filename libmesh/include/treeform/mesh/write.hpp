@@ -56,9 +56,9 @@ struct write_result {
 /// A mesh without points and faces can be written in every format of meshes, and read again.
 ///
 /// \throws io_error when the format cannot hold the file or the file cannot be written
-/// \throws std::invalid_argument when a corner is out of range, or an element "vertex" or "face" has
-///         another number of rows than there are points or stored faces, or a number of a corner
-///         in `attributes::corners` is none of a row
+/// \throws std::invalid_argument when a corner is out of range, or an element "vertex" or "face"
+///         has another number of rows than there are points or stored faces, or a number of a
+///         corner in `attributes::corners` is none of a row
 /// \same   bytes for the same file and options
 TREEFORM_API write_result write(const std::filesystem::path& path, const mesh_file& file,
                                 const write_options& options = {});
