@@ -45,10 +45,10 @@ struct mesh_intersection_result {
 
 /// All pairs of a face of `a` and a face of `b` that have a common point.
 ///
-/// Exact on the coordinates as given, or as moved. The meshes share no corners, whatever their
-/// numbers: faces that only touch, also in equal points, are `touching`, equal ones `overlap`; the
-/// kinds are crossing, overlap, touching and degenerate. This is about surfaces: a mesh inside the
-/// other that touches it nowhere gives no pair. A mesh may be given twice.
+/// Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
+/// degenerate: two meshes share no corners, so faces that meet in equal corners are `touching`, and
+/// equal faces `overlap`. Surfaces count, not solids: a mesh inside the other that does not touch
+/// it gives no pair. `a` and `b` may be the same mesh.
 ///
 /// \throws std::invalid_argument when a transform is not finite, or naming the mesh and its face
 ///         with a corner out of range or, as moved, not finite
