@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/intersect/classify_pair.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/triangle.hpp>
@@ -28,10 +29,6 @@ shared_corners shared_by(const face& a, const face& b) {
     for (const std::uint32_t corner : a)
         if (has_corner(b, corner) && !shared.contains(corner)) shared.ids[shared.count++] = corner;
     return shared;
-}
-
-triangle3 corners_of(points_view points, const face& f) {
-    return {points[f[0]], points[f[1]], points[f[2]]};
 }
 
 /// Whether `end` is one of the shared corners, on the evidence of coordinates: a corner of `a`
@@ -129,8 +126,8 @@ std::optional<pair_kind> classify_pair(points_view points, const face& a, const 
     }
     if (shared.count == 1 && coplanar_and_apart(points, a, b, shared.ids[0], counters))
         return std::nullopt;
-    const triangle3 ta = corners_of(points, a);
-    const triangle3 tb = corners_of(points, b);
+    const triangle3 ta = base::triangle_of(points, a);
+    const triangle3 tb = base::triangle_of(points, b);
     if (shared.count == 0) return classify_triangles(ta, tb, counters);
     const triangle_contact common = treeform::intersect(ta, tb, &counters);
     if (!reaches_beyond(points, a, common, shared)) return std::nullopt;

@@ -1,8 +1,8 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/checked_face_tree.hpp>
-#include <libmesh/base/finite.hpp>
 #include <libmesh/base/first_bad.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
 #include <libmesh/intersect/narrow_phase.hpp>
 #include <libmesh/intersect/own_candidates.hpp>
@@ -12,10 +12,8 @@
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search_self.hpp>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -49,8 +47,7 @@ void check(mesh_view mesh, const self_intersection_options& options) {
 
 bool fits_filter(points_view points) {
     return detail::base::first_bad(points.size(), [&](std::size_t i) {
-               const point3& p = points[i];
-               return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <=
+               return !(detail::base::largest_of(points[i]) <=
                         detail::intersect::largest_filtered_coordinate);
            }) == points.size();
 }

@@ -1,5 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/based_triangle.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <treeform/mesh/distance.hpp>

@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/round/mending_schedule.hpp>
 
 #include <algorithm>
@@ -10,8 +11,7 @@ namespace {
 /// The share 2^-bits of the largest coordinate, rounded up to a power of two.
 double reach_of_bits(points_view points, int bits) {
     double largest = 0.0;
-    for (const point3& p : points)
-        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    for (const point3& p : points) largest = std::max(largest, base::largest_of(p));
     int exponent = 0;
     std::frexp(largest, &exponent);
     return std::max(std::ldexp(1.0, exponent - bits), std::numeric_limits<double>::min());

@@ -1,9 +1,9 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/base/compact.hpp>
-#include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/round/mending_schedule.hpp>
@@ -37,12 +37,12 @@ point3 to_single(const point3& p) {
 }
 
 double largest_difference(const point3& p, const point3& q) {
-    return std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.z - q.z)});
+    return detail::base::largest_of(detail::base::minus(p, q));
 }
 
 /// Half a unit in the last place of the largest coordinate: rounding to nearest moves none further.
 double half_unit(const point3& p) {
-    const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    const double largest = detail::base::largest_of(p);
     const double unit = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
     return std::max(unit / 2, std::numeric_limits<double>::denorm_min());  // half of which is none
 }

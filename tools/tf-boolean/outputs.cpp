@@ -6,7 +6,7 @@
 #include "tools/common/material_words.hpp"
 #include "tools/common/output_file.hpp"
 #include "tools/tf-boolean/words.hpp"
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/round/rounding_defects.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
