@@ -41,9 +41,6 @@
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/build_within.hpp>
-#include <treeform/tree/dynamic_nearness.hpp>
-#include <treeform/tree/dynamic_ray.hpp>
-#include <treeform/tree/dynamic_search.hpp>
 #include <treeform/tree/dynamic_tree.hpp>
 #include <treeform/tree/lazy_tree.hpp>
 #include <treeform/tree/nearness.hpp>
