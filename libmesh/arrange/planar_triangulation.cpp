@@ -313,48 +313,60 @@ std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to
         mark(h, line);
         return to;
     }
-    // The vertex or the side through which the way leaves the triangles around `from`.
-    half_edge crossed = none;
-    std::uint32_t met = none;
+    const way_out out = leave(from, to);
+    if (out.vertex != none) {
+        mark(side_between(from, out.vertex), line);
+        return out.vertex;
+    }
+    crossed_sides crossed = cross_from(out.side, from, to);
+    if (crossed.forced != none) return advance(from, make_crossing(crossed.forced, line), line);
+    auto fresh = flip_away(crossed.sides, from, crossed.vertex);
+    const half_edge h = side_between(from, crossed.vertex);
+    if (h == none) throw std::logic_error("treeform::planar_triangulation: a segment was not made");
+    mark(h, line);
+    improve(fresh);
+    return crossed.vertex;
+}
+
+auto planar_triangulation::leave(std::uint32_t from, std::uint32_t to) const -> way_out {
+    way_out out{none, none};
     around(from, [&](half_edge h) {
         const std::uint32_t right = target(h), left = apex(h);
         const int of_right = turn(from, to, right);
-        if (of_right == 0 && is_ahead(from, to, right)) met = right;
-        if (met != none || of_right > 0) return met != none;
+        if (of_right == 0 && is_ahead(from, to, right)) out.vertex = right;
+        if (out.vertex != none || of_right > 0) return out.vertex != none;
         const int of_left = turn(from, to, left);
-        if (of_left == 0 && is_ahead(from, to, left)) met = left;
-        if (of_right < 0 && of_left > 0) crossed = next(h);
-        return met != none || crossed != none;
+        if (of_left == 0 && is_ahead(from, to, left)) out.vertex = left;
+        if (of_right < 0 && of_left > 0) out.side = next(h);
+        return out.vertex != none || out.side != none;
     });
-    if (met != none) {
-        mark(side_between(from, met), line);
-        return met;
-    }
-    if (crossed == none)
-        throw std::logic_error("treeform::planar_triangulation: a segment leads out of the plane");
+    return out;
+}
 
-    // The sides between here and the next vertex on the way.
-    std::pmr::deque<std::array<std::uint32_t, 2>> sides(points_.get_allocator());
-    for (;;) {
-        if (line_[crossed] != none) {
-            const std::uint32_t made = make_crossing(crossed, line);
-            return advance(from, made, line);
+auto planar_triangulation::cross_from(half_edge side, std::uint32_t from, std::uint32_t to) const
+    -> crossed_sides {
+    crossed_sides crossed{std::pmr::deque<std::array<std::uint32_t, 2>>(points_.get_allocator()),
+                          to, none};
+    for (half_edge at = side;;) {
+        const half_edge beyond = at == none ? none : twin_[at];
+        if (at != none && line_[at] != none) {
+            crossed.forced = at;
+            return crossed;
         }
-        sides.push_back({origin_[crossed], target(crossed)});
-        const half_edge beyond = twin_[crossed];
         if (beyond == none)
             throw std::logic_error(
                 "treeform::planar_triangulation: a segment leads out of the plane");
-        const std::uint32_t v = apex(beyond);
-        if (v == to) break;
-        const int of_v = turn(from, to, v);
-        if (of_v == 0) {
-            to = v;
-            break;
-        }
-        crossed = of_v > 0 ? next(beyond) : previous(beyond);
+        crossed.sides.push_back({origin_[at], target(at)});
+        crossed.vertex = apex(beyond);
+        if (crossed.vertex == to) return crossed;
+        const int side_of_vertex = turn(from, to, crossed.vertex);
+        if (side_of_vertex == 0) return crossed;
+        at = side_of_vertex > 0 ? next(beyond) : previous(beyond);
     }
+}
 
+std::pmr::vector<std::array<std::uint32_t, 2>> planar_triangulation::flip_away(
+    std::pmr::deque<std::array<std::uint32_t, 2>>& sides, std::uint32_t from, std::uint32_t to) {
     std::pmr::vector<std::array<std::uint32_t, 2>> fresh(points_.get_allocator());
     std::size_t steps = 0;
     const std::size_t most = 16 + 16 * sides.size() * sides.size();
@@ -377,11 +389,7 @@ std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to
         else
             fresh.push_back({c, d});
     }
-    const half_edge h = side_between(from, to);
-    if (h == none) throw std::logic_error("treeform::planar_triangulation: a segment was not made");
-    mark(h, line);
-    improve(fresh);
-    return to;
+    return fresh;
 }
 
 /// Flips among the sides that forcing a segment has made, a bounded number of times.

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <memory_resource>
@@ -107,6 +108,24 @@ class planar_triangulation {
     void mark(half_edge h, std::uint32_t line);
     /// One step of `constrain`: the next vertex on the way, to which there is a marked side now.
     std::uint32_t advance(std::uint32_t from, std::uint32_t to, std::uint32_t line);
+    /// Through what the way to `to` leaves the triangles around `from`: one of both.
+    struct way_out {
+        std::uint32_t vertex;
+        half_edge side;
+    };
+    [[nodiscard]] way_out leave(std::uint32_t from, std::uint32_t to) const;
+    /// The sides, by their ends, that the way crosses before the next vertex on it, or before the
+    /// next forced side.
+    struct crossed_sides {
+        std::pmr::deque<std::array<std::uint32_t, 2>> sides;
+        std::uint32_t vertex;
+        half_edge forced;  ///< or none
+    };
+    [[nodiscard]] crossed_sides cross_from(half_edge side, std::uint32_t from,
+                                           std::uint32_t to) const;
+    /// Flips crossed sides until a side takes the way. Returns those made.
+    [[nodiscard]] std::pmr::vector<std::array<std::uint32_t, 2>> flip_away(
+        std::pmr::deque<std::array<std::uint32_t, 2>>& sides, std::uint32_t from, std::uint32_t to);
     std::uint32_t make_crossing(half_edge side, std::uint32_t line);
 
     std::pmr::vector<implicit_point> points_;

@@ -118,44 +118,38 @@ struct box {
     return middle;
 }
 
-[[nodiscard]] json describe(const std::vector<primitive>& primitives, const write_job& job,
-                            const std::vector<const column*>& numbers, const box& b,
-                            const point3& offset) {
+/// Where the numbers lie in the one buffer: positions, corners of faces, columns of faces.
+void describe_bytes(json& root, const write_job& job, std::size_t columns) {
     const std::size_t position_bytes = 12 * job.file.mesh.points.size();
     const std::size_t index_bytes = 12 * job.file.mesh.faces.size();
     const std::size_t number_bytes = 4 * job.file.mesh.faces.size();
-    json root;
-    root["asset"] = {{"version", "2.0"}, {"generator", "treeform"}};
-    root["scene"] = 0;
-    root["scenes"] = json::array({{{"nodes", {0}}}});
-    json node = {{"mesh", 0}};
-    if (offset != point3{}) node["translation"] = {offset.x, offset.y, offset.z};
-    root["nodes"] = json::array({node});
-    const auto local = [&](const point3& p) {
-        json xyz = json::array();
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            xyz.push_back(base::nearest_float(p[axis] - offset[axis]));
-        return xyz;
-    };
-    root["buffers"] = json::array(
-        {{{"byteLength", position_bytes + index_bytes + numbers.size() * number_bytes}}});
+    root["buffers"] =
+        json::array({{{"byteLength", position_bytes + index_bytes + columns * number_bytes}}});
     json views = json::array(
         {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", position_bytes}, {"target", 34962}},
          {{"buffer", 0},
           {"byteOffset", position_bytes},
           {"byteLength", index_bytes},
           {"target", 34963}}});
-    for (std::size_t n = 0; n < numbers.size(); ++n)
+    for (std::size_t n = 0; n < columns; ++n)
         views.push_back({{"buffer", 0},
                          {"byteOffset", position_bytes + index_bytes + n * number_bytes},
                          {"byteLength", number_bytes}});
     root["bufferViews"] = std::move(views);
-    json accessors = json::array({{{"bufferView", 0},
-                                   {"componentType", 5126},
-                                   {"count", job.file.mesh.points.size()},
-                                   {"type", "VEC3"},
-                                   {"min", local(b.min)},
-                                   {"max", local(b.max)}}});
+}
+
+[[nodiscard]] json material_of(const color& rgba) {
+    json material = {{"doubleSided", true}};
+    material["pbrMetallicRoughness"] = {
+        {"baseColorFactor", {linear(rgba[0]), linear(rgba[1]), linear(rgba[2]), rgba[3]}},
+        {"metallicFactor", 0.0}};
+    if (rgba[3] < 1.0) material["alphaMode"] = "BLEND";
+    return material;
+}
+
+/// The primitives, each with its part of the corners and of the columns, and a material.
+void describe_primitives(json& root, json accessors, const std::vector<primitive>& primitives,
+                         const std::vector<const column*>& numbers) {
     json shapes = json::array();
     json materials = json::array();
     std::size_t first = 0;
@@ -179,17 +173,37 @@ struct box {
         }
         if (!numbers.empty()) shapes.back()["extras"]["face_properties"] = std::move(properties);
         first += 12 * p.triangles.size();
-        json material = {{"doubleSided", true}};
-        material["pbrMetallicRoughness"] = {
-            {"baseColorFactor",
-             {linear(p.rgba[0]), linear(p.rgba[1]), linear(p.rgba[2]), p.rgba[3]}},
-            {"metallicFactor", 0.0}};
-        if (p.rgba[3] < 1.0) material["alphaMode"] = "BLEND";
-        materials.push_back(std::move(material));
+        materials.push_back(material_of(p.rgba));
     }
     root["accessors"] = std::move(accessors);
     root["materials"] = std::move(materials);
     root["meshes"] = json::array({{{"primitives", std::move(shapes)}}});
+}
+
+[[nodiscard]] json describe(const std::vector<primitive>& primitives, const write_job& job,
+                            const std::vector<const column*>& numbers, const box& b,
+                            const point3& offset) {
+    json root;
+    root["asset"] = {{"version", "2.0"}, {"generator", "treeform"}};
+    root["scene"] = 0;
+    root["scenes"] = json::array({{{"nodes", {0}}}});
+    json node = {{"mesh", 0}};
+    if (offset != point3{}) node["translation"] = {offset.x, offset.y, offset.z};
+    root["nodes"] = json::array({node});
+    describe_bytes(root, job, numbers.size());
+    const auto local = [&](const point3& p) {
+        json xyz = json::array();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            xyz.push_back(base::nearest_float(p[axis] - offset[axis]));
+        return xyz;
+    };
+    json positions = json::array({{{"bufferView", 0},
+                                   {"componentType", 5126},
+                                   {"count", job.file.mesh.points.size()},
+                                   {"type", "VEC3"},
+                                   {"min", local(b.min)},
+                                   {"max", local(b.max)}}});
+    describe_primitives(root, std::move(positions), primitives, numbers);
     return root;
 }
 

@@ -165,6 +165,31 @@ HWY_INLINE vector3 minus(const vector3& a, const vector3& b) {
     return {{hn::Sub(a.of[0], b.of[0]), hn::Sub(a.of[1], b.of[1]), hn::Sub(a.of[2], b.of[2])}};
 }
 
+/// The centers of the discs from slot i on, where the frame puts them, and by how much they may be
+/// off, at least `slack`.
+struct placed_centers {
+    vector3 at;
+    lanes slack;
+};
+HWY_INLINE placed_centers centers_of(const eight_cylinders& discs, std::size_t i,
+                                     const frame_map<3>& frame, const disc_map& map, float slack) {
+    const floats d;
+    const auto load = [&](const float* row) { return hn::Load(d, row + i); };
+    placed_centers center{{{load(discs.center[0]), load(discs.center[1]), load(discs.center[2])}},
+                          hn::Set(d, slack)};
+    if (frame.identity) return center;
+    const vector3 from = center.at;
+    center.at = mapped(map, from);
+    for (std::size_t k = 0; k < 3; ++k) {
+        center.at.of[k] = hn::Add(center.at.of[k], hn::Set(d, frame.offset[k]));
+        center.slack = hn::Add(center.slack, hn::Set(d, frame.slack_offset[k]));
+        for (std::size_t j = 0; j < 3; ++j)
+            center.slack =
+                hn::MulAdd(hn::Set(d, frame.slack[k][j]), hn::Abs(from.of[j]), center.slack);
+    }
+    return center;
+}
+
 /// Eight discs against one. Along any direction v, of a length within 2^-20 of 1, the discs are
 /// apart by what their centers are less what each reaches toward the other; the best v runs
 /// between their nearest points, and a projection onto one and from there onto the other is close
@@ -195,18 +220,7 @@ unsigned raise_eight(const eight_cylinders& discs, const frame_map<3>& frame, co
             load(discs.half),
             load(discs.radius),
             map};
-        vector3 center{{load(discs.center[0]), load(discs.center[1]), load(discs.center[2])}};
-        lanes slack = hn::Set(d, other.slack);
-        if (!frame.identity) {
-            const vector3 from = center;
-            center = mapped(map, from);
-            for (std::size_t k = 0; k < 3; ++k) {
-                center.of[k] = hn::Add(center.of[k], hn::Set(d, frame.offset[k]));
-                slack = hn::Add(slack, hn::Set(d, frame.slack_offset[k]));
-                for (std::size_t j = 0; j < 3; ++j)
-                    slack = hn::MulAdd(hn::Set(d, frame.slack[k][j]), hn::Abs(from.of[j]), slack);
-            }
-        }
+        const auto [center, slack] = centers_of(discs, i, frame, map, other.slack);
         const vector3 gap = minus({{hn::Set(d, other.center[0]), hn::Set(d, other.center[1]),
                                     hn::Set(d, other.center[2])}},
                                   center);

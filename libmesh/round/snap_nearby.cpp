@@ -1,22 +1,21 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
-#include <libmesh/base/union_find.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/round/cancelled_faces.hpp>
+#include <libmesh/round/edge_points.hpp>
 #include <libmesh/round/face_pieces.hpp>
+#include <libmesh/round/flat_patches.hpp>
+#include <libmesh/round/gather.hpp>
 #include <libmesh/round/joint_geometry.hpp>
 #include <libmesh/round/snap_nearby.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -24,64 +23,15 @@
 namespace treeform::detail::round {
 namespace {
 
-using base::cross;
-using base::dot;
 using base::minus;
 
-constexpr std::size_t grain = std::size_t{1} << 10;
 constexpr int most_rounds = 8, most_rounds_of_operands = 3;
-
-/// A place on an edge, from 0 at its lower end to 1, and how far away it is.
-struct place {
-    double along = 0.0;
-    double distance = 0.0;
-};
-
-/// A point to be put into an edge.
-struct edge_point {
-    edge_name edge{};
-    double along = 0.0;
-    std::uint32_t point = 0;
-    double distance = 0.0;
-};
-
-/// Two edges that pass each other.
-struct passing_edges {
-    edge_name a{}, b{};
-    place on_a{}, on_b{};
-    point3 between{};
-    friend bool operator<(const passing_edges& x, const passing_edges& y) {
-        return std::tie(x.a, x.b) < std::tie(y.a, y.b);
-    }
-};
-
-/// `find(i, part)` for 0 <= i < count, in parallel; the parts in order. Of more than `most`, some
-/// that are more than that.
-template <class T, class Find>
-std::vector<T> gather(std::size_t count, std::size_t most, const Find& find) {
-    std::vector<std::vector<T>> parts(chunk_count(count, grain));
-    std::atomic<std::size_t> total{0};
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t i = begin; i < end && total <= most; ++i) {
-            const std::size_t before = parts[c].size();
-            find(i, parts[c]);
-            total += parts[c].size() - before;
-        }
-    });
-    std::vector<T> all;
-    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-    return all;
-}
 
 /// Three passes, each on what the one before it has left: corners, edges, faces.
 class joining {
   public:
     joining(mesh_view mesh, std::span<const std::uint8_t> offending, const joint& how)
-        : reach_(how.reach),
-          solid_(how.solid),
-          source_(how.source),
-          operand_(how.operand),
-          bad_(offending.begin(), offending.end()) {
+        : how_(how), bad_(offending.begin(), offending.end()) {
         surface().points.assign(mesh.points.begin(), mesh.points.end());
         surface().faces.assign(mesh.faces.begin(), mesh.faces.end());
         result_.face_of.resize(mesh.faces.size());
@@ -126,10 +76,7 @@ class joining {
         return grows_;
     }
 
-    [[nodiscard]] bool of_operands() const { return !operand_.empty(); }
-    [[nodiscard]] std::uint32_t operand_of(std::uint32_t f) const {
-        return of_operands() ? operand_[result_.face_of[f]] : 0;
-    }
+    [[nodiscard]] bool of_operands() const { return !how_.operand.empty(); }
 
     /// What moves in one pass may move again in the next.
     void note(double distance) { pass_ = std::max(pass_, distance); }
@@ -166,8 +113,8 @@ class joining {
     template <class Visit>
     void visit_near(std::uint32_t p, const tree<3>& around,
                     const std::vector<std::uint32_t>& points, const Visit& visit) const {
-        search(around, box_around(at(p), at(p), reach_), [&](std::uint32_t id) {
-            if (length(minus(at(p), at(points[id]))) <= reach_) visit(points[id]);
+        search(around, box_around(at(p), at(p), how_.reach), [&](std::uint32_t id) {
+            if (length(minus(at(p), at(points[id]))) <= how_.reach) visit(points[id]);
         });
     }
 
@@ -209,78 +156,14 @@ class joining {
         return true;
     }
 
-    [[nodiscard]] place nearest_on(std::uint32_t p, const edge_name& e) const {
-        const point3 &a = at(e[0]), &q = at(p);
-        const point3 way = minus(at(e[1]), a);
-        const double square = dot(way, way);
-        const double along =
-            square > 0.0 ? std::clamp(dot(minus(q, a), way) / square, 0.0, 1.0) : 0.0;
-        const point3 there{a.x + along * way.x, a.y + along * way.y, a.z + along * way.z};
-        return {along, length(minus(q, there))};
-    }
-
-    /// Corners next to offending edges.
-    [[nodiscard]] std::vector<edge_point> corners_near(const std::vector<edge_name>& edges) const {
-        const std::vector<std::uint32_t> all = used_points(false);
-        const tree<3> around = tree_of_points(all);
-        return gather<edge_point>(
-            edges.size(), room(), [&](std::size_t i, std::vector<edge_point>& found) {
-                const edge_name& e = edges[i];
-                search(around, box_around(at(e[0]), at(e[1]), near()), [&](std::uint32_t id) {
-                    const std::uint32_t p = all[id];
-                    if (p == e[0] || p == e[1]) return;
-                    const place on = nearest_on(p, e);
-                    if (on.distance <= near()) found.push_back({e, on.along, p, on.distance});
-                });
-            });
-    }
-
-    /// Where the lines through two edges are nearest, if that is inside of both.
-    [[nodiscard]] bool pass(passing_edges& e) const {
-        const point3 &p = at(e.a[0]), &q = at(e.b[0]);
-        const point3 u = minus(at(e.a[1]), p), v = minus(at(e.b[1]), q), w = minus(q, p);
-        const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
-        const double turn = uu * vv - uv * uv;
-        if (!(turn > 0x1p-40 * uu * vv)) return false;  // along each other: their ends are near
-        const double s = (uw * vv - vw * uv) / turn, t = (uw * uv - vw * uu) / turn;
-        if (!(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)) return false;
-        const point3 on_a{p.x + s * u.x, p.y + s * u.y, p.z + s * u.z};
-        const point3 on_b{q.x + t * v.x, q.y + t * v.y, q.z + t * v.z};
-        const double distance = length(minus(on_a, on_b));
-        if (!(distance <= near())) return false;
-        e.on_a = {s, distance};
-        e.on_b = {t, distance};
-        e.between = {(on_a.x + on_b.x) / 2, (on_a.y + on_b.y) / 2, (on_a.z + on_b.z) / 2};
-        return true;
-    }
-
-    [[nodiscard]] std::vector<passing_edges> edges_passing(
-        const std::vector<edge_name>& edges) const {
-        const tree<3> around =
-            build(edges, [&](const edge_name& e) { return box_around(at(e[0]), at(e[1]), 0.0); });
-        auto all = gather<passing_edges>(
-            edges.size(), room(), [&](std::size_t i, std::vector<passing_edges>& found) {
-                const edge_name& a = edges[i];
-                search(around, box_around(at(a[0]), at(a[1]), near()), [&](std::uint32_t id) {
-                    const edge_name& b = edges[id];
-                    if (!(a < b) || a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1])
-                        return;
-                    passing_edges both{.a = a, .b = b};
-                    if (pass(both)) found.push_back(both);
-                });
-            });
-        std::sort(all.begin(), all.end());
-        return all;
-    }
-
     /// A corner or new point where edges pass each other: an end of theirs within reach, or one
     /// made for other edges there, or a new one.
     std::uint32_t point_for(const passing_edges& e, std::size_t first_made) {
         for (const std::uint32_t end : {e.a[0], e.a[1], e.b[0], e.b[1]})
-            if (length(minus(at(end), e.between)) <= reach_) return end;
+            if (length(minus(at(end), e.between)) <= how_.reach) return end;
         const auto made = static_cast<std::uint32_t>(surface().points.size());
         for (std::uint32_t p = made; p-- > first_made && made - p < 64;)
-            if (length(minus(at(p), e.between)) <= reach_) return p;
+            if (length(minus(at(p), e.between)) <= how_.reach) return p;
         surface().points.push_back(e.between);
         return made;
     }
@@ -289,9 +172,11 @@ class joining {
     /// where they pass each other.
     bool split_edges() {
         const std::vector<edge_name> edges = offending_edges();
-        std::vector<edge_point> in_edges = corners_near(edges);
+        std::vector<edge_point> in_edges =
+            points_near_edges(surface().points, used_points(false), edges, near(), room());
         const std::size_t first_made = surface().points.size();
-        const auto passing = of_operands() ? std::vector<passing_edges>{} : edges_passing(edges);
+        const auto passing = of_operands() ? std::vector<passing_edges>{}
+                                           : edges_passing(surface().points, edges, near(), room());
         if (too_many(std::max(in_edges.size(), passing.size()))) return false;
         for (const passing_edges& e : passing) {
             const std::uint32_t p = point_for(e, first_made);
@@ -352,8 +237,9 @@ class joining {
 
     [[nodiscard]] bool is_near_edge(std::uint32_t p, const face& f) const {
         const auto edges = edges_of(f);
-        return std::any_of(edges.begin(), edges.end(),
-                           [&](const edge_name& e) { return nearest_on(p, e).distance <= near(); });
+        return std::any_of(edges.begin(), edges.end(), [&](const edge_name& e) {
+            return nearest_on(surface().points, p, e).distance <= near();
+        });
     }
 
     /// Offending faces get the corners next to them. What is next to one of their edges waits for
@@ -396,66 +282,19 @@ class joining {
         return true;
     }
 
-    /// Whether two faces at edge `e` lie in one plane except for what is near, facing the same way.
-    [[nodiscard]] bool flat(std::uint32_t f, std::uint32_t g, const edge_name& e) const {
-        if (source_[result_.face_of[f]] == source_[result_.face_of[g]]) return true;
-        const auto apex = [&](std::uint32_t face_number) {
-            for (const std::uint32_t c : surface().faces[face_number])
-                if (c != e[0] && c != e[1]) return c;
-            return e[0];
-        };
-        const point3 along = minus(at(e[1]), at(e[0]));
-        point3 large = minus(at(apex(f)), at(e[0])), small = minus(at(apex(g)), at(e[0]));
-        if (length(cross(along, large)) < length(cross(along, small))) std::swap(large, small);
-        // The apex of the smaller one as seen from the larger one: how high, and on which side.
-        const point3 normal = cross(along, large);
-        const double size = length(normal);
-        if (!(size > 0.0)) return false;
-        const double height = std::abs(dot(normal, small)) / size;
-        const double across = dot(normal, cross(along, small)) / size;
-        return height <= near() && across <= near() * length(along);
-    }
-
-    /// Offending faces that are flat with their neighbors, by patches; and the edges that are not
-    /// between two of one patch, ascending.
-    struct flat_patches {
-        std::vector<std::array<std::uint32_t, 2>> by_patch;  ///< patch, face
-        std::vector<edge_name> borders;
-    };
-    [[nodiscard]] flat_patches find_patches() const {
-        std::vector<std::pair<std::pair<edge_name, std::uint32_t>, std::uint32_t>> edges;
-        for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
-            for (const edge_name& e : edges_of(surface().faces[f]))
-                edges.push_back({{e, operand_of(f)}, f});
-        std::sort(edges.begin(), edges.end());
-        base::union_find sets(surface().faces.size());
-        flat_patches found;
-        for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-            while (end < edges.size() && edges[end].first == edges[begin].first) ++end;
-            const std::uint32_t f = edges[begin].second, g = edges[end - 1].second;
-            const edge_name& name = edges[begin].first.first;
-            if (end - begin == 2 && bad_[f] != 0 && bad_[g] != 0 && flat(f, g, name))
-                sets.join(f, g);
-            else
-                found.borders.push_back(name);
-        }
-        for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
-            if (bad_[f] != 0) found.by_patch.push_back({sets.root(f), f});
-        std::sort(found.by_patch.begin(), found.by_patch.end());
-        return found;
-    }
-
     /// Flat patches of offending faces get the triangles of Delaunay, so that patches that lie on
     /// each other are cut in the same way. A piece is of the face that its middle lies in.
     void flip() {
-        const auto [by_patch, borders] = find_patches();
+        const auto [by_patch, borders] = find_flat_patches(
+            {.surface = surface(), .chosen = bad_, .face_of = result_.face_of, .how = how_},
+            near());
         const std::vector<std::uint32_t> face_of = result_.face_of;
         for (std::size_t begin = 0, end = 0; begin < by_patch.size(); begin = end) {
             std::vector<face> faces;
             for (; end < by_patch.size() && by_patch[end][0] == by_patch[begin][0]; ++end)
                 faces.push_back(surface().faces[by_patch[end][1]]);
             face_pieces pieces(faces, surface().points);
-            note(pieces.flip(borders, reach_));
+            note(pieces.flip(borders, how_.reach));
             const std::vector<std::size_t> lies_in = pieces.lying_in(faces);
             for (std::size_t i = begin; i < end; ++i) {
                 surface().faces[by_patch[i][1]] = pieces.all()[i - begin];
@@ -493,7 +332,7 @@ class joining {
     /// Of faces that cover each other, what bounds nothing goes.
     void cancel() {
         if (of_operands()) return;
-        const std::vector<std::uint8_t> gone = cancelled_faces(surface().faces, solid_);
+        const std::vector<std::uint8_t> gone = cancelled_faces(surface().faces, how_.solid);
         std::size_t kept = 0;
         for (std::size_t f = 0; f < gone.size(); ++f) {
             if (gone[f] != 0) continue;
@@ -507,12 +346,9 @@ class joining {
     }
 
     /// Edges and faces take corners from nearer than corners join: edges do not get short by it.
-    [[nodiscard]] double near() const { return reach_ / 2; }
+    [[nodiscard]] double near() const { return how_.reach / 2; }
 
-    double reach_;
-    bool solid_;
-    std::span<const std::uint32_t> source_;
-    std::span<const std::uint32_t> operand_;
+    const joint& how_;
     double pass_ = 0.0;  ///< the largest distance closed since the last pass
     std::size_t most_faces_ = 0;
     bool grows_ = false;
