@@ -4,6 +4,7 @@
 #include <deque>
 #include <initializer_list>
 #include <stdexcept>
+#include <utility>
 #include <string>
 
 namespace treeform::detail::arrange {
@@ -25,13 +26,11 @@ planar_triangulation::planar_triangulation(
     : points_(std::move(points)),
       plan_(points_.get_allocator()),
       lines_of_(std::move(lines_of)),
-      made_by_(points_.get_allocator()),
       origin_(points_.get_allocator()),
       twin_(points_.get_allocator()),
       line_(points_.get_allocator()),
       leaving_(points_.size(), none, points_.get_allocator()),
       opposite_(points_.get_allocator()),
-      given_(points_.size()),
       axis_(axis),
       orientation_(orientation),
       cross_(std::move(cross)) {
@@ -301,7 +300,6 @@ std::uint32_t planar_triangulation::make_crossing(half_edge side, std::uint32_t 
     plan_.push_back(plan_of(points_.back(), axis_));
     lines_of_.emplace_back(
         std::initializer_list<std::uint32_t>{std::min(line, other), std::max(line, other)});
-    made_by_.emplace_back(line, other);
     leaving_.push_back(none);
     split_side(side, p);
     return p;

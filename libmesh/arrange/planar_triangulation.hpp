@@ -11,7 +11,6 @@
 #include <limits>
 #include <memory_resource>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace treeform::detail::arrange {
@@ -63,10 +62,6 @@ class planar_triangulation {
 
     /// All points: those given, then those made.
     [[nodiscard]] std::span<const implicit_point> points() const { return points_; }
-    /// The two lines whose crossing a made point is. \pre point is not a given one
-    [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> made_by(std::uint32_t point) const {
-        return made_by_[point - given_];
-    }
 
   private:
     using half_edge = std::uint32_t;  ///< 3 t + i: from corner i of triangle t to the next
@@ -131,13 +126,11 @@ class planar_triangulation {
     std::pmr::vector<implicit_point> points_;
     std::pmr::vector<std::array<double, 2>> plan_;  ///< where points are, for choices that are free
     std::pmr::vector<std::pmr::vector<std::uint32_t>> lines_of_;
-    std::pmr::vector<std::pair<std::uint32_t, std::uint32_t>> made_by_;
     std::pmr::vector<std::uint32_t> origin_;  ///< of each half-edge
     std::pmr::vector<half_edge> twin_;
     std::pmr::vector<std::uint32_t> line_;  ///< that the side is forced to be on, or none
     std::pmr::vector<half_edge> leaving_;   ///< of each vertex, a half-edge that begins there
     std::pmr::vector<half_edge> opposite_;  ///< of `improve_around`
-    std::size_t given_;
     int axis_;
     int orientation_;
     crossing cross_;
