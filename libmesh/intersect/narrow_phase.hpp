@@ -44,11 +44,11 @@ struct bad_faces {
 
 /// Filters pairs in batches, and has the exact stage decide the rest. Where triangles come from is
 /// `Source`'s to say, which knows pairs by a number for each face:
-/// - `source.offer(block, phase)` puts the candidates of a block to the phase, class by class: each
-///   by `wait`, and `finish` after those of a class, or by `decide`;
-/// - `source.faces(pair)` are the faces of a pair as they are reported;
-/// - `source.classify(pair, batch, i, counters)` is the exact verdict on a pair that waited at place
-///   i of a batch.
+/// - `source.offer(block, phase)` puts the candidates of a block to the phase, class by class: by
+///   `wait`, and `finish` after those of a class; by `put` and `filter`; or by `decide`.
+/// - `source.faces(pair)` are the faces of a pair as they are reported.
+/// - `source.classify(pair, batch, i, counters)` is the exact verdict on a pair at place i of a
+///   batch.
 ///
 /// 10 kB and what the source is: one a chunk, not one a block.
 template <class Source>

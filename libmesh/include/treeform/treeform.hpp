@@ -53,7 +53,6 @@
 #include <treeform/tree/search.hpp>
 #include <treeform/tree/search_pair.hpp>
 #include <treeform/tree/search_self.hpp>
-#include <treeform/tree/strategy/medians.hpp>
 #include <treeform/tree/strategy/nearness_order.hpp>
 #include <treeform/tree/strategy/select.hpp>
 #include <treeform/tree/sweep.hpp>
