@@ -117,6 +117,7 @@ clusters gather(std::size_t face_count, const mesh_meetings& met) {
     std::sort(cut.begin(), cut.end());
     cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
     std::vector<std::array<std::uint32_t, 2>> rooted;
+    rooted.reserve(cut.size());
     for (const std::uint32_t f : cut) rooted.push_back({sets.root(f), f});
     std::sort(rooted.begin(), rooted.end());
     clusters result;

@@ -1,7 +1,6 @@
 #include <libmesh/arrange/planar_triangulation.hpp>
 
 #include <algorithm>
-#include <deque>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
@@ -307,34 +306,37 @@ std::uint32_t planar_triangulation::make_crossing(half_edge side, std::uint32_t 
     return p;
 }
 
+planar_triangulation::way_out planar_triangulation::leave(std::uint32_t from,
+                                                          std::uint32_t to) const {
+    way_out out;
+    around(from, [&](half_edge h) {
+        const std::uint32_t right = target(h), left = apex(h);
+        const int of_right = turn(from, to, right);
+        if (of_right == 0 && is_ahead(from, to, right)) out.met = right;
+        if (out.met != none || of_right > 0) return out.met != none;
+        const int of_left = turn(from, to, left);
+        if (of_left == 0 && is_ahead(from, to, left)) out.met = left;
+        if (of_right < 0 && of_left > 0) out.crossed = next(h);
+        return out.met != none || out.crossed != none;
+    });
+    if (out.met == none && out.crossed == none)
+        throw std::logic_error("treeform::planar_triangulation: a segment leads out of the plane");
+    return out;
+}
+
 std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to,
                                             std::uint32_t line) {
     if (const half_edge h = side_between(from, to); h != none) {
         mark(h, line);
         return to;
     }
-    // The vertex or the side through which the way leaves the triangles around `from`.
-    half_edge crossed = none;
-    std::uint32_t met = none;
-    around(from, [&](half_edge h) {
-        const std::uint32_t right = target(h), left = apex(h);
-        const int of_right = turn(from, to, right);
-        if (of_right == 0 && is_ahead(from, to, right)) met = right;
-        if (met != none || of_right > 0) return met != none;
-        const int of_left = turn(from, to, left);
-        if (of_left == 0 && is_ahead(from, to, left)) met = left;
-        if (of_right < 0 && of_left > 0) crossed = next(h);
-        return met != none || crossed != none;
-    });
+    auto [met, crossed] = leave(from, to);
     if (met != none) {
         mark(side_between(from, met), line);
         return met;
     }
-    if (crossed == none)
-        throw std::logic_error("treeform::planar_triangulation: a segment leads out of the plane");
-
     // The sides between here and the next vertex on the way.
-    std::pmr::deque<std::array<std::uint32_t, 2>> sides(points_.get_allocator());
+    side_queue sides(points_.get_allocator());
     for (;;) {
         if (line_[crossed] != none) {
             const std::uint32_t made = make_crossing(crossed, line);
@@ -354,7 +356,17 @@ std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to
         }
         crossed = of_v > 0 ? next(beyond) : previous(beyond);
     }
+    std::pmr::vector<std::array<std::uint32_t, 2>> fresh = flip_away(from, to, sides);
+    const half_edge h = side_between(from, to);
+    if (h == none) throw std::logic_error("treeform::planar_triangulation: a segment was not made");
+    mark(h, line);
+    improve(fresh);
+    return to;
+}
 
+std::pmr::vector<std::array<std::uint32_t, 2>> planar_triangulation::flip_away(std::uint32_t from,
+                                                                               std::uint32_t to,
+                                                                               side_queue& sides) {
     std::pmr::vector<std::array<std::uint32_t, 2>> fresh(points_.get_allocator());
     std::size_t steps = 0;
     const std::size_t most = 16 + 16 * sides.size() * sides.size();
@@ -377,11 +389,7 @@ std::uint32_t planar_triangulation::advance(std::uint32_t from, std::uint32_t to
         else
             fresh.push_back({c, d});
     }
-    const half_edge h = side_between(from, to);
-    if (h == none) throw std::logic_error("treeform::planar_triangulation: a segment was not made");
-    mark(h, line);
-    improve(fresh);
-    return to;
+    return fresh;
 }
 
 /// Flips among the sides that forcing a segment has made, a bounded number of times.

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <memory_resource>
@@ -75,6 +76,13 @@ class planar_triangulation {
         int on_sides;  ///< 0: inside, 1: on the side, 2: on the vertex
     };
 
+    /// How a way leaves the triangles around a vertex: through a vertex, or else through a side.
+    struct way_out {
+        std::uint32_t met = none;
+        half_edge crossed = none;
+    };
+    using side_queue = std::pmr::deque<std::array<std::uint32_t, 2>>;  ///< ends of sides
+
     static half_edge next(half_edge h) { return h % 3 == 2 ? h - 2 : h + 1; }
     static half_edge previous(half_edge h) { return h % 3 == 0 ? h + 2 : h - 1; }
     [[nodiscard]] std::uint32_t target(half_edge h) const { return origin_[next(h)]; }
@@ -107,6 +115,10 @@ class planar_triangulation {
     void mark(half_edge h, std::uint32_t line);
     /// One step of `constrain`: the next vertex on the way, to which there is a marked side now.
     std::uint32_t advance(std::uint32_t from, std::uint32_t to, std::uint32_t line);
+    [[nodiscard]] way_out leave(std::uint32_t from, std::uint32_t to) const;
+    /// Flips the sides that cross the way until none does; the sides that this has made.
+    std::pmr::vector<std::array<std::uint32_t, 2>> flip_away(std::uint32_t from, std::uint32_t to,
+                                                             side_queue& sides);
     std::uint32_t make_crossing(half_edge side, std::uint32_t line);
 
     std::pmr::vector<implicit_point> points_;

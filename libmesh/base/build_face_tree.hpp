@@ -18,7 +18,7 @@ namespace treeform {
 ///         not finite
 /// \cost   O(F log F) time, some 30 bytes a face
 /// \same   on any number of threads
-/// `function` is what was called, for the message: "distance: the second mesh".
+/// `function` is what was called, for the message: "distance: b".
 [[nodiscard]] TREEFORM_API tree<3> build_face_tree(mesh_view mesh,
                                                    const char* function = "build_face_tree");
 

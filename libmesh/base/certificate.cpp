@@ -1,3 +1,4 @@
+#include <libmesh/base/operand_name.hpp>
 #include <treeform/mesh/certificate.hpp>
 
 #include <cstdio>
@@ -21,8 +22,8 @@ std::string open_message(const certificate& c) {
     if (c.open.empty()) return text;
     const open_edge& first = c.open.front();
     return text + ", the first at face " + std::to_string(first.face.index) + " of operand " +
-           std::to_string(first.face.operand + 1) + ", from " + place_of(first.ends[0]) + " to " +
-           place_of(first.ends[1]);
+           detail::base::operand_name(first.face.operand) + ", from " + place_of(first.ends[0]) +
+           " to " + place_of(first.ends[1]);
 }
 
 }  // namespace

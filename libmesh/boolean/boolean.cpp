@@ -9,6 +9,7 @@
 #include <libmesh/boolean/mended_operands.hpp>
 #include <libmesh/boolean/merged_faces.hpp>
 #include <libmesh/boolean/operand_tree.hpp>
+#include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/boolean/sound_operand.hpp>
 #include <libmesh/boolean/sound_pair.hpp>
 #include <libmesh/boolean/split_nonmanifold.hpp>
@@ -20,6 +21,7 @@
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <numeric>
@@ -43,9 +45,8 @@ struct arranged_operands {
     arrange_faces_result arranged;
 };
 
-arranged_operands arrange_operands(const char* function, std::span<const mesh_view> operands,
+arranged_operands arrange_operands(std::span<const mesh_view> operands,
                                    const progress_callback& progress) {
-    detail::boolean::check_operands(function, operands);
     std::optional<tree<3>> tree = detail::boolean::tree_of_operands(operands);
     arranged_operands result{detail::boolean::join_operands(operands), {}};
     mesh& all = result.joined.all;
@@ -95,6 +96,7 @@ std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uin
                 face_of_point[p - exact.given.size()] =
                     joined.face_source(cut.covers_of(face_of[f]).front().face);
     std::vector<std::uint32_t> plane_of;
+    plane_of.reserve(face_of.size());
     for (const std::uint32_t f : face_of) plane_of.push_back(cut.covers_of(f).front().face);
     detail::boolean::merged_faces merged = detail::boolean::merge_coplanar(
         exact, {{exact.given, joined.all.faces}, plane_of, options.face_groups});
@@ -247,8 +249,7 @@ unmended_result boolean_of(std::span<const mesh_view> operands,
         if (auto result =
                 detail::boolean::boolean_of_sound_pair(operands.first<2>(), expression, options))
             return {std::move(*result), {}};
-    auto [joined, arranged] =
-        arrange_operands("boolean", operands, part_of(options.progress, 0.0, 0.5));
+    auto [joined, arranged] = arrange_operands(operands, part_of(options.progress, 0.0, 0.5));
     unmended_result made{with_counts(arranged), {}};
     boolean_result& result = made.result;
     if (arranged.cancelled) return made;
@@ -277,8 +278,7 @@ unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet
         throw std::invalid_argument("treeform::clip: the sheet is no operand");
     if (!expression.needs(sheet))
         throw std::invalid_argument("treeform::clip: the expression holds more than of the sheet");
-    auto [joined, arranged] =
-        arrange_operands("clip", operands, part_of(options.progress, 0.0, 0.5));
+    auto [joined, arranged] = arrange_operands(operands, part_of(options.progress, 0.0, 0.5));
     unmended_result made{with_counts(arranged), {}};
     boolean_result& result = made.result;
     if (arranged.cancelled) return made;
@@ -300,8 +300,7 @@ unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet
 }
 
 unmended_result split_of(std::span<const mesh_view> operands, const boolean_options& options) {
-    auto [joined, arranged] =
-        arrange_operands("split", operands, part_of(options.progress, 0.0, 0.7));
+    auto [joined, arranged] = arrange_operands(operands, part_of(options.progress, 0.0, 0.7));
     unmended_result made{with_counts(arranged), {}};
     boolean_result& result = made.result;
     if (arranged.cancelled) return made;
@@ -334,68 +333,89 @@ boolean_result finished(boolean_result&& result, bool solid) {
     return std::move(result);
 }
 
-boolean_result evaluate(std::span<const mesh_view> operands, const boolean_expression& expression,
-                        const boolean_options& options, bool sound) {
-    return finished(detail::boolean::with_mended_operands(
-                        operands, options,
-                        [&](auto given, const auto& how) {
-                            return boolean_of(given, expression, how,
-                                              sound && given.data() == operands.data());
-                        }),
-                    true);
+/// What `make` makes of the operands: checked, mended where rounding asks for it, as returned.
+template <class Make>
+boolean_result evaluate(const char* function, std::span<const mesh_view> operands,
+                        const boolean_options& options, bool solid, const Make& make) {
+    detail::boolean::check_operands(function, operands);
+    try {
+        return finished(detail::boolean::with_mended_operands(operands, options, make), solid);
+    } catch (const std::invalid_argument&) {  // where an operand is to blame, its face is named
+        detail::boolean::check_coordinates(function, operands);
+        throw;
+    }
 }
 
-}  // namespace
-
-boolean_result boolean(std::span<const mesh_view> operands, const boolean_expression& expression,
-                       const boolean_options& options) {
-    return evaluate(operands, expression, options, false);
-}
-
-boolean_result boolean(std::span<const mesh_operand> operands, const boolean_expression& expression,
-                       const boolean_options& options) {
+boolean_result evaluate(const char* function, std::span<const mesh_operand> operands,
+                        const boolean_expression& expression, const boolean_options& options) {
     std::vector<mesh_view> views;
     for (const mesh_operand& operand : operands) views.push_back(operand.view());
     const bool sound =
         operands.size() == 2 && std::ranges::all_of(operands, [](const mesh_operand& operand) {
             return operand.prepared() != nullptr && detail::boolean::is_sound(*operand.prepared());
         });
-    return evaluate(views, expression, options, sound);
+    return evaluate(function, views, options, true, [&](auto given, const auto& how) {
+        return boolean_of(given, expression, how, sound && given.data() == views.data());
+    });
+}
+
+}  // namespace
+
+boolean_result boolean(std::span<const mesh_view> operands, const boolean_expression& expression,
+                       const boolean_options& options) {
+    return evaluate("boolean", operands, options, true, [&](auto given, const auto& how) {
+        return boolean_of(given, expression, how, false);
+    });
+}
+
+boolean_result boolean(std::span<const mesh_operand> operands, const boolean_expression& expression,
+                       const boolean_options& options) {
+    return evaluate("boolean", operands, expression, options);
 }
 
 boolean_result unite(const mesh_operand& a, const mesh_operand& b, const boolean_options& options) {
-    return boolean({a, b}, boolean_expression::union_of(2), options);
+    return evaluate("unite", std::array{a, b}, boolean_expression::union_of(2), options);
 }
 
 boolean_result intersection(const mesh_operand& a, const mesh_operand& b,
                             const boolean_options& options) {
-    return boolean({a, b}, boolean_expression::intersection_of(2), options);
+    return evaluate("intersection", std::array{a, b}, boolean_expression::intersection_of(2),
+                    options);
 }
 
 boolean_result subtract(const mesh_operand& a, const mesh_operand& b,
                         const boolean_options& options) {
-    return boolean({a, b}, boolean_expression::difference_of(2), options);
+    return evaluate("subtract", std::array{a, b}, boolean_expression::difference_of(2), options);
 }
 
 boolean_result symmetric_difference(const mesh_operand& a, const mesh_operand& b,
                                     const boolean_options& options) {
-    return boolean({a, b}, boolean_expression::xor_of(2), options);
+    return evaluate("symmetric_difference", std::array{a, b}, boolean_expression::xor_of(2),
+                    options);
 }
 
 boolean_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
                     const boolean_expression& expression, const boolean_options& options) {
-    return finished(
-        detail::boolean::with_mended_operands(
-            operands, options,
-            [&](auto given, const auto& how) { return clip_of(given, sheet, expression, how); }),
-        false);
+    return evaluate("clip", operands, options, false, [&](auto given, const auto& how) {
+        return clip_of(given, sheet, expression, how);
+    });
 }
 
 boolean_result split(std::span<const mesh_view> operands, const boolean_options& options) {
-    return finished(
-        detail::boolean::with_mended_operands(
-            operands, options, [](auto given, const auto& how) { return split_of(given, how); }),
-        false);
+    return evaluate("split", operands, options, false,
+                    [](auto given, const auto& how) { return split_of(given, how); });
+}
+
+boolean_result detail::boolean::resolve_by_split(mesh_view mesh, const boolean_options& options) {
+    return evaluate("resolve_self_intersections", std::span(&mesh, 1), options, false,
+                    [](auto given, const auto& how) { return split_of(given, how); });
+}
+
+boolean_result detail::boolean::resolve_by_union(mesh_view mesh, const boolean_options& options) {
+    return evaluate("resolve_self_intersections", std::span(&mesh, 1), options, true,
+                    [](auto given, const auto& how) {
+                        return boolean_of(given, boolean_expression::union_of(1), how, false);
+                    });
 }
 
 const mesh& boolean_result::value() const& {
@@ -410,9 +430,9 @@ treeform::mesh boolean_result::value() && {
 
 certificate check_solid(mesh_view mesh, const progress_callback& progress) {
     detail::boolean::check_operands("check_solid", {&mesh, 1});
+    detail::boolean::check_coordinates("check_solid", {&mesh, 1});
     if (!find_open_edge(detail::boolean::join_operands({&mesh, 1}).all)) return {};
-    const auto [joined, arranged] =
-        arrange_operands("check_solid", {&mesh, 1}, part_of(progress, 0.0, 1.0));
+    const auto [joined, arranged] = arrange_operands({&mesh, 1}, part_of(progress, 0.0, 1.0));
     if (arranged.cancelled) return {.status = status::cancelled};
     const arrangement_cells cells = detail::arrange::cells_of(
         input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), 1);

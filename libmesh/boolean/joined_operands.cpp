@@ -1,4 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/operand_name.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
@@ -6,7 +7,9 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -112,10 +115,35 @@ std::vector<std::uint32_t> joined_operands::operand_of_face() const {
     return operands;
 }
 
+namespace {
+
+/// "unite: operand b", or the function alone where it has one operand.
+std::string name_in(const char* function, std::span<const mesh_view> operands,
+                    const mesh_view& operand) {
+    if (operands.size() == 1) return function;
+    return std::string(function) + ": operand " +
+           base::operand_name(static_cast<std::size_t>(&operand - operands.data()));
+}
+
+}  // namespace
+
+void check_coordinates(const char* function, std::span<const mesh_view> operands) {
+    for (const mesh_view& operand : operands)
+        for (std::size_t f = 0; f < operand.faces.size(); ++f)
+            for (const std::uint32_t corner : operand.faces[f])
+                for (std::size_t k = 0; k < 3; ++k)
+                    if (!(std::abs(operand.points[corner][k]) <= 0x1p1000))
+                        throw std::invalid_argument(
+                            "treeform::" + name_in(function, operands, operand) + ": face " +
+                            std::to_string(f) +
+                            " has a corner that is not finite or beyond 2^1000");
+}
+
 void check_operands(const char* function, std::span<const mesh_view> operands) {
     std::size_t points = 0, faces = 0;
     for (const mesh_view& operand : operands) {
-        base::check_faces(function, operand.points.size(), operand.faces);
+        const std::string name = name_in(function, operands, operand);
+        base::check_faces(name.c_str(), operand.points.size(), operand.faces);
         points += operand.points.size();
         faces += operand.faces.size();
     }

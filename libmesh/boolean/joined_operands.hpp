@@ -28,6 +28,11 @@ struct joined_operands {
 ///         for more than 2^32 - 1 points or faces
 void check_operands(const char* function, std::span<const mesh_view> operands);
 
+/// \throws std::invalid_argument naming `function`, the operand and its lowest face with a corner
+///         that is not finite or beyond 2^1000
+/// \pre    the operands have been checked
+void check_coordinates(const char* function, std::span<const mesh_view> operands);
+
 /// \pre the operands have been checked
 [[nodiscard]] joined_operands join_operands(std::span<const mesh_view> operands);
 

@@ -1,3 +1,4 @@
+#include <libmesh/base/operand_name.hpp>
 #include <treeform/mesh/solid.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -40,18 +41,6 @@ struct solid::formula {
     }
 };
 
-namespace {
-
-/// "a" ... "z", "aa", "ab", ...: the names of operands in a `boolean_expression`.
-std::string name_of(std::size_t operand) {
-    std::string name;
-    for (std::size_t rest = operand + 1; rest > 0; rest = (rest - 1) / 26)
-        name.insert(name.begin(), static_cast<char>('a' + (rest - 1) % 26));
-    return name;
-}
-
-}  // namespace
-
 solid::solid(treeform::mesh&& owned)
     : solid(std::make_shared<const prepared_mesh>(std::move(owned))) {}
 
@@ -91,7 +80,7 @@ const boolean_result& solid::result() const {
             } else if (next->leaf) {
                 const auto [at, is_new] = number.try_emplace(next->leaf.get(), operands.size());
                 if (is_new) operands.emplace_back(*next->leaf);
-                text += name_of(at->second);
+                text += detail::base::operand_name(at->second);
             } else {
                 rest.insert(rest.end(), {{nullptr, ')'},
                                          {next->right.get(), 0},

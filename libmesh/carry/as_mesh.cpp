@@ -1,5 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/properties.hpp>

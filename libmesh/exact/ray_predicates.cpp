@@ -10,8 +10,6 @@
 namespace treeform {
 namespace {
 
-using detail::exact::vector2;
-using detail::exact::vector3;
 using detail::exact::vector_of;
 
 constexpr point3 zero{};

@@ -55,7 +55,8 @@ constexpr plane_interval make_plane_interval(const std::array<int, 3>& side) {
 }
 
 constexpr std::size_t side_key(const std::array<int, 3>& side) {
-    return static_cast<std::size_t>((side[0] + 1) + 3 * (side[1] + 1) + 9 * (side[2] + 1));
+    const int key = side[0] + 1 + 3 * (side[1] + 1) + 9 * (side[2] + 1);
+    return static_cast<std::size_t>(key);
 }
 
 /// All 27 patterns of signs, by `side_key`; those without a common segment are never read.

@@ -1,3 +1,5 @@
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -47,11 +49,13 @@ std::array<triangle3, 12> sides(const point3& min, const point3& max) {
 std::vector<std::uint32_t> faces_in_box(mesh_view mesh, const point3& min, const point3& max) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (!std::isfinite(min[axis]) || !std::isfinite(max[axis]) || min[axis] > max[axis])
-            throw std::invalid_argument("faces_in_box: the box needs finite corners, min <= max");
+            throw std::invalid_argument(
+                "treeform::faces_in_box: the box needs finite corners, min <= max");
 
+    detail::base::check_faces("faces_in_box", mesh.points.size(), mesh.faces);
     const std::array<triangle3, 12> walls = sides(min, max);
     const auto meets = [&](const face& f) {
-        const triangle3 t{mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]};
+        const triangle3 t = detail::base::triangle_of(mesh.points, f);
         if (apart(t, min, max)) return false;
         for (const point3& p : t)
             if (inside(p, min, max)) return true;

@@ -1,10 +1,11 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/face_boxes.hpp>
-#include <libmesh/intersect/block_pair_sieve.hpp>
+#include <libmesh/intersect/block_candidates.hpp>
+#include <libmesh/intersect/face_candidates.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/intersect/mesh_pair_sieve.hpp>
+#include <libmesh/intersect/narrow_phase.hpp>
 #include <libmesh/nearness/face_blocks.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/tree/build_within.hpp>
@@ -31,12 +32,12 @@ void check_tree(const char* function, const char* which, mesh_view mesh, const t
 
 void check_faces_met(const char* function, const detail::intersect::bad_faces& bad) {
     const auto refuse = [&](const char* which, std::uint32_t face) {
-        throw std::invalid_argument(std::string(function) + ": face " + std::to_string(face) +
-                                    " of the " + which +
-                                    " mesh has a corner out of range or not finite");
+        throw std::invalid_argument(std::string(function) + ": " + which + ": face " +
+                                    std::to_string(face) +
+                                    " has a corner out of range or not finite");
     };
-    if (bad.in_a != detail::intersect::bad_faces::none) refuse("first", bad.in_a);
-    if (bad.in_b != detail::intersect::bad_faces::none) refuse("second", bad.in_b);
+    if (bad.in_a != detail::intersect::bad_faces::none) refuse("a", bad.in_a);
+    if (bad.in_b != detail::intersect::bad_faces::none) refuse("b", bad.in_b);
 }
 
 void add(const detail::intersect::bad_faces& more, detail::intersect::bad_faces& bad) {
@@ -44,24 +45,25 @@ void add(const detail::intersect::bad_faces& more, detail::intersect::bad_faces&
     bad.in_b = std::min(bad.in_b, more.in_b);
 }
 
-/// What the chunks of a search give, each looked at through a sieve of its own.
-template <class Sieve, class Input>
-mesh_intersection_result sieved(const pair_search<3>& search, const Input& input,
-                                const mesh_intersection_options& options) {
+/// What the chunks of a search give, in a narrow phase each.
+template <class Source>
+mesh_intersection_result classified(const pair_search<3>& search,
+                                    const typename Source::input& meshes,
+                                    const mesh_intersection_options& options) {
     const std::size_t chunks = search.chunks();
-    std::vector<detail::intersect::sieve_output> found(chunks);
+    std::vector<detail::intersect::narrow_phase_output> found(chunks);
     std::vector<detail::intersect::bad_faces> bad(chunks);
     std::vector<search_statistics> searched(chunks);
     detail::intersect::search_progress progress(options.progress, chunks);
     std::atomic<std::size_t> last{chunks};  // the first chunk that found enough
     for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t, std::size_t) {
         const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
-        detail::intersect::sieve_output mine;  // outputs of neighbors share cache lines
+        detail::intersect::narrow_phase_output mine;  // outputs of neighbors share cache lines
         const auto satisfied = [&] { return options.first_only && !mine.pairs.empty(); };
-        Sieve sieve(input, mine, bad[chunk]);
+        detail::intersect::narrow_phase<Source> phase(options.kinds, mine, meshes, bad[chunk]);
         searched[chunk] = search.visit(chunk, [&](const candidate_block& block) {
             if (not_needed()) return false;
-            sieve.add(block);
+            phase.add(block);
             return !satisfied();
         });
         if (satisfied()) detail::lower(last, chunk);
@@ -90,44 +92,45 @@ mesh_intersection_result detail::intersect::mesh_intersections(
     check_tree("treeform::mesh_intersections", "second", b, tree_b);
     const pair_search<3> search(transformed(tree_a, options.move_a),
                                 transformed(tree_b, options.move_b), turned_boxes::both_ways);
-    const mesh_pair_input input{
-        {a, tree_a, options.move_a}, {b, tree_b, options.move_b}, options.kinds};
-    return sieved<mesh_pair_sieve>(search, input, options);
+    return classified<detail::intersect::face_candidates>(
+        search, {{a, tree_a, options.move_a}, {b, tree_b, options.move_b}}, options);
 }
 
 mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepared_mesh& b,
                                             const mesh_intersection_options& options) {
-    const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: the first mesh");
-    const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: the second mesh");
+    const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: a");
+    const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: b");
     const pair_search<3> search(transformed(tree_a, options.move_a),
                                 transformed(tree_b, options.move_b), turned_boxes::both_ways);
-    const detail::intersect::block_pair_input input{
-        {detail::nearness::face_blocks_of(a).triangles, tree_a, options.move_a},
-        {detail::nearness::face_blocks_of(b).triangles, tree_b, options.move_b},
-        options.kinds};
-    return sieved<detail::intersect::block_pair_sieve>(search, input, options);
+    return classified<detail::intersect::block_candidates>(
+        search,
+        {{detail::nearness::face_blocks_of(a).triangles, tree_a, options.move_a},
+         {detail::nearness::face_blocks_of(b).triangles, tree_b, options.move_b}},
+        options);
 }
 
 mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
                                             const mesh_intersection_options& options) {
-    return detail::intersect::mesh_intersections(
-        a, build_face_tree(a, "mesh_intersections: the first mesh"), b,
-        build_face_tree(b, "mesh_intersections: the second mesh"), options);
+    return detail::intersect::mesh_intersections(a, build_face_tree(a, "mesh_intersections: a"), b,
+                                                 build_face_tree(b, "mesh_intersections: b"),
+                                                 options);
 }
 
 bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                    const tree<3>& tree_b, const mesh_positions& positions) {
     mesh_intersection_options all;
-    const detail::intersect::mesh_pair_input input{
-        {a, tree_a, positions.move_a}, {b, tree_b, positions.move_b}, all.kinds};
+    const detail::intersect::face_candidates::input meshes{{a, tree_a, positions.move_a},
+                                                           {b, tree_b, positions.move_b}};
     std::mutex mutex;  // taken for a bad face only
     detail::intersect::bad_faces bad;
     const bool found = search_any_broad(
         transformed(tree_a, positions.move_a), transformed(tree_b, positions.move_b),
         [&](const candidate_block& block) {
-            detail::intersect::sieve_output output;
+            detail::intersect::narrow_phase_output output;
             detail::intersect::bad_faces met;
-            detail::intersect::mesh_pair_sieve(input, output, met).add(block);
+            detail::intersect::narrow_phase<detail::intersect::face_candidates>(all.kinds, output,
+                                                                                meshes, met)
+                .add(block);
             if (met.in_a != met.none || met.in_b != met.none) {
                 const std::lock_guard lock(mutex);
                 add(met, bad);
@@ -140,26 +143,25 @@ bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view
 }
 
 bool intersects(const prepared_mesh& a, const prepared_mesh& b, const mesh_positions& positions) {
-    return detail::intersect::intersects(
-        a.view(), build_face_tree(a, "intersects: the first mesh"), b.view(),
-        build_face_tree(b, "intersects: the second mesh"), positions);
+    return detail::intersect::intersects(a.view(), build_face_tree(a, "intersects: a"), b.view(),
+                                         build_face_tree(b, "intersects: b"), positions);
 }
 
 bool intersects(mesh_view a, mesh_view b, const mesh_positions& positions) {
-    constexpr const char* first = "intersects: the first mesh";
-    constexpr const char* second = "intersects: the second mesh";
+    constexpr const char* name_a = "intersects: a";
+    constexpr const char* name_b = "intersects: b";
     if (positions.move_a != transform<3>{} || positions.move_b != transform<3>{})
-        return detail::intersect::intersects(a, build_face_tree(a, first), b,
-                                             build_face_tree(b, second), positions);
-    detail::base::check_faces(first, a.points.size(), a.faces);
-    detail::base::check_faces(second, b.points.size(), b.faces);
+        return detail::intersect::intersects(a, build_face_tree(a, name_a), b,
+                                             build_face_tree(b, name_b), positions);
+    detail::base::check_faces(name_a, a.points.size(), a.faces);
+    detail::base::check_faces(name_b, b.points.size(), b.faces);
     try {
         const auto [tree_a, tree_b] = build_overlap(a.faces, detail::base::face_boxes(a.points),
                                                     b.faces, detail::base::face_boxes(b.points));
         return detail::intersect::intersects(a, tree_a.boxes, b, tree_b.boxes);
     } catch (const std::invalid_argument&) {  // a box, and so a face, that is not finite
-        detail::base::check_finite_faces(first, a);
-        detail::base::check_finite_faces(second, b);
+        detail::base::check_finite_faces(name_a, a);
+        detail::base::check_finite_faces(name_b, b);
         throw;
     }
 }

@@ -10,7 +10,7 @@ namespace treeform::detail::intersect {
 
 /// As `self_intersections`; `tree` is that of the faces, and is gone when all has been found.
 /// \pre all that `self_intersections` checks
-[[nodiscard]] self_intersection_result pairs_by_tree(mesh_view mesh, tree<3> tree,
+[[nodiscard]] self_intersection_result pairs_by_tree(mesh_view mesh, tree<3>&& tree,
                                                      const self_intersection_options& options);
 
 }  // namespace treeform::detail::intersect

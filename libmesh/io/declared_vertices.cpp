@@ -44,10 +44,9 @@ element declare_vertices(const write_job& job, bool text,
         if (at == e.columns.end())
             e.columns.insert(e.columns.begin() + added++,
                              {.name = std::string(1, "xyz"[axis]), .type = wanted, .role = role});
-        else if (job.options.precision)
-            at->type = wanted;
-        else if (!(text && keeps_digits(*at)) &&
-                 ((widen && keeps_digits(*at)) || (points && !fits(*points, role, at->type))))
+        else if (job.options.precision ||
+                 (!(text && keeps_digits(*at)) &&
+                  ((widen && keeps_digits(*at)) || (points && !fits(*points, role, at->type)))))
             at->type = wanted;
     }
     return e;

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -48,8 +49,9 @@ class stored_values {
     [[nodiscard]] bool keeps_bits(std::size_t i) const {
         const T value = at(i);
         if (!std::isnan(value)) return true;
-        constexpr T written = std::numeric_limits<T>::quiet_NaN();
-        return std::memcmp(&value, &written, sizeof value) == 0;
+        using bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+        return std::bit_cast<bits>(value) ==
+               std::bit_cast<bits>(std::numeric_limits<T>::quiet_NaN());
     }
 
   private:

@@ -12,7 +12,8 @@ namespace treeform::detail::io {
 template <class T>
 requires std::is_integral_v<T>
 [[nodiscard]] bool is_value_of(double x) {
-    constexpr double beyond = 2.0 * static_cast<double>(std::numeric_limits<T>::max() / 2 + 1);
+    constexpr T half = std::numeric_limits<T>::max() / 2 + 1;
+    constexpr double beyond = 2.0 * static_cast<double>(half);
     constexpr auto least = static_cast<double>(std::numeric_limits<T>::min());
     return x >= least && x < beyond && x == std::floor(x);
 }

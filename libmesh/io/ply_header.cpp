@@ -60,11 +60,9 @@ class header_reader {
     void end_line() {
         if (text_.done()) text_.fail("the file ends in the header");
         if (!is_newline(*text_.at)) text_.fail("more words than expected");
-        if (only_returns_ && *text_.at == '\r')
-            ++text_.at;
-        else if (text_.starts_with("\r\n"))
+        if (!only_returns_ && text_.starts_with("\r\n"))
             text_.at += 2;
-        else if (*text_.at == '\n')
+        else if (*text_.at == '\n' || (only_returns_ && *text_.at == '\r'))
             ++text_.at;
         else
             text_.fail("a carriage return within a line");

@@ -108,6 +108,7 @@ void look_behind(bool more, warnings& said) {
                warnings& said) mutable {
         const std::size_t rows = std::min(most, count - first);
         std::vector<value_place> places;
+        places.reserve(offsets.size());
         for (const pcd_place& p : offsets)
             places.push_back(
                 {bytes->data() + p.fields_ahead * count + first * p.field_size + p.in_field,

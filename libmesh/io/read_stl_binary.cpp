@@ -89,7 +89,7 @@ mesh_file read_stl_binary(const source& in) {
             any |= attribute[i];
         }
         file.mesh.points.insert(file.mesh.points.end(), corners.begin(),
-                                corners.begin() + 3 * size);
+                                corners.begin() + std::ptrdiff_t{3} * size);
         for (std::uint32_t i = 0; i < size; ++i) {
             const std::uint32_t first = 3 * (done + i);
             file.mesh.faces.push_back({first, first + 1, first + 2});

@@ -13,7 +13,9 @@ namespace treeform {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("write: " + what); }
+[[noreturn]] void refuse(const std::string& what) {
+    throw std::invalid_argument("treeform::write: " + what);
+}
 
 }  // namespace
 
@@ -74,7 +76,7 @@ void check_faces(const mesh_file& file) {
     for (std::size_t f = 0; f < faces.size(); ++f)
         for (const std::uint32_t corner : faces[f])
             if (corner >= file.mesh.points.size())
-                refuse("a corner of face " + std::to_string(f) + " is out of range");
+                refuse("face " + std::to_string(f) + " has a corner out of range");
     const auto& stored = file.stored_face;
     if (const auto fault = fault_of(file.attributes.corners, faces.size()); !fault.empty())
         refuse(fault);

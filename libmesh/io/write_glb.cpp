@@ -118,6 +118,51 @@ struct box {
     return middle;
 }
 
+/// The parts of the one buffer: positions, indices, then the values of each number column.
+[[nodiscard]] json describe_views(std::size_t position_bytes, std::size_t index_bytes,
+                                  std::size_t number_bytes, std::size_t numbers) {
+    json views = json::array(
+        {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", position_bytes}, {"target", 34962}},
+         {{"buffer", 0},
+          {"byteOffset", position_bytes},
+          {"byteLength", index_bytes},
+          {"target", 34963}}});
+    for (std::size_t n = 0; n < numbers; ++n)
+        views.push_back({{"buffer", 0},
+                         {"byteOffset", position_bytes + index_bytes + n * number_bytes},
+                         {"byteLength", number_bytes}});
+    return views;
+}
+
+[[nodiscard]] json describe_positions(const write_job& job, const box& b, const point3& offset) {
+    const auto local = [&](const point3& p) {
+        json xyz = json::array();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            xyz.push_back(base::nearest_float(p[axis] - offset[axis]));
+        return xyz;
+    };
+    return {{"bufferView", 0}, {"componentType", 5126}, {"count", job.file.mesh.points.size()},
+            {"type", "VEC3"},  {"min", local(b.min)},   {"max", local(b.max)}};
+}
+
+/// `count` unsigned integers of a view, from a byte of it on.
+[[nodiscard]] json describe_integers(std::size_t view, std::size_t byte, std::size_t count) {
+    return {{"bufferView", view},
+            {"byteOffset", byte},
+            {"componentType", 5125},
+            {"count", count},
+            {"type", "SCALAR"}};
+}
+
+[[nodiscard]] json describe_material(const primitive& p) {
+    json material = {{"doubleSided", true}};
+    material["pbrMetallicRoughness"] = {
+        {"baseColorFactor", {linear(p.rgba[0]), linear(p.rgba[1]), linear(p.rgba[2]), p.rgba[3]}},
+        {"metallicFactor", 0.0}};
+    if (p.rgba[3] < 1.0) material["alphaMode"] = "BLEND";
+    return material;
+}
+
 [[nodiscard]] json describe(const std::vector<primitive>& primitives, const write_job& job,
                             const std::vector<const column*>& numbers, const box& b,
                             const point3& offset) {
@@ -131,31 +176,10 @@ struct box {
     json node = {{"mesh", 0}};
     if (offset != point3{}) node["translation"] = {offset.x, offset.y, offset.z};
     root["nodes"] = json::array({node});
-    const auto local = [&](const point3& p) {
-        json xyz = json::array();
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            xyz.push_back(base::nearest_float(p[axis] - offset[axis]));
-        return xyz;
-    };
     root["buffers"] = json::array(
         {{{"byteLength", position_bytes + index_bytes + numbers.size() * number_bytes}}});
-    json views = json::array(
-        {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", position_bytes}, {"target", 34962}},
-         {{"buffer", 0},
-          {"byteOffset", position_bytes},
-          {"byteLength", index_bytes},
-          {"target", 34963}}});
-    for (std::size_t n = 0; n < numbers.size(); ++n)
-        views.push_back({{"buffer", 0},
-                         {"byteOffset", position_bytes + index_bytes + n * number_bytes},
-                         {"byteLength", number_bytes}});
-    root["bufferViews"] = std::move(views);
-    json accessors = json::array({{{"bufferView", 0},
-                                   {"componentType", 5126},
-                                   {"count", job.file.mesh.points.size()},
-                                   {"type", "VEC3"},
-                                   {"min", local(b.min)},
-                                   {"max", local(b.max)}}});
+    root["bufferViews"] = describe_views(position_bytes, index_bytes, number_bytes, numbers.size());
+    json accessors = json::array({describe_positions(job, b, offset)});
     json shapes = json::array();
     json materials = json::array();
     std::size_t first = 0;
@@ -163,29 +187,15 @@ struct box {
         shapes.push_back({{"attributes", {{"POSITION", 0}}},
                           {"indices", accessors.size()},
                           {"material", materials.size()}});
-        accessors.push_back({{"bufferView", 1},
-                             {"byteOffset", first},
-                             {"componentType", 5125},
-                             {"count", 3 * p.triangles.size()},
-                             {"type", "SCALAR"}});
+        accessors.push_back(describe_integers(1, first, 3 * p.triangles.size()));
         json properties;
         for (std::size_t n = 0; n < numbers.size(); ++n) {
             properties[numbers[n]->name] = accessors.size();
-            accessors.push_back({{"bufferView", 2 + n},
-                                 {"byteOffset", first / 3},
-                                 {"componentType", 5125},
-                                 {"count", p.triangles.size()},
-                                 {"type", "SCALAR"}});
+            accessors.push_back(describe_integers(2 + n, first / 3, p.triangles.size()));
         }
         if (!numbers.empty()) shapes.back()["extras"]["face_properties"] = std::move(properties);
         first += 12 * p.triangles.size();
-        json material = {{"doubleSided", true}};
-        material["pbrMetallicRoughness"] = {
-            {"baseColorFactor",
-             {linear(p.rgba[0]), linear(p.rgba[1]), linear(p.rgba[2]), p.rgba[3]}},
-            {"metallicFactor", 0.0}};
-        if (p.rgba[3] < 1.0) material["alphaMode"] = "BLEND";
-        materials.push_back(std::move(material));
+        materials.push_back(describe_material(p));
     }
     root["accessors"] = std::move(accessors);
     root["materials"] = std::move(materials);

@@ -165,6 +165,22 @@ HWY_INLINE vector3 minus(const vector3& a, const vector3& b) {
     return {{hn::Sub(a.of[0], b.of[0]), hn::Sub(a.of[1], b.of[1]), hn::Sub(a.of[2], b.of[2])}};
 }
 
+/// From one cylinder to another whose center is `gap` away, nearly where they are nearest; of length
+/// 1, or 0 where nothing can be said.
+HWY_INLINE vector3 direction_between(const cylinder_lanes& a, const cylinder_lanes& b,
+                                     const vector3& gap) {
+    const floats d;
+    const vector3 on_a = near_point(a, gap);
+    const vector3 on_b = near_point(b, minus(on_a, gap));
+    vector3 direction = minus(gap, minus(on_a, on_b));
+    const lanes square = dot(direction, direction);
+    const lanes per_length =  // nothing can be said of a length that underflows
+        hn::IfThenElseZero(hn::Gt(square, hn::Set(d, 1e-30F)),
+                           hn::Div(hn::Set(d, 1.0F), hn::Sqrt(square)));
+    for (auto& axis : direction.of) axis = hn::Mul(axis, per_length);
+    return direction;
+}
+
 /// Eight cylinders against one. Along any direction v, of a length within 2^-20 of 1, the cylinders are
 /// apart by what their centers are less what each reaches toward the other; the best v runs
 /// between their nearest points, and a projection onto one and from there onto the other is close
@@ -211,14 +227,7 @@ unsigned raise_eight(const eight_cylinders& cylinders, const frame_map<3>& frame
         const vector3 gap = minus({{hn::Set(d, other.center[0]), hn::Set(d, other.center[1]),
                                     hn::Set(d, other.center[2])}},
                                   center);
-        const vector3 on_disc = near_point(cylinder, gap);
-        const vector3 on_that = near_point(that, minus(on_disc, gap));
-        vector3 direction = minus(gap, minus(on_disc, on_that));
-        const lanes square_of = dot(direction, direction);
-        const lanes per_length =  // nothing can be said of a length that underflows
-            hn::IfThenElseZero(hn::Gt(square_of, hn::Set(d, 1e-30F)),
-                               hn::Div(hn::Set(d, 1.0F), hn::Sqrt(square_of)));
-        for (auto& axis : direction.of) axis = hn::Mul(axis, per_length);
+        const vector3 direction = direction_between(cylinder, that, gap);
 
         const lanes sizes =
             hn::MulAdd(hn::Set(d, map.size), hn::Add(cylinder.half, cylinder.radius),

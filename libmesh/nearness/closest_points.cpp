@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace treeform {
 namespace {
@@ -230,21 +231,21 @@ const detail::nearness::face_blocks& detail::nearness::face_blocks_of(const prep
     });
 }
 
-std::optional<closest_points_result> closest_points(mesh_view a, mesh_view b,
-                                                    const distance_options& options) {
-    const tree<3> tree_a = build_face_tree(a, "closest_points: the first mesh");
-    const tree<3> tree_b = build_face_tree(b, "closest_points: the second mesh");
+namespace {
+
+std::optional<closest_points_result> find(const std::string& function, mesh_view a, mesh_view b,
+                                          const distance_options& options) {
+    const tree<3> tree_a = build_face_tree(a, (function + ": a").c_str());
+    const tree<3> tree_b = build_face_tree(b, (function + ": b").c_str());
     return detail::nearness::closest_points(a, {tree_a, options.move_a}, b,
                                             {tree_b, options.move_b}, options.radius);
 }
 
-std::optional<closest_points_result> closest_points(const prepared_mesh& a, const prepared_mesh& b,
-                                                    const distance_options& options) {
-    detail::check_radius("treeform::closest_points", options.radius);
-    const transformed<3> tree_a(build_face_tree(a, "closest_points: the first mesh"),
-                                options.move_a);
-    const transformed<3> tree_b(build_face_tree(b, "closest_points: the second mesh"),
-                                options.move_b);
+std::optional<closest_points_result> find(const std::string& function, const prepared_mesh& a,
+                                          const prepared_mesh& b, const distance_options& options) {
+    detail::check_radius(("treeform::" + function).c_str(), options.radius);
+    const transformed<3> tree_a(build_face_tree(a, (function + ": a").c_str()), options.move_a);
+    const transformed<3> tree_b(build_face_tree(b, (function + ": b").c_str()), options.move_b);
     if (a.view().faces.empty() || b.view().faces.empty()) return std::nullopt;
     const auto& in_a = detail::nearness::face_blocks_of(a);
     const auto& in_b = detail::nearness::face_blocks_of(b);
@@ -262,13 +263,26 @@ std::optional<closest_points_result> closest_points(const prepared_mesh& a, cons
                   options.radius);
 }
 
-double distance(const prepared_mesh& a, const prepared_mesh& b, const distance_options& options) {
-    const auto found = closest_points(a, b, options);
+double distance_of(const std::optional<closest_points_result>& found) {
     return found ? found->distance : std::numeric_limits<double>::infinity();
 }
+
+}  // namespace
+
+std::optional<closest_points_result> closest_points(mesh_view a, mesh_view b,
+                                                    const distance_options& options) {
+    return find("closest_points", a, b, options);
+}
+std::optional<closest_points_result> closest_points(const prepared_mesh& a, const prepared_mesh& b,
+                                                    const distance_options& options) {
+    return find("closest_points", a, b, options);
+}
+
+double distance(const prepared_mesh& a, const prepared_mesh& b, const distance_options& options) {
+    return distance_of(find("distance", a, b, options));
+}
 double distance(mesh_view a, mesh_view b, const distance_options& options) {
-    const auto found = closest_points(a, b, options);
-    return found ? found->distance : std::numeric_limits<double>::infinity();
+    return distance_of(find("distance", a, b, options));
 }
 
 }  // namespace treeform

@@ -1,4 +1,3 @@
-#include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/union_find.hpp>
@@ -375,7 +374,6 @@ class remover {
 }  // namespace
 
 resolve_result remove_faces(mesh_view mesh, const resolve_options& options) {
-    base::check_faces("resolve_self_intersections", mesh.points.size(), mesh.faces);
     return remover(mesh, options).run();
 }
 

@@ -1,3 +1,5 @@
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/repair/remove_faces.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/resolve.hpp>
@@ -42,14 +44,17 @@ void count_losses(mesh_view mesh, resolve_result& result) {
 }
 
 resolve_result by_mode(mesh_view mesh, resolve_mode mode, const resolve_options& options) {
-    if (mode == resolve_mode::remove) return detail::repair::remove_faces(mesh, options);
+    if (mode == resolve_mode::remove) {
+        detail::base::check_faces("resolve_self_intersections", mesh.points.size(), mesh.faces);
+        detail::base::check_finite_faces("resolve_self_intersections", mesh);
+        return detail::repair::remove_faces(mesh, options);
+    }
     const boolean_options as_boolean{.inside = options.inside,
                                      .precision = options.precision,
                                      .rounding_steps = options.rounding_steps,
                                      .progress = options.progress};
-    return mode == resolve_mode::split
-               ? from(split({&mesh, 1}, as_boolean))
-               : from(boolean({&mesh, 1}, boolean_expression::union_of(1), as_boolean));
+    return mode == resolve_mode::split ? from(detail::boolean::resolve_by_split(mesh, as_boolean))
+                                       : from(detail::boolean::resolve_by_union(mesh, as_boolean));
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
-#include <libmesh/base/union_find.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/round/cancelled_faces.hpp>
 #include <libmesh/round/face_pieces.hpp>
+#include <libmesh/round/flat_patches.hpp>
 #include <libmesh/round/joint_geometry.hpp>
 #include <libmesh/round/snap_nearby.hpp>
 #include <treeform/tree/build.hpp>
@@ -22,6 +23,10 @@
 
 namespace treeform::detail::round {
 namespace {
+
+using base::cross;
+using base::dot;
+using base::minus;
 
 constexpr std::size_t grain = std::size_t{1} << 10;
 constexpr int most_rounds = 8, most_rounds_of_operands = 3;
@@ -122,9 +127,6 @@ class joining {
     }
 
     [[nodiscard]] bool of_operands() const { return !operand_.empty(); }
-    [[nodiscard]] std::uint32_t operand_of(std::uint32_t f) const {
-        return of_operands() ? operand_[result_.face_of[f]] : 0;
-    }
 
     /// What moves in one pass may move again in the next.
     void note(double distance) { pass_ = std::max(pass_, distance); }
@@ -162,7 +164,7 @@ class joining {
     void visit_near(std::uint32_t p, const tree<3>& around,
                     const std::vector<std::uint32_t>& points, const Visit& visit) const {
         search(around, box_around(at(p), at(p), reach_), [&](std::uint32_t id) {
-            if (length(difference(at(p), at(points[id]))) <= reach_) visit(points[id]);
+            if (length(minus(at(p), at(points[id]))) <= reach_) visit(points[id]);
         });
     }
 
@@ -195,7 +197,7 @@ class joining {
         for (std::uint32_t p = 0; p < now.size(); ++p) {
             if (now[p] == p) continue;
             any = true;
-            note(length(difference(at(p), at(now[p]))));
+            note(length(minus(at(p), at(now[p]))));
         }
         if (!any) return false;
         replace_faces([&](std::uint32_t, const face& f, std::vector<face>& pieces) {
@@ -206,12 +208,12 @@ class joining {
 
     [[nodiscard]] place nearest_on(std::uint32_t p, const edge_name& e) const {
         const point3 &a = at(e[0]), &q = at(p);
-        const point3 way = difference(at(e[1]), a);
-        const double square = dot_product(way, way);
+        const point3 way = minus(at(e[1]), a);
+        const double square = dot(way, way);
         const double along =
-            square > 0.0 ? std::clamp(dot_product(difference(q, a), way) / square, 0.0, 1.0) : 0.0;
+            square > 0.0 ? std::clamp(dot(minus(q, a), way) / square, 0.0, 1.0) : 0.0;
         const point3 there{a.x + along * way.x, a.y + along * way.y, a.z + along * way.z};
-        return {along, length(difference(q, there))};
+        return {along, length(minus(q, there))};
     }
 
     /// Corners next to offending edges.
@@ -233,17 +235,15 @@ class joining {
     /// Where the lines through two edges are nearest, if that is inside of both.
     [[nodiscard]] bool pass(passing_edges& e) const {
         const point3 &p = at(e.a[0]), &q = at(e.b[0]);
-        const point3 u = difference(at(e.a[1]), p), v = difference(at(e.b[1]), q),
-                     w = difference(q, p);
-        const double uu = dot_product(u, u), uv = dot_product(u, v), vv = dot_product(v, v),
-                     uw = dot_product(u, w), vw = dot_product(v, w);
+        const point3 u = minus(at(e.a[1]), p), v = minus(at(e.b[1]), q), w = minus(q, p);
+        const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
         const double turn = uu * vv - uv * uv;
         if (!(turn > 0x1p-40 * uu * vv)) return false;  // along each other: their ends are near
         const double s = (uw * vv - vw * uv) / turn, t = (uw * uv - vw * uu) / turn;
         if (!(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)) return false;
         const point3 on_a{p.x + s * u.x, p.y + s * u.y, p.z + s * u.z};
         const point3 on_b{q.x + t * v.x, q.y + t * v.y, q.z + t * v.z};
-        const double distance = length(difference(on_a, on_b));
+        const double distance = length(minus(on_a, on_b));
         if (!(distance <= near())) return false;
         e.on_a = {s, distance};
         e.on_b = {t, distance};
@@ -274,10 +274,10 @@ class joining {
     /// made for other edges there, or a new one.
     std::uint32_t point_for(const passing_edges& e, std::size_t first_made) {
         for (const std::uint32_t end : {e.a[0], e.a[1], e.b[0], e.b[1]})
-            if (length(difference(at(end), e.between)) <= reach_) return end;
+            if (length(minus(at(end), e.between)) <= reach_) return end;
         const auto made = static_cast<std::uint32_t>(surface().points.size());
         for (std::uint32_t p = made; p-- > first_made && made - p < 64;)
-            if (length(difference(at(p), e.between)) <= reach_) return p;
+            if (length(minus(at(p), e.between)) <= reach_) return p;
         surface().points.push_back(e.between);
         return made;
     }
@@ -393,60 +393,15 @@ class joining {
         return true;
     }
 
-    /// Whether two faces at edge `e` lie in one plane except for what is near, facing the same way.
-    [[nodiscard]] bool flat(std::uint32_t f, std::uint32_t g, const edge_name& e) const {
-        if (source_[result_.face_of[f]] == source_[result_.face_of[g]]) return true;
-        const auto apex = [&](std::uint32_t face_number) {
-            for (const std::uint32_t c : surface().faces[face_number])
-                if (c != e[0] && c != e[1]) return c;
-            return e[0];
-        };
-        const point3 along = difference(at(e[1]), at(e[0]));
-        point3 large = difference(at(apex(f)), at(e[0])), small = difference(at(apex(g)), at(e[0]));
-        if (length(cross_product(along, large)) < length(cross_product(along, small)))
-            std::swap(large, small);
-        // The apex of the smaller one as seen from the larger one: how high, and on which side.
-        const point3 normal = cross_product(along, large);
-        const double size = length(normal);
-        if (!(size > 0.0)) return false;
-        const double height = std::abs(dot_product(normal, small)) / size;
-        const double across = dot_product(normal, cross_product(along, small)) / size;
-        return height <= near() && across <= near() * length(along);
-    }
-
-    /// Offending faces that are flat with their neighbors, by patches; and the edges that are not
-    /// between two of one patch, ascending.
-    struct flat_patches {
-        std::vector<std::array<std::uint32_t, 2>> by_patch;  ///< patch, face
-        std::vector<edge_name> borders;
-    };
-    [[nodiscard]] flat_patches find_patches() const {
-        std::vector<std::pair<std::pair<edge_name, std::uint32_t>, std::uint32_t>> edges;
-        for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
-            for (const edge_name& e : edges_of(surface().faces[f]))
-                edges.push_back({{e, operand_of(f)}, f});
-        std::sort(edges.begin(), edges.end());
-        base::union_find sets(surface().faces.size());
-        flat_patches found;
-        for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-            while (end < edges.size() && edges[end].first == edges[begin].first) ++end;
-            const std::uint32_t f = edges[begin].second, g = edges[end - 1].second;
-            const edge_name& name = edges[begin].first.first;
-            if (end - begin == 2 && bad_[f] != 0 && bad_[g] != 0 && flat(f, g, name))
-                sets.join(f, g);
-            else
-                found.borders.push_back(name);
-        }
-        for (std::uint32_t f = 0; f < surface().faces.size(); ++f)
-            if (bad_[f] != 0) found.by_patch.push_back({sets.root(f), f});
-        std::sort(found.by_patch.begin(), found.by_patch.end());
-        return found;
-    }
-
     /// Flat patches of offending faces get the triangles of Delaunay, so that patches that lie on
     /// each other are cut in the same way. A piece is of the face that its middle lies in.
     void flip() {
-        const auto [by_patch, borders] = find_patches();
+        const auto [by_patch, borders] = find_flat_patches({.surface = surface(),
+                                                            .offending = bad_,
+                                                            .face_of = result_.face_of,
+                                                            .source = source_,
+                                                            .operand = operand_,
+                                                            .near = near()});
         const std::vector<std::uint32_t> face_of = result_.face_of;
         for (std::size_t begin = 0, end = 0; begin < by_patch.size(); begin = end) {
             std::vector<face> faces;

@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <cerrno>
+#include <system_error>
 
 namespace treeform::detail::stream {
 namespace {
@@ -29,8 +30,9 @@ using reason = weld_stream_error::reason;
 
 [[noreturn]] void fail(reason why, const std::filesystem::path& path) {
     const char* const what = why == reason::write ? "written" : "read";
-    throw weld_stream_error(why, path,
-                            path.string() + ": cannot be " + what + ": " + std::strerror(errno));
+    throw weld_stream_error(
+        why, path,
+        path.string() + ": cannot be " + what + ": " + std::generic_category().message(errno));
 }
 
 }  // namespace

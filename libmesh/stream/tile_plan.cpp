@@ -70,6 +70,7 @@ std::vector<point3> tile_steps::uncrowded_sample() const {
     std::stable_sort(by_cube.begin(), by_cube.end(), before);
     by_cube.erase(std::unique(by_cube.begin(), by_cube.end(), same), by_cube.end());
     std::vector<point3> some;
+    some.reserve(by_cube.size());
     for (const auto& [cube, p] : by_cube) some.push_back(p);
     return some;
 }

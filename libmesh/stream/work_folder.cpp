@@ -7,9 +7,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 namespace treeform::detail::stream {
 namespace {
@@ -35,7 +35,8 @@ work_folder::work_folder(fs::path path) : path_(std::move(path)) {
         refuse(reason::folder_foreign, path_, "holds files of others");
     lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (lock_ < 0)
-        refuse(reason::folder, path_, std::string("cannot be written to: ") + std::strerror(errno));
+        refuse(reason::folder, path_,
+               std::string("cannot be written to: ") + std::generic_category().message(errno));
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
         ::close(lock_);
         refuse(reason::folder_in_use, path_, "is in use by another process");

@@ -1,6 +1,7 @@
 #include <treeform/mesh/properties.hpp>
 
-#include <cassert>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace treeform {
@@ -9,8 +10,15 @@ mesh select_faces(mesh_view mesh, std::span<const std::uint32_t> faces) {
     constexpr std::uint32_t unused = 0xffffffffU;
     std::vector<std::uint32_t> new_of_old(mesh.points.size(), unused);
     for (const std::uint32_t f : faces) {
-        assert(f < mesh.faces.size());
-        for (const std::uint32_t corner : mesh.faces[f]) new_of_old[corner] = 0;
+        if (f >= mesh.faces.size())
+            throw std::invalid_argument("treeform::select_faces: there is no face " +
+                                        std::to_string(f));
+        for (const std::uint32_t corner : mesh.faces[f]) {
+            if (corner >= mesh.points.size())
+                throw std::invalid_argument("treeform::select_faces: face " + std::to_string(f) +
+                                            " has a corner out of range");
+            new_of_old[corner] = 0;
+        }
     }
     treeform::mesh result;
     for (std::size_t i = 0; i < new_of_old.size(); ++i) {

@@ -1,3 +1,4 @@
+#include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/double_double.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -8,6 +9,7 @@
 namespace treeform {
 
 double signed_volume(mesh_view mesh) {
+    detail::base::check_faces("signed_volume", mesh.points.size(), mesh.faces);
     constexpr std::size_t grain = std::size_t{1} << 14;
     std::vector<detail::base::double_double> parts(chunk_count(mesh.faces.size(), grain));
     for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {

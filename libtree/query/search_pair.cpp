@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -214,6 +215,7 @@ class pair_traversal {
         ++seen_.box_tests;
         const unsigned overlapping = overlap_mask(*node.common, *other.common, slot);
         if (!both_ || overlapping == 0) return overlapping;
+        assert(node.own != nullptr && other.own != nullptr);
         return overlapping & overlap_mask(*node.own, *other.own, slot);
     }
     /// The masks of `node` for the slots of `other` in `wanted`; returns those where it is not 0.
@@ -223,6 +225,7 @@ class pair_traversal {
         overlapping.fill(0xFF);
         wanted = overlap_masks(*node.common, *other.common, wanted, overlapping.data());
         if (!both_ || wanted == 0) return wanted;
+        assert(node.own != nullptr && other.own != nullptr);
         return overlap_masks(*node.own, *other.own, wanted, overlapping.data());
     }
 

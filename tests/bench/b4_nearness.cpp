@@ -11,6 +11,7 @@
 #include "bench/peers/versions.hpp"
 #include "support/random.hpp"
 #include <libmesh/geometry/closest_point.hpp>
+#include <libmesh/nearness/closest_point_query.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
@@ -116,7 +117,7 @@ job closest_job(const shared_input& input, const Ask& ask) {
 }
 
 job own_batch(const shared_input& input) {
-    const auto query = std::make_shared<const closest_point_query>(*input->mesh);
+    const auto query = std::make_shared<const detail::nearness::closest_point_query>(*input->mesh);
     return closest_job(input, [input, query] {
         distances found;
         found.reserve(input->queries.size());
@@ -127,7 +128,7 @@ job own_batch(const shared_input& input) {
 }
 
 job own_single(const shared_input& input) {
-    const auto query = std::make_shared<const closest_point_query>(*input->mesh);
+    const auto query = std::make_shared<const detail::nearness::closest_point_query>(*input->mesh);
     return closest_job(input, [input, query] {
         distances found;
         found.reserve(input->queries.size());

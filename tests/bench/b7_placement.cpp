@@ -8,6 +8,7 @@
 #include "bench/pose_askers.hpp"
 #include "bench/poses.hpp"
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/nearness/closest_points.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/measure.hpp>
@@ -49,8 +50,8 @@ make_asker own_from_arrays(pose_question question) {
         return [a = scene.a, b = scene.b, question](const transform<3>& pose) -> double {
             if (question == pose_question::collide)
                 return intersects(*a, *b, {.move_b = pose}) ? 1 : 0;
-            return mesh_distance(*a, build_face_tree(*a), *b,
-                                 transformed<3>(build_face_tree(*b), pose))
+            return detail::nearness::closest_points(*a, build_face_tree(*a), *b,
+                                                    transformed<3>(build_face_tree(*b), pose))
                 .value()
                 .distance;
         };
@@ -155,8 +156,9 @@ contest contact_beside_distance(const setting& setting, const scene_name& name) 
              return make_job([p] {
                  double sum = 0.0;
                  for (const transform<3>& pose : p->given->apart)
-                     sum += mesh_distance(*p->given->a, build_face_tree(p->a), *p->given->b,
-                                          transformed<3>(build_face_tree(p->b), pose))
+                     sum += detail::nearness::closest_points(
+                                *p->given->a, build_face_tree(p->a), *p->given->b,
+                                transformed<3>(build_face_tree(p->b), pose))
                                 .value()
                                 .distance;
                  return sum;

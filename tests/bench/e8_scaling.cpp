@@ -6,6 +6,7 @@
 #include "bench/tool_run.hpp"
 #include "bench/workload.hpp"
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/nearness/closest_point_query.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/tree/point_search.hpp>
 
@@ -101,11 +102,13 @@ contest contest_of_library(std::size_t size) {
                          }),
                  of_ring("nearest face of each point", size,
                          [](const mesh& m) {
-                             return closest_point_query(m).nearest(std::span(m.points)).size();
+                             return detail::nearness::closest_point_query(m)
+                                 .nearest(std::span(m.points))
+                                 .size();
                          }),
                  of_ring("distance of two rings", size / 2,
                          [](const mesh& m) {
-                             return mesh_distance(m, test::moved(m, {0, 0, 3}));
+                             return closest_points(m, test::moved(m, {0, 0, 3}));
                          })},
             .long_runs = size < 1'000'000 ? 3 : 1};
 }

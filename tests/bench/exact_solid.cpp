@@ -1,6 +1,7 @@
 #include "bench/exact_solid.hpp"
 
 #include <libmesh/exact/implicit_point.hpp>
+#include <libmesh/nearness/closest_point_query.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
 
@@ -49,7 +50,7 @@ std::vector<point3> corners_of(const mesh& m) {
 
 double furthest(const mesh& from, const mesh& to) {
     const std::vector<point3> corners = corners_of(from);
-    const auto nearest = closest_point_query(to).nearest(std::span(corners));
+    const auto nearest = detail::nearness::closest_point_query(to).nearest(std::span(corners));
     double largest = 0.0;
     for (const auto& one : nearest) largest = std::max(largest, one->distance);
     return largest;

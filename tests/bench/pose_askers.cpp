@@ -4,7 +4,9 @@
 #include "bench/nary_nearness.hpp"
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
 #include <libtree/paper/nary_search.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/triangle.hpp>
@@ -160,23 +162,23 @@ ask_pose paper_distance_by(const scene& scene, const tree_config& config,
 ask_pose own_collide(const scene& scene) {
     return [trees = own_trees_of(scene)](const transform<3>& pose) {
         const auto& [a, b, tree_a, tree_b] = *trees;
-        return intersects(*a, tree_a, *b, tree_b, {.move_b = pose}) ? 1.0 : 0.0;
+        return detail::intersect::intersects(*a, tree_a, *b, tree_b, {.move_b = pose}) ? 1.0 : 0.0;
     };
 }
 
 ask_pose own_intersect(const scene& scene) {
-    const auto a = std::make_shared<const distance_model>(*scene.a);
-    const auto b = std::make_shared<const distance_model>(*scene.b);
+    const auto a = std::make_shared<const prepared_mesh>(prepared_mesh::borrow(*scene.a));
+    const auto b = std::make_shared<const prepared_mesh>(prepared_mesh::borrow(*scene.b));
     return [a, b](const transform<3>& pose) {
         return static_cast<double>(mesh_intersections(*a, *b, {.move_b = pose}).pairs.size());
     };
 }
 
 ask_pose own_distance(const scene& scene) {
-    const auto a = std::make_shared<const distance_model>(*scene.a);
-    const auto b = std::make_shared<const distance_model>(*scene.b);
+    const auto a = std::make_shared<const prepared_mesh>(prepared_mesh::borrow(*scene.a));
+    const auto b = std::make_shared<const prepared_mesh>(prepared_mesh::borrow(*scene.b));
     return [a, b](const transform<3>& pose) {
-        return mesh_distance(*a, *b, {.move_b = pose}).value().distance;
+        return closest_points(*a, *b, {.move_b = pose}).value().distance;
     };
 }
 

@@ -2,6 +2,7 @@
 
 #include "support/random.hpp"
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
 
@@ -61,7 +62,8 @@ void draw_poses(scene& scene, std::size_t count) {
     test::random random(1);
     while (scene.meeting.size() < count || scene.apart.size() < count) {
         const transform<3> pose = random_pose(random);
-        const bool meet = intersects(*scene.a, tree_a, *scene.b, tree_b, {.move_b = pose});
+        const bool meet =
+            detail::intersect::intersects(*scene.a, tree_a, *scene.b, tree_b, {.move_b = pose});
         std::vector<transform<3>>& list = meet ? scene.meeting : scene.apart;
         if (list.size() < count) list.push_back(pose);
     }

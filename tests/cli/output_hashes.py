@@ -171,7 +171,7 @@ keep=last              small   {f} -t 0.5% --keep last -o out.ply
 keep=mean              small   {f} -t 0.5% --keep mean -o out.obj --map map.csv
 keep=mean/chain        small   {f} -t 0.5% --rule chain --keep mean -o out.ply
 keep=max:z             small   {f} -t 0.5% --keep max:z -o out.ply --removed gone.xyz
-across                 small   {f} -t 0.01% --across normal,uv,colour -o out.ply
+across                 small   {f} -t 0.01% --across normal,uv,color -o out.ply
 across/obj             few     {f} -t 1% --across normal,uv -o out.obj
 same                   small   {f} -t 1% --same z=0.001 -o out.ply
 borders                small   {f} -t 1% --borders -o out.ply

@@ -139,5 +139,14 @@ def limit_memory(size):
     return lambda: resource.setrlimit(resource.RLIMIT_DATA, (size, size))
 
 
+ALL_SKIPPED = 77  # SKIP_RETURN_CODE of the tests
+
+
 def main():
-    unittest.main(argv=[sys.argv[0]] + sys.argv[1:], verbosity=1)
+    result = unittest.main(argv=[sys.argv[0]] + sys.argv[1:], verbosity=1, exit=False).result
+    skipped = len({getattr(test, "test_case", test).id() for test, _ in result.skipped})
+    if skipped:  # tests/house/count_tests.py reads this line
+        print(f"{skipped} of {result.testsRun} test cases skipped, 0 in part", flush=True)
+    if result.wasSuccessful() and skipped and skipped == result.testsRun:
+        sys.exit(ALL_SKIPPED)
+    sys.exit(not result.wasSuccessful())

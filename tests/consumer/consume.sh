@@ -46,6 +46,7 @@ find_package() {
 
 pkg_config() {
     local flags folder=$WORK/pkg_$1 program
+    command -v pkg-config >/dev/null || { echo "skipped: no pkg-config"; exit 77; }
     export PKG_CONFIG_PATH=$installed/$LIBDIR/pkgconfig
     pkg-config --exact-version="$(pkg-config --modversion treeform)" treeform
     flags=$(pkg-config --cflags --libs treeform)
@@ -70,6 +71,10 @@ run_tool() {
     # that stops reading at the first match, and what writes into it then fails.)
     [[ $1 == static ]] ||
         grep -q "libtreeform_mesh.* => $WORK/" <<<"$(ldd "$installed/bin/tf-selfintersect")"
+}
+
+check_exports() {
+    "$SOURCE/tests/house/check_exports.sh" "$installed/$LIBDIR"/libtreeform_{tree,mesh}.so
 }
 
 # Every header of the door is installed, and what the installed ones include is.

@@ -11,6 +11,7 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/intersections.h>
 #include <doctest/doctest.h>
+#include <support/settings.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
@@ -19,7 +20,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <variant>
 #include <vector>
@@ -61,10 +61,7 @@ exact_point exact(const tf::implicit_point& p) {
     return the_point(CGAL::intersection(plane(d, 0), plane(d, 3), plane(d, 6)));
 }
 
-std::size_t count() {
-    const char* text = std::getenv("TREEFORM_STRESS_COUNT");
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : 12;
-}
+std::size_t count() { return test::stress_count(12); }
 
 /// Whether the triangles have exactly their shared corners, and what these span, in common.
 bool fit(const std::vector<exact_point>& points, const tf::face& f, const tf::face& g) {

@@ -18,6 +18,7 @@
 #include <doctest/doctest.h>
 #include <support/certified.hpp>
 #include <support/models.hpp>
+#include <support/settings.hpp>
 #include <support/truth.hpp>
 
 #include <array>
@@ -36,10 +37,7 @@ bool is_asked(const std::string& name) {
     return only == nullptr || name.find(only) != std::string::npos;
 }
 
-std::size_t most_faces() {
-    const char* text = std::getenv("TREEFORM_STRESS_COUNT");
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : 12'000;
-}
+std::size_t most_faces() { return test::setting("TREEFORM_STRESS_COUNT", 12'000); }
 
 /// Equal corners joined; empty where no reader should take the file, or its numbers are none.
 tf::mesh read(const std::filesystem::path& path, const tf::transform<3>& by = {}) {

@@ -18,14 +18,15 @@
 #include <CGAL/Polygon_mesh_processing/repair.h>
 #include <CGAL/Surface_mesh.h>
 #include <doctest/doctest.h>
+#include <support/models.hpp>
 #include <support/rational_volume.hpp>
+#include <support/settings.hpp>
 #include <support/solid_checks.hpp>
 #include <support/truth.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -38,10 +39,7 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 using kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using surface = CGAL::Surface_mesh<kernel::Point_3>;
 
-std::size_t most_faces() {
-    const char* text = std::getenv("TREEFORM_STRESS_COUNT");
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : 3000;
-}
+std::size_t most_faces() { return test::setting("TREEFORM_STRESS_COUNT", 3000); }
 
 /// Its longest side 1, about the origin.
 tf::mesh to_unit_size(tf::mesh mesh) {
@@ -141,11 +139,8 @@ std::vector<named_solid> solids(const std::filesystem::path& folder) {
 }  // namespace
 
 TEST_CASE("corefinement: where CGAL has an answer, volumes agree to 1e-12") {
-    const std::filesystem::path folder = TREEFORM_MODELS_DIR;
-    if (folder.empty()) {
-        MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
-        return;
-    }
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
     const std::vector<named_solid> found = solids(folder);
     std::size_t compared = 0, without = 0;
     double largest = 0.0;

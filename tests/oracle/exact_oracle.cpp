@@ -9,20 +9,17 @@
 #include <doctest/doctest.h>
 #include <support/gmp_predicates.hpp>
 #include <support/point_families.hpp>
+#include <support/settings.hpp>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 namespace {
 
-long calls_per_family() {
-    const char* count = std::getenv("TREEFORM_STRESS_COUNT");
-    return count ? std::max(1L, std::atol(count)) : 100000;
-}
+long calls_per_family() { return std::max(1L, static_cast<long>(test::stress_count(100000))); }
 
 struct tally {
     long zeros = 0;

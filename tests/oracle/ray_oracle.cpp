@@ -19,12 +19,12 @@
 #include <doctest/doctest.h>
 #include <support/models.hpp>
 #include <support/random.hpp>
+#include <support/settings.hpp>
 #include <support/soups.hpp>
 #include <support/stress_families.hpp>
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -36,10 +36,7 @@ using surface = CGAL::Surface_mesh<kernel::Point_3>;
 
 kernel::Point_3 exact(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
-long pairs_per_family() {
-    const char* count = std::getenv("TREEFORM_STRESS_COUNT");
-    return count ? std::max(1L, std::atol(count)) : 5000;
-}
+long pairs_per_family() { return std::max(1L, static_cast<long>(test::stress_count(5000))); }
 
 /// Wants no degenerate triangle.
 bool meet_in_cgal(const tf::ray3& ray, const tf::triangle3& t) {

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 #include <gmpxx.h>
 #include <support/point_families.hpp>
+#include <support/settings.hpp>
 
 #include <algorithm>
 #include <array>
@@ -58,10 +59,7 @@ bool turned_plane(const std::vector<point3>& p, std::size_t first, const point3&
     return along != 0;
 }
 
-long calls_per_family() {
-    const char* count = std::getenv("TREEFORM_STRESS_COUNT");
-    return count ? std::max(1L, std::atol(count)) : 20000;
-}
+long calls_per_family() { return std::max(1L, static_cast<long>(test::stress_count(20000))); }
 
 struct tally {
     long calls = 0, zeros = 0, wrong = 0;

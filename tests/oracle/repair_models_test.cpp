@@ -19,21 +19,18 @@
 #include <doctest/doctest.h>
 #include <support/models.hpp>
 #include <support/random.hpp>
+#include <support/settings.hpp>
 #include <support/solid_checks.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace {
 
-std::size_t point_count() {
-    const char* text = std::getenv("TREEFORM_STRESS_COUNT");
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : 500;
-}
+std::size_t point_count() { return test::setting("TREEFORM_STRESS_COUNT", 500); }
 
 /// Closed, finite, and not too large for a test.
 bool can_be_asked(const tf::mesh& mesh) {

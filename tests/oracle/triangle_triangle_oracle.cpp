@@ -11,6 +11,7 @@
 /// by side. CGAL::intersection is asked about the first 10^5 pairs of each.
 
 #include "support/gmp_lattice.hpp"
+#include "support/settings.hpp"
 #include "support/stress_families.hpp"
 #include "support/unfiltered.hpp"
 #include <treeform/mesh/triangle.hpp>
@@ -180,16 +181,11 @@ void check_pair(const triangle_pair& pair, bool with_points, tally& sum) {
         fail(sum.wrong_reference, "points");
 }
 
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-    const char* text = std::getenv(name);
-    return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
-
 }  // namespace
 
 TEST_CASE("every verdict and every class is that of exact rational geometry") {
-    const std::uint64_t count = from_environment("TREEFORM_STRESS_COUNT", 2000);
-    const std::uint64_t seed = from_environment("TREEFORM_STRESS_SEED", 1);
+    const std::uint64_t count = test::stress_count(2000);
+    const std::uint64_t seed = test::stress_seed();
     const char* only = std::getenv("TREEFORM_STRESS_FAMILY");
     fmt::print("{:<16}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>9}{:>9}{:>9}{:>9}\n", "family",
                "pairs", "none", "point", "segment", "area", "crossing", "degenerate", "verdicts",

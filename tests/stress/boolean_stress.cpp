@@ -12,6 +12,7 @@
 #include <doctest/doctest.h>
 #include <gmpxx.h>
 #include <support/rational_volume.hpp>
+#include <support/settings.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
@@ -19,7 +20,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <string>
@@ -37,11 +37,7 @@ using test::under;
 using test::volume_of;
 using plane = test::rational_plane;
 
-std::size_t setting(const char* name, std::size_t otherwise) {
-    const char* text = std::getenv(name);
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-std::size_t pairs_of_family() { return setting("TREEFORM_STRESS_COUNT", 40); }
+std::size_t pairs_of_family() { return test::stress_count(40); }
 
 /// Exact volumes of the union and the intersection of two operands.
 struct two_volumes {
@@ -176,9 +172,7 @@ tf::mesh tetrahedron(std::array<tf::point3, 4> p) {
     return {{p.begin(), p.end()}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
-std::uint64_t seed(std::uint64_t family) {
-    return setting("TREEFORM_STRESS_SEED", 1) * 100 + family;
-}
+std::uint64_t seed(std::uint64_t family) { return test::stress_seed() * 100 + family; }
 
 }  // namespace
 

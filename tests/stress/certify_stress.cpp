@@ -11,6 +11,7 @@
 #include <gmpxx.h>
 #include <support/certified.hpp>
 #include <support/rational_volume.hpp>
+#include <support/settings.hpp>
 #include <support/solid_checks.hpp>
 #include <support/solid_families.hpp>
 #include <support/solids.hpp>
@@ -27,12 +28,8 @@
 
 namespace {
 
-std::size_t setting(const char* name, std::size_t otherwise) {
-    const char* text = std::getenv(name);
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-std::size_t cases_of_family() { return setting("TREEFORM_STRESS_COUNT", 6); }
-std::uint64_t seed() { return setting("TREEFORM_STRESS_SEED", 1); }
+std::size_t cases_of_family() { return test::stress_count(6); }
+std::uint64_t seed() { return test::stress_seed(); }
 
 double area_of(const std::vector<tf::mesh>& operands) {
     double sum = 0.0;

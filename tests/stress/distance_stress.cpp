@@ -13,6 +13,7 @@
 #include <treeform/tree/transform.hpp>
 
 #include <doctest/doctest.h>
+#include <support/settings.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
@@ -24,10 +25,7 @@
 
 namespace {
 
-std::size_t poses() {
-    const char* text = std::getenv("TREEFORM_STRESS_COUNT");
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : 3000;
-}
+std::size_t poses() { return test::stress_count(3000); }
 
 tf::triangle3 triangle_of(const tf::mesh& mesh, const tf::face& f) {
     return {mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]};

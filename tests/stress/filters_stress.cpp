@@ -16,6 +16,7 @@
 
 #include <doctest/doctest.h>
 #include <support/point_families.hpp>
+#include <support/settings.hpp>
 #include <support/stress_families.hpp>
 #include <support/stress_meshes.hpp>
 #include <support/stress_placement.hpp>
@@ -26,7 +27,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,12 +39,8 @@ using tf::test::integer_orient2d;
 using tf::test::integer_sign;
 using tf::test::stress_family;
 
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-    const char* text = std::getenv(name);
-    return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
-std::uint64_t count_of_family() { return from_environment("TREEFORM_STRESS_COUNT", 5000); }
-std::uint64_t seed() { return from_environment("TREEFORM_STRESS_SEED", 1); }
+std::uint64_t count_of_family() { return test::stress_count(5000); }
+std::uint64_t seed() { return test::stress_seed(); }
 
 struct tally {
     std::uint64_t calls = 0;

@@ -4,6 +4,7 @@
 ///
 /// Pairs a family: 2000, or $TREEFORM_STRESS_COUNT.
 
+#include "support/settings.hpp"
 #include "support/stress_families.hpp"
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
@@ -14,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <set>
 #include <utility>
 
@@ -121,10 +121,7 @@ void check_scales(const triangle_pair& pair, const triangle_contact& found) {
     }
 }
 
-std::uint64_t pairs_a_family() {
-    const char* text = std::getenv("TREEFORM_STRESS_COUNT");
-    return text == nullptr ? 2000 : std::strtoull(text, nullptr, 10);
-}
+std::uint64_t pairs_a_family() { return test::stress_count(2000); }
 
 }  // namespace
 

@@ -9,12 +9,12 @@
 #include <doctest/doctest.h>
 #include <support/brute_weld.hpp>
 #include <support/random.hpp>
+#include <support/settings.hpp>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <vector>
 
@@ -28,10 +28,7 @@ using cloud = std::vector<point3>;
 constexpr std::array searches{neighbor_search::automatic, neighbor_search::window,
                               neighbor_search::cells, neighbor_search::tree};
 
-std::size_t points_a_cloud() {
-    const char* text = std::getenv("TREEFORM_STRESS_COUNT");
-    return text == nullptr ? 20000 : 10 * std::strtoull(text, nullptr, 10);
-}
+std::size_t points_a_cloud() { return 10 * test::setting("TREEFORM_STRESS_COUNT", 2000); }
 
 std::vector<std::uint32_t> leaders(const cloud& points, const tf::weld_options& options) {
     const tf::point_groups groups = tf::group_points(points, options);

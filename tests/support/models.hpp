@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The folder of real models that some tests read.
+/// The folders of real models and clouds that some tests read.
 
-#include <doctest/doctest.h>
+#include <support/skip.hpp>
 #include <support/truth.hpp>
 
 #include <filesystem>
@@ -11,10 +11,17 @@
 
 namespace test {
 
-/// TREEFORM_MODELS_DIR; empty, and said to be skipped, where there is none.
+/// TREEFORM_MODELS_DIR; empty, and the test case counts as skipped, where there is none.
 inline std::filesystem::path models_folder() {
     std::filesystem::path folder = TREEFORM_MODELS_DIR;
-    if (folder.empty()) MESSAGE("skipped: TREEFORM_MODELS_DIR is not set");
+    if (folder.empty()) skip("TREEFORM_MODELS_DIR is not set");
+    return folder;
+}
+
+/// TREEFORM_CLOUDS_DIR; empty, and the test case counts as skipped, where there is none.
+inline std::filesystem::path clouds_folder() {
+    std::filesystem::path folder = TREEFORM_CLOUDS_DIR;
+    if (folder.empty()) skip("TREEFORM_CLOUDS_DIR is not set");
     return folder;
 }
 

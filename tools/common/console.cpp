@@ -4,7 +4,7 @@
 
 #include <cerrno>
 #include <charconv>
-#include <cstring>
+#include <system_error>
 
 namespace tools {
 namespace {
@@ -41,7 +41,8 @@ void console::log_to(const std::filesystem::path& path) {
     log_.reset(std::fopen(path.c_str(), "a"));
     if (!log_)
         throw failure(bad_output, "log",
-                      path.string() + ": cannot append to the log: " + std::strerror(errno));
+                      path.string() +
+                          ": cannot append to the log: " + std::generic_category().message(errno));
 }
 
 void console::say(level l, std::string_view text) {

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 
 namespace tools {
 namespace {
@@ -57,7 +57,8 @@ void check_output(const fs::path& path, bool force) {
     if (fs::is_directory(path, error)) refuse(path, "is a folder");
     if (fs::exists(path, error) && !force) refuse(path, "exists; -f overwrites it");
     if (access(folder.c_str(), W_OK) != 0)
-        refuse(path, "cannot write to folder " + folder.string() + ": " + std::strerror(errno));
+        refuse(path, "cannot write to folder " + folder.string() + ": " +
+                         std::generic_category().message(errno));
 }
 
 output_place::output_place(fs::path path, bool force, guard& keeper)
@@ -70,7 +71,7 @@ output_place::output_place(fs::path path, bool force, guard& keeper)
     if (written_directly(path_)) return;
     std::string folder = (folder_of(target_) / ".unfinished-XXXXXX").string();
     if (mkdtemp(folder.data()) == nullptr)
-        refuse(path_, std::string("cannot be written: ") + std::strerror(errno));
+        refuse(path_, std::string("cannot be written: ") + std::generic_category().message(errno));
     folder_ = folder;
     keeper_.unfinished(folder_);
     writable_ = folder_ / target_.filename();
@@ -89,9 +90,9 @@ void output_place::commit() {
     if (force_ && stat(target_.c_str(), &before) == 0)
         static_cast<void>(chmod(writable_.c_str(), before.st_mode & 07777));
     if (!move_into_place(writable_, target_, force_))
-        refuse(path_, errno == EEXIST
-                          ? "exists; -f overwrites it"
-                          : std::string("cannot be put in place: ") + std::strerror(errno));
+        refuse(path_, errno == EEXIST ? "exists; -f overwrites it"
+                                      : std::string("cannot be put in place: ") +
+                                            std::generic_category().message(errno));
 }
 
 std::string output_place::said_of_path(std::string text) const {
@@ -129,7 +130,7 @@ void output_file::commit() {
 
 void output_file::fail() const {
     refuse(place_.path() == "-" ? fs::path("standard output") : place_.path(),
-           std::string("cannot be written: ") + std::strerror(errno));
+           std::string("cannot be written: ") + std::generic_category().message(errno));
 }
 
 }  // namespace tools

@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace tools {
@@ -44,8 +44,9 @@ spooled_input::spooled_input(job& work, const fs::path& beside)
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) throw failure(bad_input, "read", "standard input cannot be read");
         if (!spooled.write(bytes.data(), count) || (count == 0 && !spooled.flush()))
-            throw failure(bad_output, "output",
-                          path_.string() + ": cannot be written: " + std::strerror(errno));
+            throw failure(
+                bad_output, "output",
+                path_.string() + ": cannot be written: " + std::generic_category().message(errno));
         if (count == 0) break;
     }
     const int file = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);

@@ -7,10 +7,10 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/settings.hpp>
 #include <support/stress_families.hpp>
 
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,8 +30,7 @@ std::optional<tf::pair_kind> kind_of(const tf::test::triangle_pair& pair) {
 }  // namespace
 
 TEST_CASE("self_intersections: of two faces of their own corners, what their intersection says") {
-    const char* text = std::getenv("TREEFORM_STRESS_COUNT");
-    const std::uint64_t count = text != nullptr ? std::stoull(text) : 3000;
+    const std::uint64_t count = test::stress_count(3000);
     const std::vector<tf::face> faces{{0, 1, 2}, {3, 4, 5}};
     for (std::size_t f = 0; f < tf::test::stress_family_count; ++f) {
         const auto family = static_cast<tf::test::stress_family>(f);

@@ -138,7 +138,7 @@ TEST_CASE("mesh distance: what cannot be meant is refused") {
     const tf::tree<3> other = tree_of(test::grid(3));
     CHECK_THROWS_AS((void)tf::detail::nearness::closest_points(a, tree, a, other),
                     std::invalid_argument);
-    CHECK_THROWS_AS((void)tf::closest_points(a, a, -1.0), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::closest_points(a, a, {.radius = -1.0}), std::invalid_argument);
     tf::mesh bad = a;
     bad.faces[1][2] = 77;
     CHECK_THROWS_AS((void)tf::closest_points(a, bad), std::invalid_argument);

@@ -175,11 +175,9 @@ TEST_CASE("point location: an open mesh is refused, naming the edge") {
     const auto edge = tf::find_open_edge(open);
     REQUIRE(edge);
     CHECK(*edge == std::array<std::uint32_t, 2>{5, 6});
-    const auto tree = tf::build_face_tree(open);
-    CHECK_THROWS_WITH_AS(
-        tf::detail::intersect::point_locator(open, tree),
-        "treeform::point_locator: the mesh is open at the edge between points 5 and 6",
-        std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)tf::locate(open, tf::point3{}),
+                         "treeform::locate: the mesh is open at the edge between points 5 and 6",
+                         std::invalid_argument);
     tf::mesh turned = cube();
     std::swap(turned.faces[0][0], turned.faces[0][1]);
     CHECK(tf::find_open_edge(turned));
@@ -197,8 +195,7 @@ TEST_CASE("point location: empty meshes and bad numbers") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK_THROWS_WITH_AS(
         static_cast<void>(locator.locate(std::vector<tf::point3>{{}, {0, nan, 0}})),
-        "treeform::point_locator: point 1 is not finite", std::invalid_argument);
-    CHECK_THROWS_AS(tf::detail::intersect::point_locator(cube(), tree), std::invalid_argument);
+        "treeform::locate: point 1 is not finite", std::invalid_argument);
 }
 
 struct curves {

@@ -245,7 +245,7 @@ TEST_CASE("rays and a mesh: an empty mesh is never met, and what cannot be meant
                     std::invalid_argument);
     CHECK_THROWS_WITH_AS(
         static_cast<void>(query.any(std::vector<tf::ray3>{x_axis, {{0, 0, 0}, {0, 0, 0}}})),
-        "treeform::ray_query: ray 1 has no direction", std::invalid_argument);
+        "treeform::raycast: ray 1 has no direction", std::invalid_argument);
     const tf::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {nan, 0, 0}}, {{0, 1, 2}}};
     CHECK_THROWS_AS(tf::detail::intersect::ray_query(one, empty), std::invalid_argument);
     CHECK_NOTHROW(static_cast<void>(tf::build_face_tree(one)));

@@ -158,3 +158,18 @@ TEST_CASE("point search: answers are the same on any number of threads") {
         CHECK(search.k_nearest(queries, 5).neighbors == expected.neighbors);
     }
 }
+
+TEST_CASE("point search: a projection says where an element is") {
+    struct star {
+        int name;
+        std::array<float, 3> at;
+    };
+    const std::vector<star> stars{{7, {0, 0, 0}}, {8, {1, 0, 0}}, {9, {4, 0, 0}}};
+    const tf::point_search<3> by_member(stars, &star::at);
+    const tf::point_search<3> by_function(stars, [](const star& s) {
+        return std::array<double, 3>{-s.at[0], 0, 0};
+    });
+    CHECK(by_member.nearest({3, 0, 0}) == tf::near_point{2, 1.0});
+    CHECK(by_function.nearest({-1.5, 0, 0}) == tf::near_point{1, 0.5});
+    CHECK(by_member.k_nearest({0, 0, 0}, 2).back() == tf::near_point{1, 1.0});
+}

@@ -1,5 +1,6 @@
 #pragma once
-/// \file Attributes: all that a mesh has besides points and faces. Columns of values for vertices,
+/// \file
+/// Attributes: all that a mesh has besides points and faces. Columns of values for vertices,
 /// faces and other elements; values of corners; names of parts; files of materials and textures;
 /// comments.
 
@@ -158,7 +159,9 @@ struct column {
 /// A column with one value a row.
 template <class T>
 [[nodiscard]] column make_column(std::string name, std::span<const T> values) {
-    column c{.name = std::move(name), .type = scalar_type_of<T>()};
+    column c;
+    c.name = std::move(name);
+    c.type = scalar_type_of<T>();
     c.values.resize(values.size_bytes());
     if (!values.empty()) std::memcpy(c.values.data(), values.data(), values.size_bytes());
     return c;

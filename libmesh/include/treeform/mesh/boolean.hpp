@@ -148,7 +148,9 @@ struct TREEFORM_API boolean_result {
     std::optional<operand_volumes> volumes{};
     boolean_statistics statistics{};
 
-    /// The mesh. \throws not_certified_error unless the certificate's status is ok
+    /// The mesh.
+    ///
+    /// \throws not_certified_error unless the certificate's status is ok
     [[nodiscard]] const treeform::mesh& value() const&;
     [[nodiscard]] treeform::mesh value() &&;
 };

@@ -83,8 +83,9 @@ struct mesh_positions {
 /// Exact: faces are tested, not their boxes. A face that only touches the box is included. The box
 /// may be flat, a line or a point.
 ///
-/// \pre    every corner is less than `mesh.points.size()`, every coordinate is finite
-/// \throws std::invalid_argument when a coordinate of the box is not finite or min exceeds max
+/// \pre    every coordinate is finite
+/// \throws std::invalid_argument when a coordinate of the box is not finite or min exceeds max, or
+///         naming the lowest face with a corner out of range
 /// \cost   O(F) time
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> faces_in_box(mesh_view mesh,

@@ -85,7 +85,9 @@ struct curve_view {
 /// The edges of the closed polygon through points 0, 1, ... count - 1.
 [[nodiscard]] TREEFORM_API std::vector<curve_edge> polygon_edges(std::uint32_t count);
 
-/// The tree over the boxes of the edges. \throws std::invalid_argument as `build_face_tree`
+/// The tree over the boxes of the edges.
+///
+/// \throws std::invalid_argument as `build_face_tree`
 [[nodiscard]] TREEFORM_API tree<2> edge_tree(curve_view curves);
 
 /// Locates points with respect to closed curves in the plane: any number of curves, even crossing

@@ -45,7 +45,9 @@ class TREEFORM_API point_reader {
     /// Number of points in the file, if its header says it.
     [[nodiscard]] std::optional<std::uint64_t> count() const;
     /// Replaces the content of `block` by the next points, at most `most`. Returns false, with an
-    /// empty block, when none are left. \throws io_error as `read`
+    /// empty block, when none are left.
+    ///
+    /// \throws io_error as `read`
     bool read(point_block& block, std::size_t most);
 
   private:

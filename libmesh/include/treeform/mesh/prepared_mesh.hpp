@@ -31,6 +31,7 @@ class TREEFORM_API prepared_mesh {
     explicit prepared_mesh(mesh&& owned);
     /// Refers to the caller's arrays, which must stay unchanged as long as this lives.
     [[nodiscard]] static prepared_mesh borrow(mesh_view view);
+    static prepared_mesh borrow(mesh&&) = delete;  // gone before it is asked: let this own it
 
     /// A cloud of points, to be measured, slid and separated as meshes are. Each point is a
     /// degenerate face, so face numbers are point numbers. A cloud bounds no solid. It penetrates a

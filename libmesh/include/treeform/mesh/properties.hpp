@@ -81,7 +81,8 @@ struct topology_counts {
 /// So the volume of a small part far from the origin is right, too. Not finite when such a product
 /// is beyond the range of double.
 ///
-/// \pre    every corner is less than `mesh.points.size()`, every coordinate is finite
+/// \pre    every coordinate is finite
+/// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(F)
 /// \same   on any number of threads
 /// \source Dekker, A Floating-Point Technique for Extending the Available Precision, Numer. Math.
@@ -91,9 +92,10 @@ struct topology_counts {
 /// A mesh of the given faces, in the order of `faces`, and of the points that they use, in the
 /// order of `mesh`.
 ///
-/// \pre  every number is less than `mesh.faces.size()`
-/// \cost O(V + F) time
-/// \same on any number of threads
+/// \throws std::invalid_argument naming the number that is no face of the mesh, or a face with a
+///         corner out of range
+/// \cost   O(V + F) time
+/// \same   on any number of threads
 [[nodiscard]] TREEFORM_API mesh select_faces(mesh_view mesh, std::span<const std::uint32_t> faces);
 
 }  // namespace treeform

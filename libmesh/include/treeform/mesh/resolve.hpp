@@ -62,7 +62,9 @@ struct TREEFORM_API resolve_result {
     std::uint64_t vanished_components = 0;  ///< components, by vertices, that have no face left
     resolve_statistics statistics{};
 
-    /// The mesh. \throws not_certified_error unless the certificate's status is ok
+    /// The mesh.
+    ///
+    /// \throws not_certified_error unless the certificate's status is ok
     [[nodiscard]] const treeform::mesh& value() const&;
     [[nodiscard]] treeform::mesh value() &&;
 };

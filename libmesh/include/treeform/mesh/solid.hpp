@@ -36,7 +36,9 @@ class TREEFORM_API solid {
     /// occurs several times has one number.
     /// \cost   as `boolean` of all meshes in the formula, once
     [[nodiscard]] const boolean_result& result() const;
-    /// The surface. \throws not_certified_error unless its certificate's status is ok
+    /// The surface.
+    ///
+    /// \throws not_certified_error unless its certificate's status is ok
     [[nodiscard]] const treeform::mesh& mesh() const;
 
   private:

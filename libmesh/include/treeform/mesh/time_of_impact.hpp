@@ -82,6 +82,7 @@ struct impact {
                                                  const impact_options& options = {});
 
 /// The greatest double that is not beyond the exact time of a contact.
+///
 /// \pre `contact` was returned by `time_of_impact` for `motion`
 [[nodiscard]] TREEFORM_API double time_not_beyond(const sweep_contact& contact,
                                                   const point3& motion);

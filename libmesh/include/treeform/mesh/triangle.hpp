@@ -1,5 +1,6 @@
 #pragma once
-/// \file Triangles, exactly: what two of them have in common, where a ray hits one, and when a
+/// \file
+/// Triangles, exactly: what two of them have in common, where a ray hits one, and when a
 /// triangle in straight motion first meets another. Triangles include their edges.
 
 #include <treeform/mesh/mesh.hpp>

@@ -155,7 +155,9 @@ struct file_weld_result {
 /// Only the groups, for callers who merge their own arrays. Of `options`, it uses tolerance, rule,
 /// search, label, may_merge and progress.
 ///
-/// \throws std::invalid_argument, \cost and \same as `weld`
+/// \throws std::invalid_argument as `weld`
+/// \cost   as `weld`
+/// \same   as `weld`
 [[nodiscard]] TREEFORM_API point_groups group_points(points_view points,
                                                      const weld_options& options = {});
 

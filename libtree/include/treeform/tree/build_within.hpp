@@ -68,8 +68,9 @@ template <std::size_t D>
 
 /// Calls `use(state, i, box)` for the elements of each chunk of `grain` in order, with the box of
 /// element i in double, and returns the states. A block of boxes is made before the first is looked
-/// at: so no branch waits for an element that comes from anywhere in memory. \throws
-/// std::invalid_argument naming the element whose box is not finite or is empty
+/// at: so no branch waits for an element that comes from anywhere in memory.
+///
+/// \throws std::invalid_argument naming the element whose box is not finite or is empty
 template <class State, class Range, class MakeBox, class Use>
 [[nodiscard]] std::vector<State> for_boxes(const char* function, const Range& range,
                                            const MakeBox& make_aabb, const Use& use,

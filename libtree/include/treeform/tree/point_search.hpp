@@ -15,6 +15,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <ranges>
@@ -51,18 +52,23 @@ class TREEFORM_API point_search {
     /// No points: every search finds nothing.
     point_search() = default;
 
-    /// The points of any range of anything with []. Copies the coordinates.
+    /// The points of any range; copies the coordinates. `position_of` gives the position of an
+    /// element, anything with []. It is a function or a member, as in
+    /// `point_search<3>(stars, &star::at)`.
+    ///
     /// \throws std::invalid_argument naming the first point that is not finite
     /// \same   on any number of threads
-    template <std::ranges::random_access_range Points>
-    requires(!std::same_as<Points, point_search>) explicit point_search(const Points& points)
-        : tree_(build(points, [](const auto& p) {
+    template <std::ranges::random_access_range Points, class Position = std::identity>
+    requires(!std::same_as<Points, point_search>) explicit point_search(
+        const Points& points, const Position& position_of = {})
+        : tree_(build(points, [&](const auto& element) {
+              const auto& p = std::invoke(position_of, element);
               aabb<double, D> box;
               for (std::size_t k = 0; k < D; ++k)
                   box.min[k] = box.max[k] = static_cast<double>(p[k]);
               return box;
           })) {
-        copy(points);
+        copy(points, position_of);
     }
 
     [[nodiscard]] std::size_t size() const { return tree_.size(); }
@@ -87,8 +93,8 @@ class TREEFORM_API point_search {
                                                         double radius) const;
 
   private:
-    template <class Points>
-    void copy(const Points& points);
+    template <class Points, class Position>
+    void copy(const Points& points, const Position& position_of);
 
     tree<D> tree_;
     /// [blocks][D][8] in leaf order; NaN in slots without a point, which is near nothing.
@@ -97,8 +103,8 @@ class TREEFORM_API point_search {
 };
 
 template <std::size_t D>
-template <class Points>
-void point_search<D>::copy(const Points& points) {
+template <class Points, class Position>
+void point_search<D>::copy(const Points& points, const Position& position_of) {
     constexpr std::size_t grain = 512;
     const std::size_t blocks = chunk_count(tree_.size(), 8);
     coordinates_.resize(blocks * D * 8);
@@ -109,9 +115,9 @@ void point_search<D>::copy(const Points& points) {
             for (std::size_t k = 0; k < D; ++k) {
                 slot[k * 8] = std::numeric_limits<double>::quiet_NaN();
                 if (place >= tree_.size()) continue;
-                const auto& p =
-                    std::ranges::begin(points)[static_cast<std::ranges::range_difference_t<Points>>(
-                        tree_.ids()[place])];
+                const auto id =
+                    static_cast<std::ranges::range_difference_t<Points>>(tree_.ids()[place]);
+                const auto& p = std::invoke(position_of, std::ranges::begin(points)[id]);
                 slot[k * 8] = static_cast<double>(p[k]);
                 largest[chunk] = std::max(largest[chunk], std::abs(slot[k * 8]));
             }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Rays against a tree: the first hit, all hits, and whether there is any.
+/// Rays against a tree of any kind: the first hit, all hits, and whether there is any.
 
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -44,6 +44,17 @@ template <std::size_t D>
 TREEFORM_API void trace(const tree<D>& tree, const ray<double, D>& ray,
                         function_ref<double(std::uint32_t)> visit);
 
+template <tree_of_trees Trees, class Visit>
+void trace(const Trees& trees, ray<double, Trees::dimensions> rest, const Visit& visit) {
+    trace(trees.top(), rest, [&](std::uint32_t part) {
+        trace(trees.part(part), rest, [&](std::uint32_t id) {
+            if (id != no_primitive) rest.t_max = visit(id);
+            return rest.t_max;
+        });
+        return rest.t_max;
+    });
+}
+
 /// The parameter of a hit: the hit itself when it is a number, else its member t.
 template <class Hit>
 [[nodiscard]] constexpr double parameter_of(const Hit& hit) {
@@ -86,10 +97,10 @@ template <std::floating_point T, std::size_t D>
 ///         are visited may depend on the processor
 /// \source the slab test of Kay and Kajiya, SIGGRAPH 1986; bounds as in Ize, Robust BVH Ray
 ///         Traversal, JCGT 2 (2013), derived anew for scaled frames in ray.cpp
-template <std::floating_point T, std::size_t D, class Visit>
+template <any_tree Tree, std::floating_point T, class Visit>
 requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
-void visit_along(const tree<D>& tree, const ray<T, D>& ray, const Visit& visit) {
-    detail::trace<D>(tree, detail::in_double(ray), visit);
+void visit_along(const Tree& tree, const ray<T, Tree::dimensions>& ray, const Visit& visit) {
+    detail::trace(tree, detail::in_double(ray), visit);
 }
 
 /// The hit with the least t; of equal ones, that of the lowest primitive. None when there is no
@@ -102,8 +113,9 @@ void visit_along(const tree<D>& tree, const ray<T, D>& ray, const Visit& visit) 
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   O(log N + boxes entered before the hit) for most rays
 /// \same   as a loop over all primitives, whatever the order of the tree
-template <std::floating_point T, std::size_t D, class HitOf>
-[[nodiscard]] auto first_hit(const tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
+template <any_tree Tree, std::floating_point T, class HitOf>
+[[nodiscard]] auto first_hit(const Tree& tree, const ray<T, Tree::dimensions>& ray,
+                             const HitOf& hit_of) {
     const double t_min = static_cast<double>(ray.t_min);
     double t_best = static_cast<double>(ray.t_max);
     std::optional<ray_hit<detail::hit_type<HitOf>>> best;
@@ -125,8 +137,9 @@ template <std::floating_point T, std::size_t D, class HitOf>
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   O(log N + boxes met + H log H) for most rays, H hits
 /// \same   as `first_hit`
-template <std::floating_point T, std::size_t D, class HitOf>
-[[nodiscard]] auto all_hits(const tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
+template <any_tree Tree, std::floating_point T, class HitOf>
+[[nodiscard]] auto all_hits(const Tree& tree, const ray<T, Tree::dimensions>& ray,
+                            const HitOf& hit_of) {
     const double t_min = static_cast<double>(ray.t_min);
     const double t_max = static_cast<double>(ray.t_max);
     std::vector<ray_hit<detail::hit_type<HitOf>>> hits;
@@ -152,8 +165,9 @@ template <std::floating_point T, std::size_t D, class HitOf>
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   at most that of `all_hits`
 /// \same   as `first_hit` in its answer; which primitives are asked may depend on the processor
-template <std::floating_point T, std::size_t D, class HitOf>
-[[nodiscard]] bool any_hit(const tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
+template <any_tree Tree, std::floating_point T, class HitOf>
+[[nodiscard]] bool any_hit(const Tree& tree, const ray<T, Tree::dimensions>& ray,
+                           const HitOf& hit_of) {
     const double t_min = static_cast<double>(ray.t_min);
     const double t_max = static_cast<double>(ray.t_max);
     bool found = false;

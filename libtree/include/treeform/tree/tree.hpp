@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The tree, and a tree that is searched as if its primitives had been moved.
+/// The tree, trees that are searched as one, and trees searched as if their primitives had moved.
 
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/transform.hpp>
@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -83,7 +84,9 @@ class tree {
     [[nodiscard]] bool is_leaf_level(unsigned level) const { return level + 1 == levels_; }
     /// Primitives below a full node of `level`.
     [[nodiscard]] std::size_t capacity(unsigned level) const {
-        return std::size_t{1} << (3 * (levels_ - level));
+        const unsigned height = levels_ - level;
+        assert(height <= 11);  // a full root of 11 levels is more than max_size
+        return std::size_t{1} << (3 * height);
     }
     /// At least the root, which a tree built over nothing has, too.
     [[nodiscard]] std::size_t nodes_in_level(unsigned level) const {
@@ -120,7 +123,37 @@ class tree {
     tree_frame<D> frame_;
 };
 
-/// A tree that is searched as if an affine map had moved its primitives:
+/// Several trees, the parts, that are searched as one. Every search takes them as it takes a
+/// `tree`, with the same answers as on a tree over all their primitives.
+///
+/// `top()` is a tree over boxes around the parts; its `ids()` are the numbers of parts. `part(n)`
+/// is the tree of part n. It may be made when a search first asks for it, on several threads at
+/// once. Its `ids()` are primitives of the whole, each in one part, or 0xFFFFFFFF for an empty
+/// slot. The leaf order of the whole is that of the top, then that of the parts.
+template <class T>
+concept tree_of_trees = requires(const T& whole, std::uint32_t number) {
+    { whole.size() } -> std::convertible_to<std::size_t>;  // primitives
+    { whole.top() } -> std::same_as<const tree<T::dimensions>&>;
+    { whole.part(number) } -> std::same_as<const tree<T::dimensions>&>;
+};
+
+namespace detail {
+
+/// Stands in `tree::ids()` for a primitive that has been removed; its slot is empty.
+inline constexpr std::uint32_t no_primitive = 0xFFFFFFFF;
+
+template <class T>
+inline constexpr bool is_tree = false;
+template <std::size_t D>
+inline constexpr bool is_tree<tree<D>> = true;
+
+}  // namespace detail
+
+/// What a search by one query takes: a `tree`, or trees searched as one.
+template <class T>
+concept any_tree = detail::is_tree<T> || tree_of_trees<T>;
+
+/// A tree of any kind that is searched as if an affine map had moved its primitives:
 /// `search(transformed{tree, map}, other, ...)`.
 ///
 /// Nothing is rebuilt. Boxes are moved when a search opens their node. A moved box is larger than
@@ -130,43 +163,50 @@ class tree {
 /// you decide on.
 ///
 /// \source Arvo, Transforming Axis-Aligned Bounding Boxes, Graphics Gems, 1990
-template <std::size_t D>
+template <std::size_t D, class Tree = tree<D>>
 class transformed {
   public:
     static constexpr std::size_t dimensions = D;
 
     /// \pre    `tree` outlives this and every search that takes it
     /// \throws std::invalid_argument when an entry of `by` is NaN or infinite
-    transformed(const tree<D>& tree, const transform<D>& by) : tree_(&tree), by_(by) {
+    transformed(const Tree& tree, const transform<D>& by) : tree_(&tree), by_(by) {
         if (!by.finite())
             throw std::invalid_argument("treeform::transformed: an entry of the map is not finite");
     }
     /// A tree as it is.
-    transformed(const tree<D>& tree) : tree_(&tree) {}  // NOLINT: meant to be implicit
+    transformed(const Tree& tree) : tree_(&tree) {}  // NOLINT: meant to be implicit
 
-    [[nodiscard]] const tree<D>& original() const { return *tree_; }
+    [[nodiscard]] const Tree& original() const { return *tree_; }
     [[nodiscard]] const transform<D>& by() const { return by_; }
     [[nodiscard]] bool moves() const { return by_ != transform<D>{}; }
 
   private:
-    const tree<D>* tree_;
+    const Tree* tree_;
     transform<D> by_;
 };
+
+template <any_tree Tree>
+transformed(const Tree&) -> transformed<Tree::dimensions, Tree>;
+template <any_tree Tree>
+transformed(const Tree&, const transform<Tree::dimensions>&) -> transformed<Tree::dimensions, Tree>;
 
 namespace detail {
 
 template <class T>
-inline constexpr bool is_placed_tree = false;
-template <std::size_t D>
-inline constexpr bool is_placed_tree<tree<D>> = true;
-template <std::size_t D>
-inline constexpr bool is_placed_tree<transformed<D>> = true;
+inline constexpr bool is_transformed = false;
+template <std::size_t D, class Tree>
+inline constexpr bool is_transformed<transformed<D, Tree>> = true;
 
 }  // namespace detail
 
-/// What a search of two trees takes on either side: a `tree` or a `transformed`.
+/// What a search of two `tree`s takes on either side: a `tree` or a `transformed` one.
 template <class T>
-concept placed_tree = detail::is_placed_tree<T>;
+concept placed_tree = detail::is_tree<T> || std::same_as<T, transformed<T::dimensions>>;
 static_assert(placed_tree<tree<3>> && placed_tree<transformed<2>>);
+
+/// The same of any kind of tree.
+template <class T>
+concept any_placed_tree = any_tree<T> || detail::is_transformed<T>;
 
 }  // namespace treeform

@@ -14,7 +14,9 @@
 namespace treeform::detail {
 
 /// Memory aligned to a cache line; large pieces ask for huge pages, which the kernel clears and
-/// maps several times faster. \throws std::bad_alloc
+/// maps several times faster.
+///
+/// \throws std::bad_alloc
 [[nodiscard]] TREEFORM_API void* allocate_buffer(std::size_t bytes);
 TREEFORM_API void free_buffer(void* memory);
 

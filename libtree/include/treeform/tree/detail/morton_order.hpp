@@ -15,7 +15,9 @@ namespace treeform::detail {
 /// A permutation of 0 ... count - 1, ascending by Morton code of `point_of(i)` in the box of all
 /// points, equal codes by number; coordinates that are not finite count as the least. Points that
 /// are few are left as they are.
-/// \cost O(count), `point_of` is called twice a point; \same on any number of threads
+///
+/// \cost O(count), `point_of` is called twice a point
+/// \same on any number of threads
 template <std::size_t D>
 [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> morton_order(
     std::size_t count, function_ref<std::array<double, D>(std::size_t)> point_of);

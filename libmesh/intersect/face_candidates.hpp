@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// From candidate pairs of two meshes to classified pairs, for the candidates of one chunk.
+/// Candidates of two meshes as they are, for the narrow phase.
 
-#include <libmesh/intersect/pair_decider.hpp>
+#include <libmesh/intersect/two_mesh_pairs.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/answers.hpp>
@@ -48,32 +48,26 @@ class mesh_side {
     bool moves_;
 };
 
-struct mesh_pair_input {
-    mesh_side a;
-    mesh_side b;
-    pair_kinds kinds;
-};
-
-/// Gathers the corners of candidates from the meshes and has them decided. 10 kB.
-class mesh_pair_sieve {
+/// Gathers the corners of candidates from the meshes.
+class face_candidates : public two_mesh_pairs {
   public:
-    mesh_pair_sieve(const mesh_pair_input& input, sieve_output& output, bad_faces& bad)
-        : input_(input), output_(output), bad_(bad), decider_(input.kinds, output, bad) {}
+    struct input {
+        mesh_side a;
+        mesh_side b;
+    };
 
-    void add(const candidate_block& block);
+    face_candidates(const input& meshes, bad_faces& bad) : two_mesh_pairs(bad), meshes_(meshes) {}
+
+    void offer(const candidate_block& block, narrow_phase<face_candidates>& phase);
 
   private:
     void prefetch(const candidate_block& block, std::size_t i) const;
-    void add_pair(const face_numbers& pair);
 
-    const mesh_pair_input& input_;
-    sieve_output& output_;
-    bad_faces& bad_;
+    const input& meshes_;
     /// The face of `a` last looked at: candidates of one face follow each other.
     std::uint32_t last_a_ = bad_faces::none;
     bool has_a_ = false;
     triangle3 corners_of_a_;
-    pair_decider decider_;
 };
 
 }  // namespace treeform::detail::intersect

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Selection algorithms for `build` whose pivot is a median.
+/// Selection algorithms of the paper that choose their pivot as a median: slower in this build than
+/// those of treeform/tree/strategy/select.hpp.
 
 #include <treeform/tree/detail/partition_around.hpp>
 

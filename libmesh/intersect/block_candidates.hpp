@@ -1,10 +1,9 @@
 #pragma once
 /// \file
-/// From candidate pairs of two meshes whose triangles lie in blocks to classified pairs, for the
-/// candidates of one chunk.
+/// Candidates of two meshes whose triangles lie in blocks, for the narrow phase.
 
 #include <libmesh/intersect/block_planes.hpp>
-#include <libmesh/intersect/pair_decider.hpp>
+#include <libmesh/intersect/two_mesh_pairs.hpp>
 #include <libmesh/nearness/triangle_blocks.hpp>
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/buffer.hpp>
@@ -48,28 +47,25 @@ class block_side {
     bool moves_;
 };
 
-struct block_pair_input {
-    block_side a;
-    block_side b;
-    pair_kinds kinds;
-};
-
-/// Drops candidates by the planes of their triangles, one against eight at a time, and has the
-/// rest decided. 14 kB.
-class block_pair_sieve {
+/// Drops candidates by the planes of their triangles, one against eight at a time. 4 kB.
+class block_candidates : public two_mesh_pairs {
   public:
-    block_pair_sieve(const block_pair_input& input, sieve_output& output, bad_faces& bad)
-        : input_(input), output_(output), decider_(input.kinds, output, bad) {}
+    struct input {
+        block_side a;
+        block_side b;
+    };
 
-    void add(const candidate_block& block);
+    block_candidates(const input& meshes, bad_faces& bad) : two_mesh_pairs(bad), meshes_(meshes) {}
+
+    void offer(const candidate_block& block, narrow_phase<block_candidates>& phase);
 
   private:
-    void look_at(std::uint32_t block_a, std::uint32_t block_b, nearness::slot_pairs& pairs);
+    void look_at(std::uint32_t block_a, std::uint32_t block_b, nearness::slot_pairs& pairs,
+                 narrow_phase<block_candidates>& phase);
     void load(std::uint32_t block_a, std::uint32_t block_b);
 
     static constexpr std::uint32_t none = 0xFFFFFFFF;
-    const block_pair_input& input_;
-    sieve_output& output_;
+    const input& meshes_;
     /// The blocks at hand: those of one `a` follow each other.
     std::uint32_t at_a_ = none;
     std::uint32_t at_b_ = none;
@@ -79,7 +75,6 @@ class block_pair_sieve {
     nearness::eight_triangles space_b_;
     block_planes planes_a_;
     block_planes planes_b_;
-    pair_decider decider_;
 };
 
 }  // namespace treeform::detail::intersect

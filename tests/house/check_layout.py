@@ -1,0 +1,298 @@
+#!/usr/bin/env python3
+"""check_layout.py [SOURCE | --self-test]: what CONTRIBUTING.md says of where things lie, and how long they are.
+
+Prints a line for each file that breaks a rule, with the rule, and fails if there is one. Reads the
+sources as clang-format leaves them."""
+
+import pathlib
+import re
+import sys
+import tempfile
+
+HEADER_LINES = 250    # of a public header
+PUBLIC_HEADERS = 60
+FILE_LINES = 500
+FUNCTION_LINES = 60   # from the opening brace to the closing one
+
+# Rooms of libmesh, top down; an include points down this list, and not across a line of it.
+FLOORS = [
+    ["stream", "carry"],
+    ["assembly"],
+    ["repair"],
+    ["boolean"],
+    ["round"],
+    ["arrange", "place"],
+    ["io"],
+    ["intersect"],
+    ["nearness", "weld"],
+    ["geometry"],
+    ["topology", "attributes"],
+    ["exact"],
+    ["base"],
+]
+# A public header belongs to the room that has a source of its name; but these are of several:
+# to the lowest one.
+ROOM_OF_HEADER = {"as_mesh": "weld", "properties": "topology"}
+# Where the packages of others may be named, of libraries and tools.
+HOME_OF_PACKAGE = {
+    r"(tbb|oneapi)/": "libtree/base/parallel.cpp",
+    r"assimp/": "libmesh/io/",
+    r"Eigen/": "libmesh/place/",
+    r"(CGAL/|gmp|mpfr)": "tests/",
+}
+READS_FILES = ("stream", "carry")  # besides tools and tests, only these rooms know of `io`
+
+INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
+
+
+def files(root, folder, *suffixes):
+    return sorted(path for path in (root / folder).rglob("*") if path.suffix in suffixes)
+
+
+def sources(root, *folders):
+    return [path for folder in folders for path in files(root, folder, ".cpp", ".hpp", ".h")]
+
+
+def public_headers(root):
+    """Those of the door: what is in detail/ is there for the compiler alone."""
+    return [path for path in sources(root, "libtree/include", "libmesh/include")
+            if "detail" not in path.parts]
+
+
+def lines_of(path):
+    return path.read_text().splitlines()
+
+
+def includes(path):
+    for number, line in enumerate(lines_of(path), 1):
+        if match := INCLUDE.match(line):
+            yield number, match[1]
+
+
+# ---- the door ----
+
+def check_door(root):
+    outside = sources(root, "libtree/include", "libmesh/include", "tools", "tests/consumer",
+                      "tests/clients")
+    for path in outside:
+        public = "include" in path.parts
+        for number, name in includes(path):
+            if re.match(r"lib(tree|mesh)/", name):
+                yield path, number, f"includes the inside of a library: <{name}>"
+            elif not public and re.match(r"treeform/.*\bdetail/", name):
+                yield path, number, f"includes what is no part of the door: <{name}>"
+
+
+def check_headers(root):
+    headers = public_headers(root)
+    for path in headers:
+        if (count := len(lines_of(path))) > HEADER_LINES:
+            yield path, count, f"a public header of more than {HEADER_LINES} lines"
+    if len(headers) > PUBLIC_HEADERS:
+        yield root / "libmesh/include", 0, f"{len(headers)} public headers, {PUBLIC_HEADERS} at most"
+
+
+# ---- lists of CMake ----
+
+def commands(path):
+    """(first line, words) of each command of a CMakeLists.txt."""
+    text = re.sub(r"#.*", "", path.read_text())
+    for match in re.finditer(r"\w+\s*\(([^()]*)\)", text):
+        yield text.count("\n", 0, match.start()) + 1, match[0].replace("(", " ").strip(")").split()
+
+
+def is_file(word):
+    return re.fullmatch(r"[\w./-]+\.(cpp|hpp|h)", word) is not None
+
+
+def check_lists(root):
+    """Files of a list stand in the order of their letters, and tests in that of their names; no
+    command stands there twice."""
+    for folder in ("libtree", "libmesh", "tools", "tests/unit"):
+        for path in sorted((root / folder).rglob("CMakeLists.txt")):
+            before, seen = "", []
+            for number, words in commands(path):
+                if len(words) > 1 and words in seen:
+                    yield path, number, f"a second time: {' '.join(words)}"
+                seen.append(words)
+                if words[0] == "treeform_add_test":
+                    if words[1] < before:
+                        yield path, number, f"{words[1]} after {before}"
+                    before = words[1]
+                    continue
+                names = [word for word in words if is_file(word)]
+                for first, second in zip(names, names[1:]):
+                    if second < first:
+                        yield path, number, f"{second} after {first}"
+
+
+def check_listed(root):
+    """Each source is in the list of the nearest CMakeLists.txt; headers too, but those of tools."""
+    for path in sources(root, "libtree", "libmesh", "tools", "tests/unit"):
+        if path.suffix == ".hpp" and root / "tools" in path.parents:
+            continue
+        home = next(p for p in path.parents if (p / "CMakeLists.txt").exists())
+        name = path.relative_to(home).as_posix()
+        if not any(name in words for _, words in commands(home / "CMakeLists.txt")):
+            yield path, 0, f"not listed in {(home / 'CMakeLists.txt').relative_to(root)}"
+
+
+# ---- floors ----
+
+def check_floors(root):
+    floor_of = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
+    room_of = {path.stem: path.parent.name for path in files(root, "libmesh", ".cpp")}
+    room_of |= ROOM_OF_HEADER
+
+    def room_reached(name):
+        if match := re.match(r"libmesh/(\w+)/", name):
+            return match[1]
+        if match := re.match(r"treeform/mesh/(\w+)\.hpp", name):
+            return room_of.get(match[1])
+        return None
+
+    for path in sources(root, "libtree"):
+        for number, name in includes(path):
+            if re.match(r"(libmesh|treeform/mesh)/", name):
+                yield path, number, f"libtree knows nothing of meshes: <{name}>"
+    for path in sources(root, "libmesh"):
+        public = "include" in path.parts
+        room = room_of.get(path.stem) if public else path.relative_to(root / "libmesh").parts[0]
+        if room is not None and room not in floor_of:
+            yield path, 0, f"room {room} is on no floor of {pathlib.Path(__file__).name}"
+            continue
+        for number, name in includes(path):
+            target = room_reached(name)
+            if target == "io" and room != "io" and room not in READS_FILES and room is not None:
+                yield path, number, f"{room} knows of files: <{name}>"
+            elif target and room and target != room and floor_of[target] <= floor_of[room]:
+                yield path, number, f"{room} is not above {target}: <{name}>"
+
+
+def check_packages(root):
+    for path in sources(root, "libtree", "libmesh", "tools"):
+        place = path.relative_to(root).as_posix()
+        for number, name in includes(path):
+            for package, home in HOME_OF_PACKAGE.items():
+                if re.match(package, name) and not place.startswith(home):
+                    yield path, number, f"only {home} may name <{name}>"
+
+
+TALKS = re.compile(r"\bstd::(cout|cerr|clog|exit|abort|terminate|getenv)\b"
+                   r"|\b(f?printf|f?puts|putchar|perror|getenv|system|exit|abort)\s*\(")
+
+
+def check_silence(root):
+    """The library prints nothing, reads no environment and never ends the program."""
+    for path in sources(root, "libtree", "libmesh"):
+        for number, line in enumerate(code_of(path.read_text()).splitlines(), 1):
+            if match := TALKS.search(line):
+                yield path, number, f"a library does not call {match[0].strip('( ')}"
+
+
+# ---- lengths ----
+
+LEFT_OUT = re.compile(r'R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\''
+                      r"|//[^\n]*|/\*.*?\*/|^[ \t]*#(?:\\\n|[^\n])*", re.DOTALL | re.MULTILINE)
+SCOPE = re.compile(r"(^|\s)(namespace|class|struct|union|enum|extern)\b(?!.*\)\s*(const|noexcept|->"
+                   r"|override|$))", re.DOTALL)
+
+
+def code_of(text):
+    """Without comments, strings and directives; every line in its place."""
+    return LEFT_OUT.sub(lambda left_out: "\n" * left_out[0].count("\n"), text)
+
+
+def function_lengths(text):
+    """(line of the opening brace, lines) of each function: a body that is in no other body."""
+    text = code_of(text)
+    opened, head, depth_of_body = [], "", None
+    line = 1
+    for char in text:
+        if char == "\n":
+            line += 1
+        if char == "{":
+            if depth_of_body is None and "(" in head and not SCOPE.search(head):
+                depth_of_body = len(opened)
+            opened.append(line)
+        elif char == "}" and opened:
+            first = opened.pop()
+            if len(opened) == depth_of_body:
+                yield first, line - first + 1
+                depth_of_body = None
+        head = "" if char in "{};" else head + char
+
+
+def check_lengths(root):
+    for path in sources(root, "libtree", "libmesh", "tools"):
+        if (count := len(lines_of(path))) > FILE_LINES:
+            yield path, count, f"a file of more than {FILE_LINES} lines"
+        for line, length in function_lengths(path.read_text()):
+            if length > FUNCTION_LINES:
+                yield path, line, f"a function of {length} lines, {FUNCTION_LINES} at most"
+
+
+CHECKS = [check_door, check_headers, check_lists, check_listed, check_floors, check_packages,
+          check_silence, check_lengths]
+
+
+def faults(root):
+    return [f"{path.relative_to(root)}:{line}: {what}" for check in CHECKS
+            for path, line, what in check(root)]
+
+
+WRONG = {  # each file with what is to be said of it
+    "libmesh/include/treeform/mesh/door.hpp": ("#include <libmesh/weld/a.hpp>\n" * 251,
+                                               ["the inside", "more than 250"]),
+    "libmesh/weld/a.cpp": ("#include <libmesh/boolean/b.hpp>\n", ["weld is not above boolean"]),
+    "libmesh/weld/reads.cpp": ("#include <treeform/mesh/read.hpp>\n", ["knows of files"]),
+    "libmesh/io/read.cpp": ("int f() {\n" + "    g();\n" * 59 + "}\n", ["of 61 lines"]),
+    "libmesh/boolean/b.hpp": ("\n" * 501, ["more than 500"]),
+    "libmesh/lost/c.cpp": ("", ["on no floor"]),
+    "libmesh/weld/talks.cpp": ('#include <Eigen/Dense>\nint f() { return std::printf("a"); }\n',
+                               ["only libmesh/place/", "call printf"]),
+    "libmesh/weld/CMakeLists.txt": ("target_sources(t PRIVATE\n reads.cpp\n a.cpp)\n",
+                                    ["a.cpp after reads.cpp"]),
+    "libtree/d.cpp": ("#include <treeform/mesh/mesh.hpp>\n", ["not listed", "nothing of meshes"]),
+    "libtree/CMakeLists.txt": ("", []),
+    "libmesh/CMakeLists.txt": ("", []),
+    "tools/tf-x/e.cpp": ("#include <treeform/tree/detail/split.hpp>\n", ["no part of the door"]),
+    "tools/CMakeLists.txt": ("", []),
+}
+RIGHT = """
+namespace a {
+class b {
+  public:
+    b(int i) : i_{i} {}
+    const char* text() const { return "}{"; }
+}; // 90 lines of a class are no function: {
+enum class c { d };
+const int e[] = {1, 2};
+}
+""" + "\n" * 70
+
+
+def self_test():
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, (text, _) in WRONG.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text)
+        said = faults(root)
+    for name, (_, wanted) in WRONG.items():
+        for what in wanted:
+            assert any(line.startswith(name) and what in line for line in said), (name, what)
+    assert [length for _, length in function_lengths(RIGHT)] == [1, 1]
+    print("what is misplaced is found")
+
+
+def main():
+    if sys.argv[1:] == ["--self-test"]:
+        return self_test()
+    broken = faults(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".").resolve())
+    print("\n".join(broken) if broken else "every file is where it belongs")
+    return 1 if broken else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

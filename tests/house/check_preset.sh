@@ -1,0 +1,57 @@
+# shellcheck shell=bash
+# To be sourced at the top of the tree: sets up, builds and tests a preset, and counts. What the
+# callers share is that they end by `count_up`.
+
+export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+export TREEFORM_MODELS_DIR=${TREEFORM_MODELS_DIR-} TREEFORM_CLOUDS_DIR=${TREEFORM_CLOUDS_DIR-}
+jobs=$(nproc)
+passed=0
+failed=0
+skipped=0
+skipped_cases=0 # in tests that otherwise passed
+
+packages=(g++ cmake ninja-build pkg-config ccache clang clang-format libclang-rt-14-dev
+    libtbb-dev libhwy-dev libassimp-dev libcli11-dev nlohmann-json3-dev
+    doctest-dev libfmt-dev libcgal-dev libgmp-dev libmpfr-dev libeigen3-dev python3)
+
+# build PRESET [CONFIGURE OPTION...]: in build/PRESET; what does not build counts as failed.
+build() {
+    local preset=$1
+    shift
+    if ! cmake --preset "$preset" -DTREEFORM_WERROR="${TREEFORM_WERROR:-OFF}" "$@" >/dev/null; then
+        echo "$preset cannot be configured"
+        failed=$((failed + 1))
+        return 1
+    fi
+    # A test whose program does not build fails once more, as one that is not there; the rest is tested.
+    if ! cmake --build "build/$preset" -j "$jobs" -- -k 0; then
+        echo "$preset does not build"
+        failed=$((failed + 1))
+    fi
+}
+
+# test_build FOLDER [CTEST OPTION...]
+test_build() {
+    local folder=$1 results=$1/results.xml counts
+    shift
+    rm -f "$results"
+    ctest --test-dir "$folder" -j "$jobs" --output-on-failure --no-tests=error \
+        --output-junit "$PWD/$results" --test-output-size-passed 1000000 "$@"
+    if counts=($(python3 -B tests/house/count_tests.py "$results")) && ((${#counts[@]} == 4)); then
+        passed=$((passed + counts[0]))
+        failed=$((failed + counts[1]))
+        skipped=$((skipped + counts[2]))
+        skipped_cases=$((skipped_cases + counts[3]))
+    else
+        echo "$folder ran no test"
+        failed=$((failed + 1))
+    fi
+}
+
+# count_up: says how it went, and fails where something has.
+count_up() {
+    printf '\n%d passed, %d failed, %d skipped' "$passed" "$failed" "$skipped"
+    ((skipped_cases == 0)) || printf '; %d cases skipped in tests that passed' "$skipped_cases"
+    echo
+    ((failed == 0))
+}

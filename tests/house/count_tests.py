@@ -1,0 +1,23 @@
+#!/usr/bin/env python3
+"""count_tests.py RESULTS.xml: how many tests of a `ctest --output-junit` passed, failed and were
+skipped, and how many test cases were skipped within tests that passed: four numbers."""
+
+import re
+import sys
+import xml.etree.ElementTree as xml
+
+# What tests/support/main.cpp and tests/cli/support.py print.
+CASES = re.compile(r"^(\d+) of \d+ test cases skipped, (\d+) in part$", re.MULTILINE)
+
+passed = failed = skipped = cases = 0
+for test in xml.parse(sys.argv[1]).getroot().iter("testcase"):
+    reason = test.find("skipped")
+    if test.get("status") == "run":
+        passed += 1
+        for match in CASES.finditer(test.findtext("system-out") or ""):
+            cases += int(match[1]) + int(match[2])
+    elif reason is not None and reason.get("message", "").startswith("SKIP_"):
+        skipped += 1
+    else:  # failed, or could not be run
+        failed += 1
+print(passed, failed, skipped, cases)
