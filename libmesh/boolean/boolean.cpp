@@ -2,6 +2,7 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/cells_of.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/base/certify.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/boolean/inside_of_cells.hpp>
@@ -316,10 +317,12 @@ unmended_result split_of(std::span<const mesh_view> operands, const boolean_opti
 }
 
 /// The result as it is returned: a solid as a manifold.
-boolean_result finished(boolean_result&& result, bool solid) {
+boolean_result finished(boolean_result&& result, bool solid, precision of) {
+    detail::base::describe(result.certificate, result.mesh, of);
     if (!result.certificate) return std::move(result);
     if (result.mesh.faces.empty() && result.statistics.exact_faces > 0) {
         result.certificate.status = status::vanished;
+        result.certificate.vanished_faces = result.statistics.exact_faces;
         return std::move(result);
     }
     if (!solid) return std::move(result);
@@ -342,7 +345,7 @@ boolean_result evaluate(std::span<const mesh_view> operands, const boolean_expre
                             return boolean_of(given, expression, how,
                                               sound && given.data() == operands.data());
                         }),
-                    true);
+                    true, options.precision);
 }
 
 }  // namespace
@@ -388,14 +391,14 @@ boolean_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
         detail::boolean::with_mended_operands(
             operands, options,
             [&](auto given, const auto& how) { return clip_of(given, sheet, expression, how); }),
-        false);
+        false, options.precision);
 }
 
 boolean_result split(std::span<const mesh_view> operands, const boolean_options& options) {
     return finished(
         detail::boolean::with_mended_operands(
             operands, options, [](auto given, const auto& how) { return split_of(given, how); }),
-        false);
+        false, options.precision);
 }
 
 const mesh& boolean_result::value() const& {

@@ -1,3 +1,4 @@
+#include <libmesh/attributes/class_colors.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/placement.hpp>
 
@@ -14,8 +15,7 @@ namespace {
 using row_classes = std::vector<std::uint8_t>;
 
 /// Of none, penetrating, touching, near: gray, red, yellow, cyan.
-constexpr std::array<std::array<std::uint8_t, 4>, 3> channels{
-    {{0xb4, 0xe0, 0xec, 0x00}, {0xba, 0x20, 0xd0, 0xa0}, {0xc2, 0x20, 0x00, 0xc0}}};
+constexpr std::array<const char*, 4> colors_of_classes{"#b4bac2", "#e02020", "#ecd000", "#00a0c0"};
 
 /// The gravest class of the triangles of each face as stored.
 row_classes by_stored_face(const mesh_file& file, const row_classes& triangles) {
@@ -48,12 +48,7 @@ void color_contacts(mesh_file& file, std::span<const contact_class> classes,
     if (!cloud) of_row = by_stored_face(file, of_row);
     const bool colors = !(options.keep_colors && has_colors(file));
     element& rows = obtain_element(file.attributes, cloud ? "vertex" : "face", of_row.size());
-    constexpr std::array<const char*, 3> names{"red", "green", "blue"};
-    for (std::size_t k = 0; k < 3 && colors; ++k) {
-        row_classes values;
-        for (const std::uint8_t c : of_row) values.push_back(channels[k][c]);
-        set_column(rows, make_column<std::uint8_t>(names[k], values));
-    }
+    if (colors) detail::attribute::set_colors(rows, of_row, colors_of_classes);
     const std::vector<std::int32_t> numbers(of_row.begin(), of_row.end());
     set_column(rows, make_column<std::int32_t>("tf_class", numbers));
 }
