@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace treeform {
@@ -35,6 +36,23 @@ bool has_colors(const mesh_file& file) {
 }
 
 }  // namespace
+
+std::vector<contact_class> classes_in_files(std::span<const classified_body> bodies) {
+    std::vector<contact_class> all;
+    std::size_t first = 0;
+    const mesh_file* file = nullptr;
+    for (const classified_body& b : bodies) {
+        const bool cloud = b.file->mesh.faces.empty();
+        if (cloud && bodies.size() > 1) continue;
+        if (std::exchange(file, b.file) != b.file) {
+            first = all.size();
+            all.resize(first + (cloud ? b.file->mesh.points.size() : b.file->mesh.faces.size()));
+        }
+        for (std::uint32_t f = 0; f < b.classes.size(); ++f)
+            all[first + b.body->triangle(f)] = b.classes[f];
+    }
+    return all;
+}
 
 void color_contacts(mesh_file& file, std::span<const contact_class> classes,
                     const contact_color_options& options) {
