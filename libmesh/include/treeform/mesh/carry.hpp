@@ -53,6 +53,12 @@ struct carried_elements {
 TREEFORM_API void carry(mesh_file& file, std::span<const carry_source> inputs,
                         const carried_elements& made);
 
+/// The same of one input, for what has been made of it alone, as `resolve_result` says: a number
+/// that is `operand_element::none` is of no face or vertex.
+TREEFORM_API void carry(mesh_file& file, const carry_source& input,
+                        std::span<const std::uint32_t> face_source,
+                        std::span<const std::uint32_t> vertex_source);
+
 /// [faces of all inputs, one input after the other] Numbers that are equal for faces with equal
 /// values in all columns that are carried and of one material, if `by_values`, and of one input, if
 /// `by_input`; for `boolean_options::face_groups`. With `by_values`, a face whose corners differ in
