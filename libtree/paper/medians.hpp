@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Selection algorithms of the paper that choose their pivot as a median: slower in this build than
-/// those of treeform/tree/strategy/select.hpp.
+/// Selection algorithms for `build` whose pivot is a median.
 
 #include <treeform/tree/detail/partition_around.hpp>
 
@@ -16,7 +15,7 @@ struct median_of_3_random {
     /// Reorders [first, last) so that no element before `nth` is greater than one behind it. The
     /// random places are the same in every call on as many elements.
     ///
-    /// \cost O(n) expected; O(n^2) for an order made against these places
+    /// \cost O(n) expected; O(n^2) for an order that was made against these random places
     /// \source Hoare, Algorithm 65: Find, CACM 4 (1961)
     template <class Iterator, class Less>
     static void partition(Iterator first, Iterator nth, Iterator last, Less less) {

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Rays against a tree of any kind: what a ray meets first, everything it meets, and whether it
-/// meets anything.
+/// Rays against a tree: the first hit, all hits, and whether there is any.
 
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -20,9 +19,9 @@
 
 namespace treeform {
 
-/// The points origin + t direction for t_min <= t <= t_max: a ray as it stands, a segment with a
-/// finite t_max, a line with t_min = -inf. The direction need not be of unit length; t counts its
-/// lengths. A zero direction makes it a point, t_min > t_max makes it empty.
+/// The points origin + t direction for t_min <= t <= t_max. By default a ray; with a finite t_max a
+/// segment, with t_min = -inf a line. The direction need not have length 1; t is in its lengths.
+/// With a zero direction it is a point, with t_min > t_max it is empty.
 template <std::floating_point T, std::size_t D>
 struct ray {
     std::array<T, D> origin{};
@@ -31,7 +30,7 @@ struct ray {
     T t_max = std::numeric_limits<T>::infinity();
 };
 
-/// A primitive that a ray meets, and what the caller's `hit_of` said about it.
+/// A primitive that a ray hits, and what the caller's `hit_of` returned for it.
 template <class Hit>
 struct ray_hit {
     std::uint32_t id;
@@ -83,19 +82,19 @@ template <std::floating_point T, std::size_t D>
 
 }  // namespace detail
 
-/// Calls `visit(id)` for every primitive whose box the ray meets (touching counts), and for some
-/// whose boxes it misses by less than the rounding of the tree's float boxes; boxes that it enters
-/// earlier come earlier, as a rule. What `visit` returns is the t_max from there on: boxes that the
-/// ray enters beyond it are skipped, and -inf ends the search.
+/// Calls `visit(id)` for every primitive whose box the ray meets; touching counts. It also visits
+/// some whose boxes the ray misses by less than the rounding of the tree's float boxes. Boxes that
+/// the ray enters earlier usually come earlier. `visit` returns the t_max from there on: boxes that
+/// the ray enters later are skipped, and -inf ends the search.
 ///
 /// No box is missed because of rounding: not for zero, tiny or huge components, not for boxes that
-/// the ray only touches, not for an origin far away. A parameter that `visit` returns may besides
-/// be too small by 2^-40 of itself.
+/// the ray only touches, not for an origin far away. What `visit` returns may be too small by 2^-40
+/// of itself.
 ///
 /// \throws std::invalid_argument for an origin or direction that is not finite, or a NaN parameter
 /// \cost   O(log N + boxes met) for most rays; serial; no allocation
-/// \same   the primitives visited while t_max stays may depend on the processor, those whose boxes
-///         the ray meets are always among them
+/// \same   primitives whose boxes the ray meets are always visited while t_max stays; which others
+///         are visited may depend on the processor
 /// \source the slab test of Kay and Kajiya, SIGGRAPH 1986; bounds as in Ize, Robust BVH Ray
 ///         Traversal, JCGT 2 (2013), derived anew for scaled frames in ray.cpp
 template <any_tree Tree, std::floating_point T, class Visit>
@@ -104,11 +103,12 @@ void visit_along(const Tree& tree, const ray<T, Tree::dimensions>& ray, const Vi
     detail::trace(tree, detail::in_double(ray), visit);
 }
 
-/// The hit of least parameter, of equal ones that of the lowest primitive; none when there is none.
+/// The hit with the least t; of equal ones, that of the lowest primitive. None when there is no
+/// hit.
 ///
-/// `hit_of(id)` says whether and where the ray meets a primitive: a `std::optional` of a number t
-/// or of a struct with a member t. Parameters outside [t_min, t_max], and NaN, are no hits. A hit
-/// lies in the primitive's box, its t being wrong by at most 2^-40 of itself.
+/// `hit_of(id)` says whether and where the ray hits a primitive: it returns a `std::optional` of a
+/// number t, or of a struct with a member t. A t outside [t_min, t_max], or NaN, is no hit. A hit
+/// has to lie in the primitive's box, and its t may be wrong by at most 2^-40 of itself.
 ///
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   O(log N + boxes entered before the hit) for most rays
@@ -132,7 +132,7 @@ template <any_tree Tree, std::floating_point T, class HitOf>
     return best;
 }
 
-/// Every hit, ascending by parameter, then by primitive. See `first_hit` for `hit_of`.
+/// All hits, ascending by t, then by primitive. See `first_hit` for `hit_of`.
 ///
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   O(log N + boxes met + H log H) for most rays, H hits
@@ -158,9 +158,9 @@ template <any_tree Tree, std::floating_point T, class HitOf>
     return hits;
 }
 
-/// Whether there is any hit: `first_hit` that stops at whichever it finds. `hit_of` is asked for
-/// fewer primitives, and may return a bool as well: whether the ray meets it within
-/// [t_min, t_max].
+/// Whether there is any hit. Stops at the first one found, so it calls `hit_of` for fewer
+/// primitives than `first_hit`. Here `hit_of` may also return a bool: whether the ray hits the
+/// primitive within [t_min, t_max].
 ///
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   at most that of `all_hits`

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A tree, trees that are searched as one, and any of them as if its primitives had been moved.
+/// The tree, and a tree that is searched as if its primitives had been moved.
 
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/transform.hpp>
@@ -25,11 +25,10 @@ struct alignas(64) wide_node {
     float max[D][width];
 };
 
-/// How tree boxes lie in space: a coordinate x of axis k is stored as (x - origin[k]) * scale,
-/// rounded outward to float; a box of a primitive besides grows by up to 2^-13 of half its extent
-/// on each side. Boxes about a local origin stay tight however far the model is from the origin of
-/// its own coordinates, and a power-of-two scale keeps tiny and huge models away from the ends of
-/// the range of float.
+/// How tree boxes are stored: a coordinate x of axis k as (x - origin[k]) * scale, rounded outward
+/// to float. A box of a primitive also grows by up to 2^-13 of half its extent on each side. With a
+/// local origin, boxes stay tight however far the model is from the origin of its own coordinates.
+/// The scale, a power of two, keeps tiny and huge models within the range of float.
 template <std::size_t D>
 struct tree_frame {
     std::array<double, D> origin{};
@@ -37,8 +36,8 @@ struct tree_frame {
     friend bool operator==(const tree_frame&, const tree_frame&) = default;
 };
 
-/// A balanced 8-ary tree of boxes over N primitives, packed: every node is full but the last of its
-/// level.
+/// A balanced 8-ary tree of boxes over N primitives, packed: every node is full, except for the
+/// last of its level.
 ///
 /// The shape follows from N alone, so it is stored nowhere. `ids()` is a permutation of the
 /// primitives; leaf block i holds the boxes of the primitives at its places 8i ... 8i+7, box s that
@@ -57,11 +56,11 @@ class tree {
     static constexpr std::size_t dimensions = D;
     static constexpr std::size_t width = wide_node<D>::width;
 
-    /// A tree over nothing, to be searched (nothing is found) and rebuilt. It has no memory, so no
-    /// nodes to look at before `reset`.
+    /// A tree over nothing. A search finds nothing; it may be rebuilt. It has no memory, and so no
+    /// nodes before `reset`.
     tree() = default;
 
-    /// Takes the shape for `size` primitives; memory is reused, contents are not.
+    /// Takes the shape for `size` primitives. Memory is reused; contents are undefined.
     void reset(std::size_t size) {
         assert(size <= max_size);
         size_ = size;
@@ -161,9 +160,11 @@ concept any_tree = detail::is_tree<T> || tree_of_trees<T>;
 /// and grow by the turning of boxes: not for a translation or a quarter turn; under another
 /// rotation, to at most sqrt(D) times their longest side in each direction.
 ///
-/// The moved boxes hold the exact images of the primitives, and also the images that
-/// `transform::operator()` rounds to double; so both those who decide on exact images and those
-/// who decide on rounded ones miss no pair.
+/// Nothing is rebuilt. Boxes are moved when a search opens their node. A moved box is larger than
+/// the original, except for a translation or a quarter turn: under another rotation up to sqrt(D)
+/// times its longest side in each direction. It holds the exact images of the primitives, and also
+/// those that `transform::operator()` rounds to double. So no pair is missed, whichever of the two
+/// you decide on.
 ///
 /// \source Arvo, Transforming Axis-Aligned Bounding Boxes, Graphics Gems, 1990
 template <std::size_t D, class Tree = tree<D>>
@@ -203,7 +204,7 @@ inline constexpr bool is_transformed<transformed<D, Tree>> = true;
 
 }  // namespace detail
 
-/// What a search of two `tree`s takes on either side: one, or one that is treated as transformed.
+/// What a search of two trees takes on either side: a `tree` or a `transformed`.
 template <class T>
 concept placed_tree = detail::is_tree<T> || std::same_as<T, transformed<T::dimensions>>;
 static_assert(placed_tree<tree<3>> && placed_tree<transformed<2>>);
