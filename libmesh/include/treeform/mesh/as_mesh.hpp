@@ -8,6 +8,7 @@
 #include <treeform/tree/detail/export.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,10 +23,19 @@ struct usable_mesh {
     /// [triangles] the file's face that each triangle is part of; empty: numbers are the same.
     std::vector<std::uint32_t> stored_face{};
     std::uint64_t dropped = 0;  ///< triangles with a coordinate that is not finite
+    /// Of `usable_part`: [F] the component of the whole mesh, by vertices, that each face is of.
+    std::vector<std::uint32_t> component{};
+    std::uint64_t degenerate = 0;             ///< likewise: triangles that are a segment or a point
+    std::optional<std::uint64_t> distinct{};  ///< likewise: different points, where they are known
+    std::uint64_t joined = 0;                 ///< likewise: points, beyond equal ones
 
-    /// The number that face `f` has in the file.
+    /// The triangle of the file.
+    [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {
+        return triangle_of_face.empty() ? f : triangle_of_face[f];
+    }
+    /// The number in the file.
     [[nodiscard]] std::uint32_t face_in_file(std::uint32_t f) const {
-        const std::uint32_t t = triangle_of_face.empty() ? f : triangle_of_face[f];
+        const std::uint32_t t = triangle(f);
         return stored_face.empty() ? t : stored_face[t];
     }
     operator mesh_view() const { return mesh; }  // NOLINT: meant to be implicit
@@ -40,8 +50,30 @@ struct usable_mesh {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API usable_mesh as_mesh(mesh_file file);
 
-/// Removes the faces of `mesh` with a corner that is not finite or out of range. Returns the old
-/// number of each face that stays [F]; empty when all stay.
+struct part_options {
+    /// Of corners with equal coordinates, one; or corners as they are numbered.
+    vertex_identity vertices = vertex_identity::by_coordinates;
+    /// Greater than 0: equal points are joined, and then points within it of each other, as `weld`
+    /// does.
+    double tolerance = 0.0;
+    std::optional<box3> box{};  ///< only faces that meet it
+    bool details = false;       ///< find `component` and `distinct`, too
+};
+
+/// The faces of a file's mesh to look at, with the way back to the file: those that are finite, in
+/// the box if there is one. Where any are left out, so are the points that no other face uses.
+///
+/// `stored_face` is that of the file.
+///
+/// \throws std::invalid_argument as `faces_in_box`, `weld`
+/// \cost   O(V + F); with a tolerance, as `group_points`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API usable_mesh usable_part(mesh given,
+                                                   std::vector<std::uint32_t> stored_face,
+                                                   const part_options& options = {});
+
+/// Leaves out the faces of `mesh` with a corner that is not finite or no vertex. [F] the number
+/// before of each face that stays; empty where all do.
 TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 
 /// One file with the points and faces of all `files`, one after the other, in the format of the
@@ -59,7 +91,35 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 [[nodiscard]] TREEFORM_API mesh_file join(std::vector<mesh_file> files,
                                           std::span<const std::string> names);
 
-/// Which points have equal coordinates.
+/// Of a scene: a file, and what it is called.
+struct scene_member {
+    const mesh_file* file = nullptr;
+    std::string name{};   ///< of its faces in the scene, where the file has a single part
+    std::string label{};  ///< in warnings
+};
+
+/// All members together, with the parts of their files, what their corners have, their materials
+/// and textures. Other properties are left out, and so is what their textures are warned of, in
+/// `warnings`. Format and numbers are those of the first.
+///
+/// \pre  there is a member
+/// \cost O(size of all files)
+[[nodiscard]] TREEFORM_API mesh_file scene_of(std::span<const scene_member> members);
+
+/// Several meshes as one.
+struct joined_meshes {
+    treeform::mesh mesh{};                    ///< points with equal coordinates joined
+    std::vector<std::uint32_t> mesh_of_face;  ///< [F] which of the meshes each face is of
+};
+
+/// The faces of `meshes` one after the other. A point that is not finite becomes 0.
+///
+/// \pre    no face has a corner that is not finite
+/// \throws std::invalid_argument as `join_equal_points`
+/// \cost   O(V + F)
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API joined_meshes join_meshes(std::span<const mesh_view> meshes);
+
 struct equal_points {
     std::vector<std::uint32_t> new_of_old;    ///< [V] number of the distinct point each one is
     std::vector<std::uint32_t> first_of_new;  ///< [U] lowest-numbered point of each, ascending

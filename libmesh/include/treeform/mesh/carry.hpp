@@ -55,12 +55,17 @@ struct carried_elements {
 TREEFORM_API void carry(mesh_file& file, std::span<const carry_source> inputs,
                         const carried_elements& made);
 
-/// Numbers for `boolean_options::face_groups`: [faces of all inputs, one input after the other].
-///
-/// With `by_values`, faces have equal numbers only when all carried columns and the material are
-/// equal; with `by_input`, only when they are of one input. With `by_values`, a face whose corners
-/// differ in texture coordinates or normals has a number of its own, since only that face can
-/// interpolate them. Empty when all numbers would be equal.
+/// The same of one input, for what has been made of it alone, as `resolve_result` says: a number
+/// that is `operand_element::none` is of no face or vertex.
+TREEFORM_API void carry(mesh_file& file, const carry_source& input,
+                        std::span<const std::uint32_t> face_source,
+                        std::span<const std::uint32_t> vertex_source);
+
+/// [faces of all inputs, one input after the other] Numbers that are equal for faces with equal
+/// values in all columns that are carried and of one material, if `by_values`, and of one input, if
+/// `by_input`; for `boolean_options::face_groups`. With `by_values`, a face whose corners differ in
+/// texture coordinates or normals is like no other: what lies between them is told by the face
+/// alone. Empty when that tells no faces apart.
 [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> face_groups(
     std::span<const carry_source> inputs, bool by_values, bool by_input);
 

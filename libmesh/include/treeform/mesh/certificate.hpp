@@ -52,14 +52,20 @@ struct TREEFORM_API certificate {
     /// has its outside behind it. `meeting` lists the first 100.
     std::uint64_t meeting_count = 0;
     std::vector<std::array<std::uint32_t, 2>> meeting{};
-    /// Edges whose signed face count is not zero. `open` lists the first 100.
+    std::vector<point3> meeting_at{};  ///< a corner of the first face of each pair in `meeting`
+    /// Edges whose signed face count is not zero. The first 100 of `open_count`.
     std::uint64_t open_count = 0;
     std::vector<open_edge> open{};
     /// Rounding moved no coordinate of a vertex further than this.
     double max_displacement = 0.0;
+    treeform::precision precision = treeform::precision::float64;  ///< of the coordinates
+    /// Of `vanished`, the faces of the exact result, all of them thinner than the coordinates tell
+    /// apart; 0 where there were none.
+    std::uint64_t vanished_faces = 0;
 
     explicit operator bool() const { return status == treeform::status::ok; }
-    /// One sentence for people.
+    /// Half a sentence for people, without a stop at its end. It names a face by the numbers in
+    /// `open`, and no operand where that is `operand_element::none`.
     [[nodiscard]] std::string message() const;
 };
 

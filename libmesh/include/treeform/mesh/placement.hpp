@@ -91,10 +91,15 @@ struct placement {
     standing at_place = standing::separate;
     std::optional<nearest_fixed> nearest{};  ///< at the place; none when all are too far to matter
     std::vector<placement_contact> contacts{};
-    std::uint64_t contact_count = 0;  ///< all contacts, listed or not
+    std::uint64_t contact_count = 0;  ///< of all, listed or not
+    std::optional<double> max_travel{};  ///< that was allowed
+    treeform::precision precision = treeform::precision::float64;  ///< of the points
     placement_statistics statistics{};
 
     explicit operator bool() const { return status == treeform::status::ok; }
+    /// Why there is no place: half a sentence about the mesh that moves, without a stop at its end.
+    /// `names` are those of the fixed meshes. Empty when there is one.
+    [[nodiscard]] TREEFORM_API std::string message(std::span<const std::string> names = {}) const;
 };
 
 struct measure_among_options {
@@ -180,6 +185,21 @@ TREEFORM_API void put_back(mesh_file& file, const file_body& body, const prepare
 
 /// Rounds every point of the file to float32. Returns the largest change of a coordinate.
 TREEFORM_API double round_to_float32(mesh_file& file);
+
+/// A body of a file, and the classes of its faces: none, or [F].
+struct classified_body {
+    const mesh_file* file = nullptr;
+    const file_body* body = nullptr;
+    std::span<const contact_class> classes{};
+};
+
+/// The classes of all triangles of the files that bodies are of, of one cloud of all its points;
+/// for `color_contacts`. Bodies of a file follow each other, and of several files clouds are left
+/// out, as in `scene_of`.
+///
+/// \cost O(V + F)
+[[nodiscard]] TREEFORM_API std::vector<contact_class> classes_in_files(
+    std::span<const classified_body> bodies);
 
 struct contact_color_options {
     /// Make each triangle a face of its own, as pictures need it. Otherwise polygons stay, and have

@@ -161,8 +161,14 @@ struct file_weld_result {
 [[nodiscard]] TREEFORM_API point_groups group_points(points_view points,
                                                      const weld_options& options = {});
 
-/// `mesh` with each group of points replaced by its first point, unmoved and in order. Faces keep
-/// their order, even those that now repeat a corner. Nothing else is dropped.
+/// How many points would not be there any more if points within `distance` of each other were
+/// joined, beyond those that are equal to another.
+///
+/// \cost as `group_points`
+[[nodiscard]] TREEFORM_API std::uint64_t count_nearly_equal(points_view points, double distance);
+
+/// `mesh` with the points of each group joined: the groups' first points in order and unmoved,
+/// faces in order, also those that now repeat a corner. Nothing else is dropped.
 ///
 /// \throws std::invalid_argument for groups of another number of points, or naming the lowest face
 ///         with a corner out of range

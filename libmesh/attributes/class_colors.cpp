@@ -1,13 +1,11 @@
-#include "tools/common/class_colors.hpp"
-
-#include <treeform/tf.hpp>
+#include <libmesh/attributes/class_colors.hpp>
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace tools {
+namespace treeform::detail::attribute {
 namespace {
 
 std::uint8_t channel(std::string_view color, std::size_t which) {
@@ -17,7 +15,7 @@ std::uint8_t channel(std::string_view color, std::size_t which) {
 
 }  // namespace
 
-void set_colors(tf::element& element, std::span<const std::uint8_t> classes,
+void set_colors(element& rows, std::span<const std::uint8_t> classes,
                 std::span<const char* const> colors) {
     constexpr const char* names[] = {"red", "green", "blue"};
     std::vector<std::uint8_t> of_class(colors.size());
@@ -25,8 +23,8 @@ void set_colors(tf::element& element, std::span<const std::uint8_t> classes,
     for (std::size_t which = 0; which < 3; ++which) {
         for (std::size_t c = 0; c < colors.size(); ++c) of_class[c] = channel(colors[c], which);
         for (std::size_t i = 0; i < classes.size(); ++i) values[i] = of_class[classes[i]];
-        tf::set_column(element, tf::make_column<std::uint8_t>(names[which], values));
+        set_column(rows, make_column<std::uint8_t>(names[which], values));
     }
 }
 
-}  // namespace tools
+}  // namespace treeform::detail::attribute
