@@ -1,5 +1,5 @@
 #include <libmesh/arrange/outer_edge.hpp>
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/exact/implicit_point.hpp>
 #include <libmesh/geometry/flat_triangle.hpp>
 #include <treeform/mesh/predicates.hpp>

@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/mesh.hpp>
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace treeform {
 std::optional<box3> bounding_box(points_view points) {
     std::optional<box3> box;
     for (const point3& p : points) {
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
+        if (!detail::base::is_finite(p)) continue;
         if (!box) box = box3{p, p};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             box->min[axis] = std::min(box->min[axis], p[axis]);

@@ -1,29 +1,57 @@
 #include <libmesh/base/operand_name.hpp>
 #include <treeform/mesh/certificate.hpp>
 
-#include <cstdio>
+#include <charconv>
+#include <cstddef>
 #include <utility>
 
 namespace treeform {
 namespace {
 
+/// 26306 edges as "26,306 edges".
 std::string counted(std::uint64_t n, const char* one, const char* several) {
-    return std::to_string(n) + " " + (n == 1 ? one : several);
+    std::string text = std::to_string(n);
+    for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
+    return text + " " + (n == 1 ? one : several);
 }
 
 std::string place_of(const point3& p) {
-    char text[96];
-    std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", p.x, p.y, p.z);
-    return text;
+    std::string text = "(";
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        char digits[32];
+        const auto end = std::to_chars(digits, digits + sizeof digits, p[axis]).ptr;
+        text.append(axis == 0 ? "" : ", ").append(digits, end);
+    }
+    return text + ")";
 }
 
 std::string open_message(const certificate& c) {
-    std::string text = "not closed: " + counted(c.open_count, "open edge", "open edges");
+    std::string text = "its surface ends at " + counted(c.open_count, "edge", "edges");
     if (c.open.empty()) return text;
     const open_edge& first = c.open.front();
-    return text + ", the first at face " + std::to_string(first.face.index) + " of operand " +
-           detail::base::operand_name(first.face.operand) + ", from " + place_of(first.ends[0]) +
-           " to " + place_of(first.ends[1]);
+    text += ", the first from " + place_of(first.ends[0]) + " to " + place_of(first.ends[1]) +
+            " at face " + std::to_string(first.face.index);
+    if (first.face.operand != operand_element::none)
+        text += " of operand " + detail::base::operand_name(first.face.operand);
+    return text;
+}
+
+std::string when_rounded(const certificate& c) {
+    return c.precision == precision::float32 ? " when rounded to float" : " when rounded to double";
+}
+
+std::string meeting_message(const certificate& c) {
+    if (c.meeting_count == 0) return "a hole could not be closed";
+    std::string text = counted(c.meeting_count, "pair of faces meets", "pairs of faces meet");
+    if (c.max_displacement > 0.0) text += when_rounded(c);
+    return c.meeting_at.empty() ? text : text + ", the first near " + place_of(c.meeting_at[0]);
+}
+
+std::string vanished_message(const certificate& c) {
+    if (c.vanished_faces == 0) return "nothing would be left";
+    return "nothing would be left: all of the exact result, " +
+           counted(c.vanished_faces, "face", "faces") + ", is thinner than " +
+           (c.precision == precision::float32 ? "float32" : "double") + " numbers tell apart there";
 }
 
 }  // namespace
@@ -41,15 +69,11 @@ std::string certificate::message() const {
         case treeform::status::not_manifold:
             return "not a manifold once equal coordinates are joined";
         case treeform::status::not_certified:
-            return counted(meeting_count, "pair of faces still meets",
-                           "pairs of faces still meet") +
-                   " in the coordinates of the result";
+            return meeting_message(*this);
         case treeform::status::vanished:
-            return "nothing is left: the result is thinner than its coordinates can tell apart, or "
-                   "its "
-                   "faces cancel each other out";
+            return vanished_message(*this);
         case treeform::status::out_of_range:
-            return "coordinates of the result are beyond the range of the numbers asked for";
+            return "coordinates are too large" + when_rounded(*this);
         case treeform::status::no_place:
             return "there is no such place";
         case treeform::status::cancelled:

@@ -1,6 +1,6 @@
 #include <libmesh/base/check_faces.hpp>
-#include <libmesh/base/finite.hpp>
 #include <libmesh/base/first_bad.hpp>
+#include <libmesh/base/point_math.hpp>
 
 #include <algorithm>
 #include <cstdint>

@@ -2,6 +2,7 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/cells_of.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/base/certify.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/boolean/inside_of_cells.hpp>
@@ -315,10 +316,12 @@ unmended_result split_of(std::span<const mesh_view> operands, const boolean_opti
 }
 
 /// The result as it is returned: a solid as a manifold.
-boolean_result finished(boolean_result&& result, bool solid) {
+boolean_result finished(boolean_result&& result, bool solid, precision of) {
+    detail::base::describe(result.certificate, result.mesh, of);
     if (!result.certificate) return std::move(result);
     if (result.mesh.faces.empty() && result.statistics.exact_faces > 0) {
         result.certificate.status = status::vanished;
+        result.certificate.vanished_faces = result.statistics.exact_faces;
         return std::move(result);
     }
     if (!solid) return std::move(result);
@@ -339,7 +342,8 @@ boolean_result evaluate(const char* function, std::span<const mesh_view> operand
                         const boolean_options& options, bool solid, const Make& make) {
     detail::boolean::check_operands(function, operands);
     try {
-        return finished(detail::boolean::with_mended_operands(operands, options, make), solid);
+        return finished(detail::boolean::with_mended_operands(operands, options, make), solid,
+                        options.precision);
     } catch (const std::invalid_argument&) {  // where an operand is to blame, its face is named
         detail::boolean::check_coordinates(function, operands);
         throw;

@@ -1,26 +1,19 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/mended_operands.hpp>
-#include <libmesh/round/reach.hpp>
+#include <libmesh/round/mending_schedule.hpp>
 #include <libmesh/round/snap_nearby.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/search.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 namespace treeform::detail::boolean {
 namespace {
-
-constexpr int steps_of_surface = 2;
-
-/// Of `reach_of_bits`, in step k = 0, 1, ...
-int bits_of_step(int step, precision p) { return (p == precision::float32 ? 22 : 48) - 4 * step; }
 
 /// Operands as joined, each with its own points, and the way back.
 struct near_operands {
@@ -74,8 +67,10 @@ std::vector<std::uint8_t> next_to(const std::vector<aabb<double, 3>>& broken, me
 class mending {
   public:
     /// \pre the operands have been checked
-    mending(std::span<const mesh_view> operands, const boolean_options& options)
+    mending(std::span<const mesh_view> operands, const boolean_options& options,
+            const round::mending_schedule& schedule)
         : options_(options),
+          schedule_(schedule),
           given_(join_operands(operands)),
           operand_of_face_(given_.operand_of_face()) {
         source_.resize(given_.all.faces.size());
@@ -84,14 +79,13 @@ class mending {
 
     template <class Ask>
     unmended_result step(int number, const std::vector<aabb<double, 3>>& broken, const Ask& ask) {
-        const double reach =
-            round::reach_of_bits(given_.all.points, bits_of_step(number, options_.precision));
+        const double reach = schedule_.reach_of_operands(given_.all.points, number);
         const round::joined_near near = round::snap_nearby(
             given_.all, next_to(broken, given_.all, reach),
             {.reach = reach, .source = source_, .solid = false, .operand = operand_of_face_});
         const near_operands joined(near, operand_of_face_, given_.first_face.size() - 1);
         boolean_options how = options_;
-        how.rounding_steps = steps_of_surface;
+        how.rounding_steps = schedule_.surface_steps;
         how.volumes = false;
         if (options_.progress) how.progress = [&](double) { return options_.progress(1.0); };
         std::vector<std::uint32_t> groups;
@@ -124,6 +118,7 @@ class mending {
     }
 
     const boolean_options& options_;
+    const round::mending_schedule& schedule_;
     joined_operands given_;
     std::vector<std::uint32_t> operand_of_face_;
     std::vector<std::uint32_t> source_;
@@ -145,15 +140,17 @@ void take_surface(boolean_result& result, boolean_result&& mended) {
 boolean_result with_mended_operands(
     std::span<const mesh_view> operands, const boolean_options& options,
     function_ref<unmended_result(std::span<const mesh_view>, const boolean_options&)> ask) {
+    const auto schedule =
+        round::mending_schedule::of_operands(options.rounding_steps, options.precision);
     boolean_options first = options;
-    first.rounding_steps = std::min(options.rounding_steps, steps_of_surface);
+    first.rounding_steps = schedule.surface_steps;
     auto [result, broken] = ask(operands, first);
     const auto is_done = [&](const certificate& c) {
         return c.status != status::not_certified || !std::isfinite(c.max_displacement);
     };
-    if (is_done(result.certificate) || options.rounding_steps <= steps_of_surface) return result;
-    mending again(operands, options);
-    for (int step = 0; step < options.rounding_steps - steps_of_surface; ++step) {
+    if (is_done(result.certificate) || schedule.operand_steps == 0) return result;
+    mending again(operands, options, schedule);
+    for (int step = 1; step <= schedule.operand_steps; ++step) {
         auto [mended, broken_again] = again.step(step, broken, ask);
         if (mended.certificate.status == status::cancelled) {
             result.certificate.status = status::cancelled;
@@ -165,7 +162,7 @@ boolean_result with_mended_operands(
         const std::uint64_t before = result.certificate.meeting_count;
         const std::uint64_t after = mended.certificate.meeting_count;
         if (mended.certificate || after < before) take_surface(result, std::move(mended));
-        if (result.certificate || after > 4 * before + 1000) break;
+        if (result.certificate || !schedule.mends_operands(before, after)) break;
     }
     return std::move(result);
 }

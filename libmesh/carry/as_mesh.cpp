@@ -1,22 +1,68 @@
 #include <libmesh/base/check_faces.hpp>
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 namespace treeform {
+namespace {
 
-std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh) {
-    const mesh_defects defects = find_defects(mesh);
+std::vector<std::uint32_t> unusable_faces(const mesh_defects& defects) {
     std::vector<std::uint32_t> unusable;
     std::merge(defects.nonfinite_faces.begin(), defects.nonfinite_faces.end(),
                defects.out_of_range_faces.begin(), defects.out_of_range_faces.end(),
                std::back_inserter(unusable));
+    return unusable;
+}
+
+/// The numbers below `count` that are not listed, both ascending.
+std::vector<std::uint32_t> all_but(std::size_t count, const std::vector<std::uint32_t>& listed) {
+    std::vector<std::uint32_t> all(count), rest;
+    std::iota(all.begin(), all.end(), 0U);
+    rest.reserve(count - listed.size());
+    std::set_difference(all.begin(), all.end(), listed.begin(), listed.end(),
+                        std::back_inserter(rest));
+    return rest;
+}
+
+/// Only the faces listed, ascending, and their points.
+void keep_faces(usable_mesh& part, std::vector<std::uint32_t> faces) {
+    part.mesh = select_faces(part.mesh, faces);
+    if (!part.component.empty()) {
+        for (std::size_t f = 0; f < faces.size(); ++f) part.component[f] = part.component[faces[f]];
+        part.component.resize(faces.size());
+    }
+    if (!part.triangle_of_face.empty())
+        for (std::uint32_t& f : faces) f = part.triangle_of_face[f];
+    part.triangle_of_face = std::move(faces);
+}
+
+void join_points(usable_mesh& part, const part_options& options) {
+    if (options.vertices == vertex_identity::by_coordinates || options.tolerance > 0.0) {
+        part.mesh = join_equal_points(part.mesh);
+        part.distinct = part.mesh.points.size();
+    } else if (options.details) {
+        part.distinct = find_equal_points(part.mesh.points).first_of_new.size();
+    }
+    if (!(options.tolerance > 0.0)) return;
+    const std::size_t before = part.mesh.points.size();
+    part.mesh =
+        join_groups(part.mesh, group_points(part.mesh.points, {.tolerance = options.tolerance}));
+    part.joined = before - part.mesh.points.size();
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh) {
+    const std::vector<std::uint32_t> unusable = unusable_faces(find_defects(mesh));
     if (unusable.empty()) return {};
     std::vector<std::uint32_t> number_before;
     std::size_t kept = 0;
@@ -45,6 +91,37 @@ usable_mesh as_mesh(mesh_file file) {
         if (!detail::base::is_finite(p)) p = {};
     result.mesh = std::move(file.mesh);
     result.stored_face = std::move(file.stored_face);
+    return result;
+}
+
+usable_mesh usable_part(mesh given, std::vector<std::uint32_t> stored_face,
+                        const part_options& options) {
+    usable_mesh part{.mesh = std::move(given), .stored_face = std::move(stored_face)};
+    const mesh_defects defects = find_defects(part.mesh);
+    const std::vector<std::uint32_t> unusable = unusable_faces(defects);
+    part.degenerate = defects.degenerate_faces.size();
+    part.dropped = unusable.size();
+    if (!unusable.empty() || !defects.nonfinite_points.empty())
+        keep_faces(part, all_but(part.mesh.faces.size(), unusable));
+    if (part.mesh.faces.empty()) return part;
+    join_points(part, options);
+    if (options.details) part.component = face_components(part.mesh.points.size(), part.mesh.faces);
+    if (options.box) keep_faces(part, faces_in_box(part.mesh, options.box->min, options.box->max));
+    return part;
+}
+
+joined_meshes join_meshes(std::span<const mesh_view> meshes) {
+    mesh all;
+    joined_meshes result;
+    for (std::uint32_t i = 0; i < meshes.size(); ++i) {
+        const auto offset = static_cast<std::uint32_t>(all.points.size());
+        for (const point3& p : meshes[i].points)
+            all.points.push_back(detail::base::is_finite(p) ? p : point3{});
+        for (const auto& [a, b, c] : meshes[i].faces)
+            all.faces.push_back({a + offset, b + offset, c + offset});
+        result.mesh_of_face.resize(all.faces.size(), i);
+    }
+    result.mesh = join_equal_points(all);
     return result;
 }
 

@@ -222,6 +222,19 @@ void carry(mesh_file& file, std::span<const carry_source> inputs, const carried_
     carry_materials(file, inputs, made);
 }
 
+void carry(mesh_file& file, const carry_source& input, std::span<const std::uint32_t> face_source,
+           std::span<const std::uint32_t> vertex_source) {
+    const auto of_input = [](std::span<const std::uint32_t> indices) {
+        std::vector<operand_element> elements(indices.size());
+        for (std::size_t i = 0; i < indices.size(); ++i)
+            if (indices[i] != operand_element::none) elements[i] = {0, indices[i]};
+        return elements;
+    };
+    const std::vector<operand_element> faces = of_input(face_source);
+    const std::vector<operand_element> vertices = of_input(vertex_source);
+    carry(file, {&input, 1}, {faces, vertices});
+}
+
 std::vector<std::uint32_t> face_groups(std::span<const carry_source> inputs, bool by_values,
                                        bool by_input) {
     std::vector<property> properties;

@@ -2,6 +2,7 @@
 /// \file
 /// A triangle put on its longest edge: what the distance from many points to it is computed from.
 
+#include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/triangle.hpp>
 
 #include <cstddef>
@@ -29,27 +30,20 @@ struct based_triangle {
         std::size_t longest = 0;
         double square = -1.0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const point3 edge = minus(t[(i + 1) % 3], t[i]);
-            if (!(dot(edge, edge) > square)) continue;
-            square = dot(edge, edge);
+            const point3 edge = base::minus(t[(i + 1) % 3], t[i]);
+            if (!(base::dot(edge, edge) > square)) continue;
+            square = base::dot(edge, edge);
             longest = i;
             base = edge;
         }
         corner = t[longest];
         per_base = square > 0.0 ? 1.0 / square : 0.0;
-        const point3 side = minus(t[(longest + 2) % 3], corner);
-        apex = dot(side, base) * per_base;
+        const point3 side = base::minus(t[(longest + 2) % 3], corner);
+        apex = base::dot(side, base) * per_base;
         apex = apex < 0.0 ? 0.0 : apex > 1.0 ? 1.0 : apex;
         for (std::size_t k = 0; k < 3; ++k) height[k] = side[k] - apex * base[k];
-        const double height_square = dot(height, height);
+        const double height_square = base::dot(height, height);
         per_height = height_square > 0.0 ? 1.0 / height_square : 0.0;
-    }
-
-    [[nodiscard]] static point3 minus(const point3& p, const point3& q) {
-        return {p.x - q.x, p.y - q.y, p.z - q.z};
-    }
-    [[nodiscard]] static double dot(const point3& p, const point3& q) {
-        return p.x * q.x + p.y * q.y + p.z * q.z;
     }
 
     [[nodiscard]] point3 at(double s, double t) const {

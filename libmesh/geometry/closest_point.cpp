@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/based_triangle.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 
@@ -17,7 +18,7 @@ closest_on_triangle closest_on_one(const based_triangle& t, const point3& p) {
     const hn::CappedTag<double, 1> d;
     using lane = hn::Vec<decltype(d)>;
     based_lanes<lane> of;
-    const point3 from = based_triangle::minus(p, t.corner);
+    const point3 from = base::minus(p, t.corner);
     for (std::size_t k = 0; k < 3; ++k) {
         of.base[k] = hn::Set(d, t.base[k]);
         of.height[k] = hn::Set(d, t.height[k]);

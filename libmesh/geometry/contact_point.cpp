@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/contact_point.hpp>
 #include <libmesh/geometry/features.hpp>
 
@@ -7,6 +8,11 @@
 
 namespace treeform {
 namespace {
+
+using detail::base::cross;
+using detail::base::dot;
+using detail::base::largest_of;
+using detail::base::minus;
 
 using detail::geometry::index_of;
 using detail::geometry::next;
@@ -40,17 +46,10 @@ box box_of(const triangle3& t, feature f) {
     return result;
 }
 
-point3 minus(const point3& p, const point3& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-double dot(const point3& p, const point3& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
-point3 cross(const point3& p, const point3& q) {
-    return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
-}
-double largest(const point3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 /// `v` times a power of two that brings its largest component into [1/2, 1).
 point3 normalized(const point3& v) {
     int exponent = 0;
-    std::frexp(largest(v), &exponent);
+    std::frexp(largest_of(v), &exponent);
     return {std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)};
 }
 
@@ -104,8 +103,8 @@ triangle3 scaled(const triangle3& t, int exponent) {
 /// Power of two by which to multiply both triangles first, so that sums of a few differences do
 /// not overflow and products with factors below 1 keep their bits.
 int scale_exponent(const triangle3& a, const triangle3& b) {
-    const double size = std::max(
-        {largest(a[0]), largest(a[1]), largest(a[2]), largest(b[0]), largest(b[1]), largest(b[2])});
+    double size = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) size = std::max({size, largest_of(a[k]), largest_of(b[k])});
     return size > 0x1p1000 ? -64 : size < 0x1p-500 ? 500 : 0;
 }
 

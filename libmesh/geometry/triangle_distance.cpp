@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/geometry/contact_point.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
@@ -10,8 +11,9 @@
 namespace treeform {
 namespace {
 
-point3 minus(const point3& p, const point3& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-double dot(const point3& p, const point3& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
+using detail::base::dot;
+using detail::base::minus;
+
 point3 along(const point3& p, double t, const point3& d) {
     return {p.x + t * d.x, p.y + t * d.y, p.z + t * d.z};
 }

@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/intersect/classify_pair.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/triangle.hpp>
@@ -30,10 +31,6 @@ shared_corners shared_by(const face& a, const face& b) {
     return shared;
 }
 
-triangle3 corners_of(points_view points, const face& f) {
-    return {points[f[0]], points[f[1]], points[f[2]]};
-}
-
 /// Whether `end` is one of the shared corners, on the evidence of coordinates: a corner of `a`
 /// that lies there may have another number than the shared corner it coincides with.
 bool is_shared(points_view points, const face& a, const contact& end,
@@ -45,11 +42,12 @@ bool is_shared(points_view points, const face& a, const contact& end,
     return false;
 }
 
-/// Whether the common set reaches beyond the shared corners and the edge between them.
+/// Whether the common set reaches beyond the shared corners, of which there are some, and the edge
+/// between them.
 bool reaches_beyond(points_view points, const face& a, const triangle_contact& common,
                     const shared_corners& shared) {
     if (common.kind == overlap::none) return false;
-    if (common.kind == overlap::area || shared.count == 0 || shared.count == 3) return true;
+    if (common.kind == overlap::area || shared.count == 3) return true;
     // A convex set within a point or a segment: all its ends must be theirs.
     if (shared.count == 1 && common.kind == overlap::segment) return true;
     return !std::all_of(common.ends.begin(), common.ends.begin() + common.count,
@@ -128,8 +126,9 @@ std::optional<pair_kind> classify_pair(points_view points, const face& a, const 
     }
     if (shared.count == 1 && coplanar_and_apart(points, a, b, shared.ids[0], counters))
         return std::nullopt;
-    const triangle3 ta = corners_of(points, a);
-    const triangle3 tb = corners_of(points, b);
+    const triangle3 ta = base::triangle_of(points, a);
+    const triangle3 tb = base::triangle_of(points, b);
+    if (shared.count == 0) return classify_triangles(ta, tb, counters);
     const triangle_contact common = treeform::intersect(ta, tb, &counters);
     if (!reaches_beyond(points, a, common, shared)) return std::nullopt;
     if (collinear(ta[0], ta[1], ta[2], &counters) || collinear(tb[0], tb[1], tb[2], &counters))
@@ -139,6 +138,16 @@ std::optional<pair_kind> classify_pair(points_view points, const face& a, const 
         return shared.count == 2 ? pair_kind::fold : pair_kind::overlap;
     if (common.crossing) return shared.count == 1 ? pair_kind::pierce : pair_kind::crossing;
     return pair_kind::touching;
+}
+
+std::optional<pair_kind> classify_triangles(const triangle3& a, const triangle3& b,
+                                            predicate_counters& counters) {
+    const triangle_contact common = treeform::intersect(a, b, &counters);
+    if (common.kind == overlap::none) return std::nullopt;
+    if (collinear(a[0], a[1], a[2], &counters) || collinear(b[0], b[1], b[2], &counters))
+        return pair_kind::degenerate;
+    if (common.kind == overlap::area) return pair_kind::overlap;
+    return common.crossing ? pair_kind::crossing : pair_kind::touching;
 }
 
 }  // namespace treeform::detail::intersect

@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/contact_point.hpp>
 #include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/triangle.hpp>
@@ -6,15 +7,10 @@
 namespace treeform {
 namespace {
 
-triangle3 corners(mesh_view mesh, std::uint32_t f) {
-    const face& at = mesh.faces[f];
-    return {mesh.points[at[0]], mesh.points[at[1]], mesh.points[at[2]]};
-}
-
 void append_common_set(mesh_view mesh, const face_pair& pair, std::uint32_t index,
                        std::vector<curve_segment>& segments) {
-    const triangle3 a = corners(mesh, pair.a);
-    const triangle3 b = corners(mesh, pair.b);
+    const triangle3 a = detail::base::triangle_of(mesh, pair.a);
+    const triangle3 b = detail::base::triangle_of(mesh, pair.b);
     const triangle_contact common = intersect(a, b);
     std::array<point3, 6> ends;
     for (std::size_t i = 0; i < common.count; ++i)

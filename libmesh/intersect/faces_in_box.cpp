@@ -1,4 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -54,7 +55,7 @@ std::vector<std::uint32_t> faces_in_box(mesh_view mesh, const point3& min, const
     detail::base::check_faces("faces_in_box", mesh.points.size(), mesh.faces);
     const std::array<triangle3, 12> walls = sides(min, max);
     const auto meets = [&](const face& f) {
-        const triangle3 t{mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]};
+        const triangle3 t = detail::base::triangle_of(mesh.points, f);
         if (apart(t, min, max)) return false;
         for (const point3& p : t)
             if (inside(p, min, max)) return true;

@@ -2,7 +2,7 @@
 /// \file
 /// What the searches for pairs of faces do around their chunks: progress, and joining the outputs.
 
-#include <libmesh/intersect/pair_sieve.hpp>
+#include <libmesh/intersect/narrow_phase.hpp>
 #include <libmesh/intersect/sort_pairs.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -39,7 +39,7 @@ class search_progress {
 
 /// Drops all but one pair: the lowest of the first chunk that has any. What later chunks found
 /// before they heard of it depends on the threads.
-inline void keep_first(std::vector<sieve_output>& found) {
+inline void keep_first(std::vector<narrow_phase_output>& found) {
     const auto first = std::find_if(found.begin(), found.end(),
                                     [](const auto& output) { return !output.pairs.empty(); });
     if (first == found.end()) return;
@@ -47,16 +47,16 @@ inline void keep_first(std::vector<sieve_output>& found) {
     first->pairs = {pair};
     first->counts = {};
     first->counts[static_cast<std::size_t>(pair.kind)] = 1;
-    std::fill(first + 1, found.end(), sieve_output{});
+    std::fill(first + 1, found.end(), narrow_phase_output{});
 }
 
 /// Adds the outputs to `result`, which has their fields: the lowest `limit` pairs, and all counts.
 template <class Result>
-void join_outputs(std::vector<sieve_output>& found, std::size_t limit, Result& result) {
+void join_outputs(std::vector<narrow_phase_output>& found, std::size_t limit, Result& result) {
     std::size_t total = 0;
-    for (const sieve_output& output : found) total += output.pairs.size();
+    for (const narrow_phase_output& output : found) total += output.pairs.size();
     result.pairs.reserve(total);
-    for (sieve_output& output : found) {
+    for (narrow_phase_output& output : found) {
         result.pairs.insert(result.pairs.end(), output.pairs.begin(), output.pairs.end());
         output.pairs = {};
         for (std::size_t k = 0; k < pair_kind_count; ++k) result.counts[k] += output.counts[k];

@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/features.hpp>
 #include <libmesh/intersect/meetings.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -9,12 +10,9 @@
 namespace treeform::detail::intersect {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 7;
+using base::triangle_of;
 
-triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
-    const face& c = mesh.faces[f];
-    return {mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]};
-}
+constexpr std::size_t grain = std::size_t{1} << 7;
 
 std::size_t place_of(feature f) { return static_cast<std::size_t>(geometry::index_of(f)); }
 

@@ -1,10 +1,11 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/face_boxes.hpp>
-#include <libmesh/intersect/block_pair_sieve.hpp>
+#include <libmesh/intersect/block_candidates.hpp>
+#include <libmesh/intersect/face_candidates.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/intersect/mesh_pair_sieve.hpp>
+#include <libmesh/intersect/narrow_phase.hpp>
 #include <libmesh/nearness/face_blocks.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/tree/build_within.hpp>
@@ -44,24 +45,25 @@ void add(const detail::intersect::bad_faces& more, detail::intersect::bad_faces&
     bad.in_b = std::min(bad.in_b, more.in_b);
 }
 
-/// What the chunks of a search give, each looked at through a sieve of its own.
-template <class Sieve, class Input>
-mesh_intersection_result sieved(const pair_search<3>& search, const Input& input,
-                                const mesh_intersection_options& options) {
+/// What the chunks of a search give, in a narrow phase each.
+template <class Source>
+mesh_intersection_result classified(const pair_search<3>& search,
+                                    const typename Source::input& meshes,
+                                    const mesh_intersection_options& options) {
     const std::size_t chunks = search.chunks();
-    std::vector<detail::intersect::sieve_output> found(chunks);
+    std::vector<detail::intersect::narrow_phase_output> found(chunks);
     std::vector<detail::intersect::bad_faces> bad(chunks);
     std::vector<search_statistics> searched(chunks);
     detail::intersect::search_progress progress(options.progress, chunks);
     std::atomic<std::size_t> last{chunks};  // the first chunk that found enough
     for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t, std::size_t) {
         const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
-        detail::intersect::sieve_output mine;  // outputs of neighbors share cache lines
+        detail::intersect::narrow_phase_output mine;  // outputs of neighbors share cache lines
         const auto satisfied = [&] { return options.first_only && !mine.pairs.empty(); };
-        Sieve sieve(input, mine, bad[chunk]);
+        detail::intersect::narrow_phase<Source> phase(options.kinds, mine, meshes, bad[chunk]);
         searched[chunk] = search.visit(chunk, [&](const candidate_block& block) {
             if (not_needed()) return false;
-            sieve.add(block);
+            phase.add(block);
             return !satisfied();
         });
         if (satisfied()) detail::lower(last, chunk);
@@ -90,9 +92,8 @@ mesh_intersection_result detail::intersect::mesh_intersections(
     check_tree("treeform::mesh_intersections", "second", b, tree_b);
     const pair_search<3> search(transformed(tree_a, options.move_a),
                                 transformed(tree_b, options.move_b), turned_boxes::both_ways);
-    const mesh_pair_input input{
-        {a, tree_a, options.move_a}, {b, tree_b, options.move_b}, options.kinds};
-    return sieved<mesh_pair_sieve>(search, input, options);
+    return classified<detail::intersect::face_candidates>(
+        search, {{a, tree_a, options.move_a}, {b, tree_b, options.move_b}}, options);
 }
 
 mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepared_mesh& b,
@@ -101,11 +102,11 @@ mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepar
     const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: b");
     const pair_search<3> search(transformed(tree_a, options.move_a),
                                 transformed(tree_b, options.move_b), turned_boxes::both_ways);
-    const detail::intersect::block_pair_input input{
-        {detail::nearness::face_blocks_of(a).triangles, tree_a, options.move_a},
-        {detail::nearness::face_blocks_of(b).triangles, tree_b, options.move_b},
-        options.kinds};
-    return sieved<detail::intersect::block_pair_sieve>(search, input, options);
+    return classified<detail::intersect::block_candidates>(
+        search,
+        {{detail::nearness::face_blocks_of(a).triangles, tree_a, options.move_a},
+         {detail::nearness::face_blocks_of(b).triangles, tree_b, options.move_b}},
+        options);
 }
 
 mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
@@ -118,16 +119,18 @@ mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
 bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                    const tree<3>& tree_b, const mesh_positions& positions) {
     mesh_intersection_options all;
-    const detail::intersect::mesh_pair_input input{
-        {a, tree_a, positions.move_a}, {b, tree_b, positions.move_b}, all.kinds};
+    const detail::intersect::face_candidates::input meshes{{a, tree_a, positions.move_a},
+                                                           {b, tree_b, positions.move_b}};
     std::mutex mutex;  // taken for a bad face only
     detail::intersect::bad_faces bad;
     const bool found = search_any_broad(
         transformed(tree_a, positions.move_a), transformed(tree_b, positions.move_b),
         [&](const candidate_block& block) {
-            detail::intersect::sieve_output output;
+            detail::intersect::narrow_phase_output output;
             detail::intersect::bad_faces met;
-            detail::intersect::mesh_pair_sieve(input, output, met).add(block);
+            detail::intersect::narrow_phase<detail::intersect::face_candidates>(all.kinds, output,
+                                                                                meshes, met)
+                .add(block);
             if (met.in_a != met.none || met.in_b != met.none) {
                 const std::lock_guard lock(mutex);
                 add(met, bad);

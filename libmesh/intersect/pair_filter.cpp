@@ -103,8 +103,7 @@ struct vec {
     lanes x, y, z;
 };
 
-template <std::size_t Corners>
-vec load(const pair_batch<Corners>& batch, std::size_t corner, std::size_t i) {
+vec load(const pair_batch& batch, std::size_t corner, std::size_t i) {
     const lanes_tag d;
     return {hn::Load(d, batch.at[corner][0] + i), hn::Load(d, batch.at[corner][1] + i),
             hn::Load(d, batch.at[corner][2] + i)};
@@ -193,7 +192,7 @@ std::uint64_t bits_at(lanes_mask mask, std::size_t i) {
 
 /// Two triangles on a common edge have no more in common unless they are coplanar, nor if seen
 /// along some axis they lie on either side of it: neighbors in a flat part of a surface.
-batch_verdict edge_pairs(const pair_batch<4>& batch, std::size_t count) {
+batch_verdict edge_pairs(const pair_batch& batch, std::size_t count) {
     batch_verdict verdict;
     for (std::size_t i = 0; i < count; i += hn::Lanes(lanes_tag())) {
         const vec u = load(batch, 0, i);
@@ -239,7 +238,7 @@ lanes_mask separated_by_an_edge(const vec& a1, const vec& a2, const vec& b1, con
 /// - D2 a1) / (D1 - D2) = alpha b1 + beta b2, where taking det(., b2, a1) gives alpha = E2 / (D1 -
 /// D2); D1 - D2 has the sign of D1. The point of the line on b1 b2 has positive coefficients, so
 /// the segments run the same way if and only if D1 and E2 have the same sign.
-batch_verdict corner_pairs(const pair_batch<5>& batch, std::size_t count) {
+batch_verdict corner_pairs(const pair_batch& batch, std::size_t count) {
     batch_verdict verdict;
     for (std::size_t i = 0; i < count; i += hn::Lanes(lanes_tag())) {
         const vec p = load(batch, 0, i);
@@ -326,7 +325,7 @@ lanes_mask cut(const std::array<sides, 3>& s) {
                       hn::And(hn::And(certain(0), certain(1)), certain(2)));
 }
 
-batch_verdict separate_pairs(const pair_batch<6>& batch, std::size_t count) {
+batch_verdict separate_pairs(const pair_batch& batch, std::size_t count) {
     batch_verdict verdict;
     for (std::size_t i = 0; i < count; i += hn::Lanes(lanes_tag())) {
         seen_triangle a, b;
@@ -371,13 +370,17 @@ void sort_by_class(const candidate_block& block, const numbered_face* faces,
                    candidate_classes& classes) {
     HWY_DYNAMIC_DISPATCH(sort_candidates)(block, faces, classes);
 }
-batch_verdict filter_edge_pairs(const pair_batch<4>& batch, std::size_t count) {
+template <>
+batch_verdict filter_pairs<candidate_classes::edge>(const pair_batch& batch, std::size_t count) {
     return HWY_DYNAMIC_DISPATCH(edge_pairs)(batch, count);
 }
-batch_verdict filter_corner_pairs(const pair_batch<5>& batch, std::size_t count) {
+template <>
+batch_verdict filter_pairs<candidate_classes::corner>(const pair_batch& batch, std::size_t count) {
     return HWY_DYNAMIC_DISPATCH(corner_pairs)(batch, count);
 }
-batch_verdict filter_separate_pairs(const pair_batch<6>& batch, std::size_t count) {
+template <>
+batch_verdict filter_pairs<candidate_classes::separate>(const pair_batch& batch,
+                                                        std::size_t count) {
     return HWY_DYNAMIC_DISPATCH(separate_pairs)(batch, count);
 }
 

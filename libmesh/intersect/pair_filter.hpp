@@ -5,7 +5,8 @@
 /// Every decision rests on the sign of the polynomial of `orient3d` (libmesh/exact), computed in
 /// its order of operations and held against its bound; what that bound leaves open stays open.
 
-#include <treeform/tree/search_self.hpp>
+#include <treeform/mesh/triangle.hpp>
+#include <treeform/tree/answers.hpp>
 
 #include <array>
 #include <cstddef>
@@ -48,7 +49,7 @@ static_assert(max_candidates <= 0x10000);
 
 /// The candidates of a block by the corners they share by number.
 struct candidate_classes {
-    enum : std::size_t {
+    enum name : std::size_t {
         separate,  ///< none
         corner,    ///< one: corner_a of a is corner_b of b
         edge,      ///< two, an edge of both: corner_a of a and corner_b of b are off it
@@ -64,11 +65,25 @@ void sort_by_class(const candidate_block& block, const numbered_face* faces,
 
 /// The corners of up to 64 pairs of one class, a row of numbers for each coordinate of each
 /// corner, so that the filter reads a vector of pairs at once. Rows are filled to whole vectors.
-template <std::size_t Corners>
 struct pair_batch {
     static constexpr std::size_t capacity = 64;
-    alignas(64) double at[Corners][3][capacity];
+    alignas(64) double at[6][3][capacity];
+
+    /// That of pair i with corners `first_corner` and the two after it.
+    [[nodiscard]] triangle3 triangle(std::size_t first_corner, std::size_t i) const {
+        triangle3 t;
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t axis = 0; axis < 3; ++axis) t[k][axis] = at[first_corner + k][axis][i];
+        return t;
+    }
 };
+
+/// How many corners the filter takes of a class: of faces that share an edge u v, those are u, v
+/// and the corners of a and b off it; that share corner p, p and the two others of a, then of b;
+/// else the three of a and of b.
+template <candidate_classes::name Class>
+inline constexpr std::size_t filtered_corners = 6 - Class;
+static_assert(filtered_corners<candidate_classes::edge> == 4);
 
 /// What the filter is certain of, a bit for each pair of a batch; the rest is open.
 struct batch_verdict {
@@ -76,14 +91,15 @@ struct batch_verdict {
     std::uint64_t pierce = 0;  ///< they pass through each other, from the corner they share if any
 };
 
-/// Corners u, v, a, b: faces u v a and u v b.
-[[nodiscard]] batch_verdict filter_edge_pairs(const pair_batch<4>& batch, std::size_t count);
-
-/// Corners p, a1, a2, b1, b2: faces p a1 a2 and p b1 b2.
-[[nodiscard]] batch_verdict filter_corner_pairs(const pair_batch<5>& batch, std::size_t count);
-
-/// Corners a0, a1, a2, b0, b1, b2: faces that share nothing.
-[[nodiscard]] batch_verdict filter_separate_pairs(const pair_batch<6>& batch, std::size_t count);
+/// \pre there are corners of `count` pairs, and of others up to a multiple of 8
+template <candidate_classes::name Class>
+[[nodiscard]] batch_verdict filter_pairs(const pair_batch& batch, std::size_t count);
+template <>
+batch_verdict filter_pairs<candidate_classes::edge>(const pair_batch&, std::size_t);
+template <>
+batch_verdict filter_pairs<candidate_classes::corner>(const pair_batch&, std::size_t);
+template <>
+batch_verdict filter_pairs<candidate_classes::separate>(const pair_batch&, std::size_t);
 
 /// The filters hold for coordinates up to this magnitude: no product of three differences then
 /// exceeds what filter.hpp of libmesh/exact allows.

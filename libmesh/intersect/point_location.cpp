@@ -1,6 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/check_faces.hpp>
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/geometry/flat_triangle.hpp>

@@ -1,20 +1,19 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/checked_face_tree.hpp>
-#include <libmesh/base/finite.hpp>
 #include <libmesh/base/first_bad.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
-#include <libmesh/intersect/pair_sieve.hpp>
+#include <libmesh/intersect/narrow_phase.hpp>
+#include <libmesh/intersect/own_candidates.hpp>
 #include <libmesh/intersect/pairs_by_tree.hpp>
 #include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search_self.hpp>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -48,8 +47,7 @@ void check(mesh_view mesh, const self_intersection_options& options) {
 
 bool fits_filter(points_view points) {
     return detail::base::first_bad(points.size(), [&](std::size_t i) {
-               const point3& p = points[i];
-               return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <=
+               return !(detail::base::largest_of(points[i]) <=
                         detail::intersect::largest_filtered_coordinate);
            }) == points.size();
 }
@@ -72,18 +70,19 @@ self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
     self_intersection_result result;
     const auto pair_start = std::chrono::steady_clock::now();
     const detail::buffer<detail::intersect::numbered_face> faces = leaf_order(mesh, tree);
-    const detail::intersect::sieve_input input{mesh.points, faces.span(), &options,
-                                               fits_filter(mesh.points)};
+    const detail::intersect::own_faces own{mesh.points, faces.span(), &options,
+                                           fits_filter(mesh.points)};
     const self_search<3> search(tree);
-    std::vector<detail::intersect::sieve_output> found(search.chunks());
+    std::vector<detail::intersect::narrow_phase_output> found(search.chunks());
     detail::intersect::search_progress progress(options.progress, search.chunks());
     std::atomic<std::size_t> last{search.chunks()};  // the first chunk that found enough
     for_chunks(search.chunks(), 1, [&](std::size_t chunk, std::size_t, std::size_t) {
         const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
         const auto satisfied = [&] { return options.first_only && !found[chunk].pairs.empty(); };
-        detail::intersect::pair_sieve sieve(input, found[chunk]);
+        detail::intersect::narrow_phase<detail::intersect::own_candidates> phase(options.kinds,
+                                                                                 found[chunk], own);
         search.visit(chunk, [&](const candidate_block& block) {
-            sieve.add(block);
+            phase.add(block);
             return !satisfied() && !not_needed();
         });
         if (satisfied()) detail::lower(last, chunk);

@@ -1,5 +1,5 @@
 #include <libmesh/base/build_face_tree.hpp>
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/geometry/based_triangle.hpp>
 #include <libmesh/geometry/closest_point.hpp>

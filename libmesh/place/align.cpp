@@ -1,7 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
-#include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_faces.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <libmesh/place/align_steps.hpp>

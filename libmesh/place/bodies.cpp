@@ -1,5 +1,5 @@
-#include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/placement.hpp>

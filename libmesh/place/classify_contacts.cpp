@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/shape.hpp>
@@ -13,6 +14,8 @@
 
 namespace treeform {
 namespace {
+
+using detail::base::triangle_of;
 
 using detail::place::shape;
 using classes = std::vector<contact_class>;
@@ -31,11 +34,6 @@ void mark_meeting(const shape& placed, const shape& part, classes& a, classes& b
         mark(a[pair.a], one);
         mark(b[pair.b], one);
     }
-}
-
-triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
-    const face& corners = mesh.faces[f];
-    return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
 }
 
 void mark_near(const shape& placed, const shape& part, double clearance, classes& a, classes& b) {

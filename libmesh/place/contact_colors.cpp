@@ -1,3 +1,4 @@
+#include <libmesh/attributes/class_colors.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/placement.hpp>
 
@@ -6,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace treeform {
@@ -14,8 +16,7 @@ namespace {
 using row_classes = std::vector<std::uint8_t>;
 
 /// Of none, penetrating, touching, near: gray, red, yellow, cyan.
-constexpr std::array<std::array<std::uint8_t, 4>, 3> channels{
-    {{0xb4, 0xe0, 0xec, 0x00}, {0xba, 0x20, 0xd0, 0xa0}, {0xc2, 0x20, 0x00, 0xc0}}};
+constexpr std::array<const char*, 4> colors_of_classes{"#b4bac2", "#e02020", "#ecd000", "#00a0c0"};
 
 /// The gravest class of the triangles of each face as stored.
 row_classes by_stored_face(const mesh_file& file, const row_classes& triangles) {
@@ -36,6 +37,23 @@ bool has_colors(const mesh_file& file) {
 
 }  // namespace
 
+std::vector<contact_class> classes_in_files(std::span<const classified_body> bodies) {
+    std::vector<contact_class> all;
+    std::size_t first = 0;
+    const mesh_file* file = nullptr;
+    for (const classified_body& b : bodies) {
+        const bool cloud = b.file->mesh.faces.empty();
+        if (cloud && bodies.size() > 1) continue;
+        if (std::exchange(file, b.file) != b.file) {
+            first = all.size();
+            all.resize(first + (cloud ? b.file->mesh.points.size() : b.file->mesh.faces.size()));
+        }
+        for (std::uint32_t f = 0; f < b.classes.size(); ++f)
+            all[first + b.body->triangle(f)] = b.classes[f];
+    }
+    return all;
+}
+
 void color_contacts(mesh_file& file, std::span<const contact_class> classes,
                     const contact_color_options& options) {
     const bool cloud = file.mesh.faces.empty() && !classes.empty();
@@ -48,12 +66,7 @@ void color_contacts(mesh_file& file, std::span<const contact_class> classes,
     if (!cloud) of_row = by_stored_face(file, of_row);
     const bool colors = !(options.keep_colors && has_colors(file));
     element& rows = obtain_element(file.attributes, cloud ? "vertex" : "face", of_row.size());
-    constexpr std::array<const char*, 3> names{"red", "green", "blue"};
-    for (std::size_t k = 0; k < 3 && colors; ++k) {
-        row_classes values;
-        for (const std::uint8_t c : of_row) values.push_back(channels[k][c]);
-        set_column(rows, make_column<std::uint8_t>(names[k], values));
-    }
+    if (colors) detail::attribute::set_colors(rows, of_row, colors_of_classes);
     const std::vector<std::int32_t> numbers(of_row.begin(), of_row.end());
     set_column(rows, make_column<std::int32_t>("tf_class", numbers));
 }

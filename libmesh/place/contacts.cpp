@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/contacts.hpp>
@@ -9,24 +10,16 @@
 namespace treeform::detail::place {
 namespace {
 
-double dot(const point3& a, const point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-point3 cross(const point3& a, const point3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-point3 minus(const point3& a, const point3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+using base::cross;
+using base::dot;
+using base::minus;
+using base::triangle_of;
 
 /// Of length 1; 0 where there is no direction.
 point3 unit(const point3& v) {
     const double size = std::hypot(v.x, v.y, v.z);
     if (!(size > 0.0) || !std::isfinite(size)) return {};
     return {v.x / size, v.y / size, v.z / size};
-}
-
-triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
-    const face& corners = mesh.faces[f];
-    return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
 }
 
 point3 normal_of(const triangle3& t) { return unit(cross(minus(t[1], t[0]), minus(t[2], t[0]))); }

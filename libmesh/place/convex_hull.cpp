@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/place/quickhull.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -61,23 +62,23 @@ first_simplex find_simplex(points_view points, const detail::place::scaled_point
     }
     s.dimension = 0;
     const auto from_a = [&](std::uint32_t i) { return scaled.difference(i, a); };
-    const auto off_a = [&](std::uint32_t i) { return detail::place::dot(from_a(i), from_a(i)); };
+    const auto off_a = [&](std::uint32_t i) { return detail::base::dot(from_a(i), from_a(i)); };
     const auto other = best_point(count, off_a, [&](auto i) { return points[i] != points[a]; });
     if (!other) return s;
     b = *other;
     s.dimension = 1;
     const auto off_line = [&](std::uint32_t i) {
-        const point3 n = detail::place::cross(from_a(b), from_a(i));
-        return detail::place::dot(n, n);
+        const point3 n = detail::base::cross(from_a(b), from_a(i));
+        return detail::base::dot(n, n);
     };
     const auto third = best_point(
         count, off_line, [&](auto i) { return !collinear(points[a], points[b], points[i]); });
     if (!third) return s;
     c = *third;
     s.dimension = 2;
-    const point3 n = detail::place::cross(from_a(b), from_a(c));
+    const point3 n = detail::base::cross(from_a(b), from_a(c));
     const auto off_plane = [&](std::uint32_t i) {
-        return std::abs(detail::place::dot(n, from_a(i)));
+        return std::abs(detail::base::dot(n, from_a(i)));
     };
     const auto side = [&](std::uint32_t i) {
         return orient3d(points[a], points[b], points[c], points[i]);
@@ -169,10 +170,10 @@ point3 careful_cross(const point3& a, const point3& b, const point3& c, double b
 }
 
 point3 of_length_1(point3 n) {
-    const double most = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+    const double most = detail::base::largest_of(n);
     if (most == 0.0) return n;
     n = {n.x / most, n.y / most, n.z / most};
-    const double length = std::sqrt(detail::place::dot(n, n));
+    const double length = std::sqrt(detail::base::dot(n, n));
     return {n.x / length, n.y / length, n.z / length};
 }
 
@@ -197,10 +198,10 @@ void measure(hull_side& side, std::span<const face> faces, points_view points) {
     double total = 0.0, widest = -1.0, spread = 0.0;
     face widest_face{};
     for (const face& f : faces) {
-        const point3 a = at(f[0]), e = detail::place::minus(at(f[1]), a),
-                     g = detail::place::minus(at(f[2]), a);
-        const point3 n = detail::place::cross(e, g);
-        const double twice = std::sqrt(detail::place::dot(n, n));
+        const point3 a = at(f[0]), e = detail::base::minus(at(f[1]), a),
+                     g = detail::base::minus(at(f[2]), a);
+        const point3 n = detail::base::cross(e, g);
+        const double twice = std::sqrt(detail::base::dot(n, n));
         total += twice;
         for (std::size_t k = 0; k < 3; ++k) {
             normal[k] += n[k];
@@ -208,7 +209,7 @@ void measure(hull_side& side, std::span<const face> faces, points_view points) {
         }
         if (twice > widest) {
             widest = twice;
-            spread = std::sqrt(detail::place::dot(e, e) * detail::place::dot(g, g));
+            spread = std::sqrt(detail::base::dot(e, e) * detail::base::dot(g, g));
             widest_face = f;
         }
     }

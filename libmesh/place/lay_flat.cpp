@@ -1,6 +1,6 @@
 #include <libmesh/base/check_faces.hpp>
-#include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/place/contacts.hpp>
@@ -22,9 +22,9 @@
 namespace treeform {
 namespace {
 
-using detail::place::cross;
-using detail::place::dot;
-using detail::place::minus;
+using detail::base::cross;
+using detail::base::dot;
+using detail::base::minus;
 
 constexpr double equally_good = 0x1p-40;
 
@@ -167,7 +167,7 @@ candidates sides_of(mesh_view mesh, const std::vector<std::uint32_t>& ids, doubl
 }
 
 double angle_between(const point3& a, point3 b) {
-    const double most = std::max({std::abs(b.x), std::abs(b.y), std::abs(b.z)});
+    const double most = detail::base::largest_of(b);
     b = {b.x / most, b.y / most, b.z / most};
     const point3 c = cross(a, b);
     return std::atan2(std::sqrt(dot(c, c)), dot(a, b));
@@ -175,9 +175,8 @@ double angle_between(const point3& a, point3 b) {
 
 /// How far the sides are from a point, in lengths of the larger of the two.
 std::vector<double> distances_to(const point3& p, const candidates& c) {
-    double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    for (const point3& q : c.points)
-        largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+    double largest = detail::base::largest_of(p);
+    for (const point3& q : c.points) largest = std::max(largest, detail::base::largest_of(q));
     int exponent = 0;
     std::frexp(largest, &exponent);
     const double by = std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));

@@ -1,4 +1,4 @@
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/place/mate_motion.hpp>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/closest_points.hpp>
@@ -13,18 +14,12 @@
 namespace treeform {
 namespace {
 
+using detail::base::cross;
+using detail::base::dot;
+using detail::base::minus;
+using detail::base::triangle_of;
+
 using weights = std::array<double, 3>;
-
-triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
-    const face& corners = mesh.faces[f];
-    return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
-}
-
-point3 minus(const point3& a, const point3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-double dot(const point3& a, const point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-point3 cross(const point3& a, const point3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 /// How far the point that the weights give is from `p`, squared.
 double squared_miss(const triangle3& t, const weights& w, const point3& p) {

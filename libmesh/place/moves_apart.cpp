@@ -1,4 +1,5 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/nearness/closest_points.hpp>
@@ -20,18 +21,16 @@
 namespace treeform::detail::place {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using base::cross;
+using base::dot;
+using base::plus;
+using base::scaled;
 
-double dot(const point3& a, const point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-point3 cross(const point3& u, const point3& v) {
-    return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-}
-point3 scaled(const point3& v, double by) { return {v.x * by, v.y * by, v.z * by}; }
-point3 sum(const point3& a, const point3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Of length 1; none of a vector too short to have a direction.
 std::optional<point3> direction_of(point3 v) {
-    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const double largest = base::largest_of(v);
     if (!(largest > 0.0) || !std::isfinite(largest)) return std::nullopt;
     v = {v.x / largest, v.y / largest, v.z / largest};
     const double length = std::sqrt(dot(v, v));
@@ -91,7 +90,7 @@ class clearing {
         for (const point3& direction : directions()) look(direction);
         for (const double tilt : {0.5, 0.25, 0.125, 0.0625})
             for (const point3& aside : around(best.direction))
-                look(direction_of(sum(best.direction, scaled(aside, tilt))));
+                look(direction_of(plus(best.direction, scaled(aside, tilt))));
         return found;
     }
 
@@ -111,7 +110,7 @@ class clearing {
         for (const auto& [x, y] :
              {std::pair(1.0, 0.0), std::pair(0.5, half), std::pair(-0.5, half),
               std::pair(-1.0, 0.0), std::pair(-0.5, -half), std::pair(0.5, -half)})
-            all.push_back(sum(scaled(*u, x), scaled(v, y)));
+            all.push_back(plus(scaled(*u, x), scaled(v, y)));
         return all;
     }
 
@@ -127,7 +126,7 @@ class clearing {
 
     [[nodiscard]] std::vector<point3> points_at(const point3& offset) const {
         std::vector<point3> points(a_.points.begin(), a_.points.end());
-        for (point3& p : points) p = sum(p, offset);
+        for (point3& p : points) p = plus(p, offset);
         return points;
     }
 
@@ -251,7 +250,7 @@ class clearing {
                 auto out_of_a = normal_of(a_, pair.a);
                 if (out_of_a) out_of_a = scaled(*out_of_a, -1.0);
                 for (const auto& d : {out_of_b, out_of_a}) {
-                    if (d) all = sum(all, *d);
+                    if (d) all = plus(all, *d);
                     if (found.size() < most) offer(d);
                 }
             }
@@ -294,7 +293,7 @@ class clearing {
                               pair->on_a.z - pair->on_b.z});
             if (!away) break;
             if (step == 0) offer(away);
-            offset = sum(offset, scaled(*away, options_.clearance * beyond - pair->distance));
+            offset = plus(offset, scaled(*away, options_.clearance * beyond - pair->distance));
         }
         offer(direction_of(offset));
     }

@@ -1,4 +1,4 @@
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/place/contacts.hpp>
 #include <libmesh/place/mate_motion.hpp>
 #include <libmesh/place/moves_apart.hpp>
@@ -60,6 +60,8 @@ placing::placing(const prepared_mesh& moving, std::span<const prepared_mesh> fix
         check_operand(options.function, "fixed " + std::to_string(i), fixed[i].view());
     box_ = box_of_faces(moving.view());
     if (options.max_travel) longest_ = *options.max_travel;
+    result_.max_travel = options.max_travel;
+    result_.precision = options.precision;
     result_.clearance = options.clearance;
     result_.points.assign(moving.view().points.begin(), moving.view().points.end());
     if (options.bed) result_.bed = not_below(*options.bed + options.clearance, options.precision);

@@ -53,7 +53,7 @@ std::uint32_t quickhull::make_facet(const face& corners) {
     f.used = true;
     const point3 e = scaled_.difference(corners[1], corners[0]);
     const point3 g = scaled_.difference(corners[2], corners[0]);
-    f.normal = cross(e, g);
+    f.normal = base::cross(e, g);
     // With d = p - a rounded and n as above, the error of n . d is below 10 u of the sum of its six
     // products' magnitudes, where u = 2^-53: one for each difference and product, three for sums.
     // What denormals lose, of coordinates scaled or of products, is far below the constant.
@@ -64,7 +64,7 @@ std::uint32_t quickhull::make_facet(const face& corners) {
 }
 
 double quickhull::height(const facet& f, std::uint32_t p) const {
-    return dot(f.normal, scaled_.difference(p, f.corner[0]));
+    return base::dot(f.normal, scaled_.difference(p, f.corner[0]));
 }
 
 bool quickhull::sees(const facet& f, std::uint32_t p, double height) const {

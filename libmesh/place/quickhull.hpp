@@ -2,6 +2,7 @@
 /// \file
 /// The convex hull of points that span space, point by point from the highest on.
 
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <treeform/mesh/mesh.hpp>
 
@@ -13,16 +14,6 @@
 
 namespace treeform::detail::place {
 
-[[nodiscard]] inline point3 minus(const point3& a, const point3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-[[nodiscard]] inline double dot(const point3& a, const point3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-[[nodiscard]] inline point3 cross(const point3& a, const point3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 /// Points times a power of two that brings the largest coordinate to the size of 1, so that
 /// products of three differences do not overflow.
 class scaled_points {
@@ -31,7 +22,7 @@ class scaled_points {
 
     [[nodiscard]] const point3& operator[](std::uint32_t i) const { return points_[i]; }
     [[nodiscard]] point3 difference(std::uint32_t i, std::uint32_t from) const {
-        return minus(points_[i], points_[from]);
+        return base::minus(points_[i], points_[from]);
     }
     /// The longest side of their box, rounded up.
     [[nodiscard]] double extent() const { return extent_; }

@@ -1,6 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
-#include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/nearness/closest_points.hpp>
 #include <libmesh/place/relation_of.hpp>

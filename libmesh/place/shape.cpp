@@ -1,6 +1,6 @@
 #include <libmesh/base/check_faces.hpp>
-#include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/place/shape.hpp>
 #include <libmesh/weld/joined_faces.hpp>

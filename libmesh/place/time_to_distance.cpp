@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/closest_points.hpp>
@@ -16,10 +17,7 @@
 namespace treeform {
 namespace {
 
-triangle3 triangle_of(mesh_view mesh, std::uint32_t f) {
-    const face& corners = mesh.faces[f];
-    return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
-}
+using detail::base::triangle_of;
 
 triangle3 moved(triangle3 t, const point3& motion, double time) {
     for (point3& p : t)

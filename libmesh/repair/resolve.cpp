@@ -1,4 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/certify.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/repair/remove_faces.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -62,6 +63,7 @@ resolve_result by_mode(mesh_view mesh, resolve_mode mode, const resolve_options&
 resolve_result resolve_self_intersections(mesh_view mesh, resolve_mode mode,
                                           const resolve_options& options) {
     resolve_result result = by_mode(mesh, mode, options);
+    detail::base::describe(result.certificate, result.mesh, options.precision);
     const bool is_there = result.certificate.status != status::cancelled &&
                           result.certificate.status != status::open_input;
     if (is_there) count_losses(mesh, result);

@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/round/flat_patches.hpp>
 
@@ -18,16 +19,15 @@ bool flat(const patch_inputs& in, std::uint32_t f, std::uint32_t g, const edge_n
             if (c != e[0] && c != e[1]) return c;
         return e[0];
     };
-    const point3 along = difference(at(e[1]), at(e[0]));
-    point3 large = difference(at(apex(f)), at(e[0])), small = difference(at(apex(g)), at(e[0]));
-    if (length(cross_product(along, large)) < length(cross_product(along, small)))
-        std::swap(large, small);
+    const point3 along = minus(at(e[1]), at(e[0]));
+    point3 large = minus(at(apex(f)), at(e[0])), small = minus(at(apex(g)), at(e[0]));
+    if (length(cross(along, large)) < length(cross(along, small))) std::swap(large, small);
     // The apex of the smaller one as seen from the larger one: how high, and on which side.
-    const point3 normal = cross_product(along, large);
+    const point3 normal = cross(along, large);
     const double size = length(normal);
     if (!(size > 0.0)) return false;
-    const double height = std::abs(dot_product(normal, small)) / size;
-    const double across = dot_product(normal, cross_product(along, small)) / size;
+    const double height = std::abs(dot(normal, small)) / size;
+    const double across = dot(normal, cross(along, small)) / size;
     return height <= in.near && across <= in.near * length(along);
 }
 

@@ -2,6 +2,7 @@
 /// \file
 /// Edges by name, and what is computed of them in double.
 
+#include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
 
@@ -24,16 +25,7 @@ inline std::array<edge_name, 3> edges_of(const face& f) {
 
 inline bool holds(const face& f, std::uint32_t p) { return f[0] == p || f[1] == p || f[2] == p; }
 
-inline point3 difference(const point3& p, const point3& q) {
-    return {p.x - q.x, p.y - q.y, p.z - q.z};
-}
-inline point3 cross_product(const point3& u, const point3& v) {
-    return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-}
-inline double dot_product(const point3& u, const point3& v) {
-    return u.x * v.x + u.y * v.y + u.z * v.z;
-}
-inline double length(const point3& v) { return std::sqrt(dot_product(v, v)); }
+inline double length(const point3& v) { return std::sqrt(base::dot(v, v)); }
 
 /// Around the edge from p to q, and what is nearer to it than `by`.
 inline aabb<double, 3> box_around(const point3& p, const point3& q, double by) {

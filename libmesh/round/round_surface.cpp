@@ -1,12 +1,12 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/base/compact.hpp>
-#include <libmesh/base/finite.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/used_points.hpp>
-#include <libmesh/round/reach.hpp>
+#include <libmesh/round/mending_schedule.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/round/snap_nearby.hpp>
 #include <libmesh/round/solid_faces.hpp>
@@ -37,25 +37,25 @@ point3 to_single(const point3& p) {
 }
 
 double largest_difference(const point3& p, const point3& q) {
-    return std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.z - q.z)});
+    return detail::base::largest_of(detail::base::minus(p, q));
 }
 
 /// Half a unit in the last place of the largest coordinate: rounding to nearest moves none further.
 double half_unit(const point3& p) {
-    const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    const double largest = detail::base::largest_of(p);
     const double unit = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
     return std::max(unit / 2, std::numeric_limits<double>::denorm_min());  // half of which is none
 }
-
-/// Of `reach_of_bits`, in step k = 1, 2, ...: a growing share.
-int bits_of_step(int step, bool to_float) { return (to_float ? 24 : 50) - 2 * step; }
 
 /// The surface, exact and as rounded so far. Of the exact one, points of the surface that was
 /// rounded before come first.
 class rounding {
   public:
     rounding(exact_surface exact, const round_options& options)
-        : options_(options), exact_(std::move(exact)), most_faces_(4 * exact_.faces.size() + 1000) {
+        : options_(options),
+          schedule_{options.precision, options.steps},
+          exact_(std::move(exact)),
+          faces_given_(exact_.faces.size()) {
         point_of_.resize(exact_.given.size() + exact_.constructed.size());
         std::iota(point_of_.begin(), point_of_.end(), 0U);
         result_.face_of.resize(exact_.faces.size());
@@ -68,8 +68,7 @@ class rounding {
             const bool sound = check();
             if (result_.steps == 0 && (vanished_ || !sound)) remember_parts();
             if (sound || is_cancelled()) break;
-            if (result_.steps >= options_.steps && !gets_better()) break;
-            if (gets_worse()) break;
+            if (!schedule_.mends_surface(state())) break;
             ++result_.steps;
             last_meeting_count_ = result_.certificate.meeting_count;
             if (!cut_again()) break;
@@ -87,18 +86,13 @@ class rounding {
         return result_.certificate.status == status::cancelled;
     }
 
-    /// Fewer faces meet than before the last step. Where nothing is joined, that ends as a rule, if
-    /// slowly; otherwise each step joins what is further apart.
-    [[nodiscard]] bool gets_better() const {
-        const int most_steps = only_cut_ ? 12 : 4;
-        return options_.steps > 0 && result_.steps < most_steps &&
-               result_.certificate.meeting_count < last_meeting_count_;
-    }
-    /// More and more faces would be cut by each other.
-    [[nodiscard]] bool gets_worse() const {
-        return result_.surface.faces.size() > most_faces_ ||
-               (result_.steps > 0 &&
-                result_.certificate.meeting_count > 2 * last_meeting_count_ + 1000);
+    [[nodiscard]] detail::round::mending_state state() const {
+        return {.steps = result_.steps,
+                .meeting = result_.certificate.meeting_count,
+                .meeting_before = last_meeting_count_,
+                .faces = result_.surface.faces.size(),
+                .faces_given = faces_given_,
+                .only_cut = only_cut_};
     }
 
     /// Each phase has half of the work that was left; nobody knows how many there will be.
@@ -335,10 +329,10 @@ class rounding {
     /// Where that only spreads, nothing is joined.
     detail::round::joined_near join_what_is_near() {
         const mesh& now = result_.surface;
-        const detail::round::joint how{.reach = detail::round::reach_of_bits(
-                                           now.points, bits_of_step(result_.steps, to_float32())),
-                                       .source = result_.face_of,
-                                       .solid = options_.solid};
+        const detail::round::joint how{
+            .reach = schedule_.reach_of_surface(now.points, result_.steps),
+            .source = result_.face_of,
+            .solid = options_.solid};
         constexpr int most_rounds = 8;
         detail::round::joined_near near;
         for (int round = 0; round < most_rounds && !only_cut_; ++round) {
@@ -368,6 +362,7 @@ class rounding {
     }
 
     const round_options& options_;
+    const detail::round::mending_schedule schedule_;
     exact_surface exact_;
     std::vector<std::uint32_t> point_of_;  ///< by point, of the original surface
     /// By face of the surface given, from 0 on in the order of their lowest faces; or empty.
@@ -375,7 +370,7 @@ class rounding {
     std::vector<point3> place_of_part_;
     std::vector<std::uint8_t> sound_;      ///< by face, or empty
     std::vector<std::uint8_t> offending_;  ///< by face
-    std::size_t most_faces_;
+    std::size_t faces_given_;
     std::uint64_t last_meeting_count_ = 0;
     double moved_ = 0.0;     ///< how far, in the last rounding; infinite where points were joined
     bool vanished_ = false;  ///< some faces, so that points may be left that none has

@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/geometry/closest_point.hpp>
@@ -22,6 +23,10 @@
 
 namespace treeform::detail::round {
 namespace {
+
+using base::cross;
+using base::dot;
+using base::minus;
 
 constexpr std::size_t grain = std::size_t{1} << 10;
 constexpr int most_rounds = 8, most_rounds_of_operands = 3;
@@ -159,7 +164,7 @@ class joining {
     void visit_near(std::uint32_t p, const tree<3>& around,
                     const std::vector<std::uint32_t>& points, const Visit& visit) const {
         search(around, box_around(at(p), at(p), reach_), [&](std::uint32_t id) {
-            if (length(difference(at(p), at(points[id]))) <= reach_) visit(points[id]);
+            if (length(minus(at(p), at(points[id]))) <= reach_) visit(points[id]);
         });
     }
 
@@ -192,7 +197,7 @@ class joining {
         for (std::uint32_t p = 0; p < now.size(); ++p) {
             if (now[p] == p) continue;
             any = true;
-            note(length(difference(at(p), at(now[p]))));
+            note(length(minus(at(p), at(now[p]))));
         }
         if (!any) return false;
         replace_faces([&](std::uint32_t, const face& f, std::vector<face>& pieces) {
@@ -203,12 +208,12 @@ class joining {
 
     [[nodiscard]] place nearest_on(std::uint32_t p, const edge_name& e) const {
         const point3 &a = at(e[0]), &q = at(p);
-        const point3 way = difference(at(e[1]), a);
-        const double square = dot_product(way, way);
+        const point3 way = minus(at(e[1]), a);
+        const double square = dot(way, way);
         const double along =
-            square > 0.0 ? std::clamp(dot_product(difference(q, a), way) / square, 0.0, 1.0) : 0.0;
+            square > 0.0 ? std::clamp(dot(minus(q, a), way) / square, 0.0, 1.0) : 0.0;
         const point3 there{a.x + along * way.x, a.y + along * way.y, a.z + along * way.z};
-        return {along, length(difference(q, there))};
+        return {along, length(minus(q, there))};
     }
 
     /// Corners next to offending edges.
@@ -230,17 +235,15 @@ class joining {
     /// Where the lines through two edges are nearest, if that is inside of both.
     [[nodiscard]] bool pass(passing_edges& e) const {
         const point3 &p = at(e.a[0]), &q = at(e.b[0]);
-        const point3 u = difference(at(e.a[1]), p), v = difference(at(e.b[1]), q),
-                     w = difference(q, p);
-        const double uu = dot_product(u, u), uv = dot_product(u, v), vv = dot_product(v, v),
-                     uw = dot_product(u, w), vw = dot_product(v, w);
+        const point3 u = minus(at(e.a[1]), p), v = minus(at(e.b[1]), q), w = minus(q, p);
+        const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
         const double turn = uu * vv - uv * uv;
         if (!(turn > 0x1p-40 * uu * vv)) return false;  // along each other: their ends are near
         const double s = (uw * vv - vw * uv) / turn, t = (uw * uv - vw * uu) / turn;
         if (!(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)) return false;
         const point3 on_a{p.x + s * u.x, p.y + s * u.y, p.z + s * u.z};
         const point3 on_b{q.x + t * v.x, q.y + t * v.y, q.z + t * v.z};
-        const double distance = length(difference(on_a, on_b));
+        const double distance = length(minus(on_a, on_b));
         if (!(distance <= near())) return false;
         e.on_a = {s, distance};
         e.on_b = {t, distance};
@@ -271,10 +274,10 @@ class joining {
     /// made for other edges there, or a new one.
     std::uint32_t point_for(const passing_edges& e, std::size_t first_made) {
         for (const std::uint32_t end : {e.a[0], e.a[1], e.b[0], e.b[1]})
-            if (length(difference(at(end), e.between)) <= reach_) return end;
+            if (length(minus(at(end), e.between)) <= reach_) return end;
         const auto made = static_cast<std::uint32_t>(surface().points.size());
         for (std::uint32_t p = made; p-- > first_made && made - p < 64;)
-            if (length(difference(at(p), e.between)) <= reach_) return p;
+            if (length(minus(at(p), e.between)) <= reach_) return p;
         surface().points.push_back(e.between);
         return made;
     }

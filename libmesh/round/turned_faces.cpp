@@ -1,6 +1,7 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/round/joint_geometry.hpp>
 #include <libmesh/round/turned_faces.hpp>
@@ -17,6 +18,10 @@
 
 namespace treeform::detail::round {
 namespace {
+
+using base::cross;
+using base::dot;
+using base::minus;
 
 using box3 = aabb<double, 3>;
 using uses = std::span<const near_edges::use>;
@@ -128,9 +133,8 @@ class near_parts {
         for (const std::uint32_t i : part) {
             const auto& [a, b, c] = surface_.faces[near_[i]];
             const auto& points = surface_.points;
-            volume += dot_product(
-                difference(points[a], origin),
-                cross_product(difference(points[b], points[a]), difference(points[c], points[a])));
+            volume += dot(minus(points[a], origin),
+                          cross(minus(points[b], points[a]), minus(points[c], points[a])));
             const box3 box = box_of(surface_, near_[i]);
             const double x = box.max[0] - box.min[0] + 2.0 * moved;
             const double y = box.max[1] - box.min[1] + 2.0 * moved;

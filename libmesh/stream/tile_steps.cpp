@@ -1,4 +1,4 @@
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 #include <libmesh/weld/crowded_chain.hpp>
 #include <treeform/mesh/point_stream.hpp>

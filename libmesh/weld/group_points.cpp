@@ -6,6 +6,7 @@
 #include <libmesh/weld/number_groups.hpp>
 #include <libmesh/weld/sparse.hpp>
 #include <libmesh/weld/tolerance.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
@@ -140,6 +141,11 @@ std::uint64_t detail::weld::count_groups_of_several(const point_groups& groups) 
 
 point_groups group_points(points_view points, const weld_options& options) {
     return detail::weld::find_groups("group_points", points, options);
+}
+
+std::uint64_t count_nearly_equal(points_view points, double distance) {
+    const std::size_t distinct = find_equal_points(points).first_of_new.size();
+    return distinct - group_points(points, {.tolerance = distance}).first_of_group.size();
 }
 
 mesh join_groups(mesh_view mesh, const point_groups& groups) {

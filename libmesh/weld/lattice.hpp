@@ -3,7 +3,7 @@
 /// The box of some points cut into 2^30 steps a side: integers that say where a point is to one
 /// part in a thousand million, and so whether two are within a tolerance nearly always.
 
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/mesh.hpp>
 
 #include <algorithm>

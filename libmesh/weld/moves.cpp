@@ -1,4 +1,4 @@
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/weld/moves.hpp>
 #include <libmesh/weld/reach.hpp>
 #include <treeform/mesh/predicates.hpp>

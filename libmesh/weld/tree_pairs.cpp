@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/weld/near_pairs.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/search_self.hpp>
@@ -19,7 +20,7 @@ bool pairs_by_tree(const near_pairs_task& task) {
     bool bounded = true;
     for (const std::uint32_t i : finite) {
         const point3& p = task.points[i];
-        const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        const double largest = base::largest_of(p);
         bounded = bounded && largest < 0x1p1022 && half < 0x1p1022;
     }
     if (!bounded) return false;

@@ -1,5 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
-#include <libmesh/base/finite.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/weld/carried_rows.hpp>
 #include <libmesh/weld/conditions.hpp>

@@ -1,6 +1,9 @@
 #include <treeform/tree/build.hpp>
+#include <treeform/tree/detail/box_in_space.hpp>
 #include <treeform/tree/detail/frame.hpp>
+#include <treeform/tree/detail/node_bounds.hpp>
 #include <treeform/tree/detail/search_chunks.hpp>
+#include <treeform/tree/detail/trees_side.hpp>
 #include <treeform/tree/dynamic_tree.hpp>
 #include <treeform/tree/refit.hpp>
 
@@ -83,13 +86,13 @@ struct boxes_by_id {
 
 /// The level of the nodes above the leaf blocks, if there is one.
 template <std::size_t D>
-unsigned dynamic_tree<D>::part::neighborhood_level() const {
+unsigned dynamic_tree<D>::packed::neighborhood_level() const {
     return boxes.levels() > 1 ? boxes.levels() - 2 : 0;
 }
 
 /// Limits decide what is cheap, not what is right: they are rounded as it comes.
 template <std::size_t D>
-void dynamic_tree<D>::part::set_limits() {
+void dynamic_tree<D>::packed::set_limits() {
     const std::span<const wide_node<D>> nodes = boxes.level(neighborhood_level());
     limits.resize(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -109,16 +112,8 @@ void dynamic_tree<D>::part::set_limits() {
 }
 
 template <std::size_t D>
-bool dynamic_tree<D>::part::may_hold(std::uint32_t place, const box_type& box) const {
+bool dynamic_tree<D>::packed::may_hold(std::uint32_t place, const box_type& box) const {
     return holds(limits[place / boxes.capacity(neighborhood_level())], box);
-}
-
-template <std::size_t D>
-std::vector<const tree<D>*> dynamic_tree<D>::trees() const {
-    std::vector<const tree<D>*> result;
-    for (const part& one : parts_)
-        if (!one.boxes.empty()) result.push_back(&one.boxes);
-    return result;
 }
 
 template <std::size_t D>
@@ -231,7 +226,7 @@ void dynamic_tree<D>::vacate(std::uint32_t id) {
 template <std::size_t D>
 void dynamic_tree<D>::settle(std::vector<std::uint32_t> pending,
                              const std::vector<std::vector<std::uint32_t>>& touched) {
-    const auto is_due = [&](const part& one) {
+    const auto is_due = [&](const packed& one) {
         const bool is_small = one.boxes.size() < std::max(least_slots, ratio * pending.size());
         return !one.boxes.empty() &&
                (2 * one.live < one.boxes.size() || (!pending.empty() && is_small));
@@ -244,14 +239,16 @@ void dynamic_tree<D>::settle(std::vector<std::uint32_t> pending,
         const std::vector<detail::leaf_slots> slots = detail::slots_at(touched[i], boxes.size());
         (void)detail::refit_slots<D>(boxes, slots, boxes_by_id<D>{boxes_.data()});
     }
-    if (pending.empty()) return;
-    sort(pending, id_end_);  // a build reads the boxes in this order
-    build_part(pending);
+    if (!pending.empty()) {
+        sort(pending, id_end_);  // a build reads the boxes in this order
+        build_part(pending);
+    }
+    cover_parts();
 }
 
 /// Takes the primitives of a tree, in leaf order.
 template <std::size_t D>
-void dynamic_tree<D>::dissolve(part& from, std::vector<std::uint32_t>& to) {
+void dynamic_tree<D>::dissolve(packed& from, std::vector<std::uint32_t>& to) {
     to.reserve(to.size() + from.live);
     for (const std::uint32_t id : from.boxes.ids())
         if (id != detail::no_primitive) to.push_back(id);
@@ -261,8 +258,8 @@ void dynamic_tree<D>::dissolve(part& from, std::vector<std::uint32_t>& to) {
 template <std::size_t D>
 void dynamic_tree<D>::build_part(const std::vector<std::uint32_t>& ids) {
     auto unused = std::find_if(parts_.begin(), parts_.end(),
-                               [](const part& one) { return one.boxes.empty(); });
-    if (unused == parts_.end()) unused = parts_.insert(parts_.end(), part{});
+                               [](const packed& one) { return one.boxes.empty(); });
+    if (unused == parts_.end()) unused = parts_.insert(parts_.end(), packed{});
     builder<D>{}.rebuild(unused->boxes, ids,
                          [&](std::uint32_t id) -> const box_type& { return boxes_[id]; });
     const auto number = static_cast<std::uint32_t>(unused - parts_.begin());
@@ -276,6 +273,13 @@ void dynamic_tree<D>::build_part(const std::vector<std::uint32_t>& ids) {
     unused->live = ids.size();
     unused->set_limits();
     statistics_.built += ids.size();
+}
+
+template <std::size_t D>
+void dynamic_tree<D>::cover_parts() {
+    std::vector<box_type> boxes;
+    for (const packed& one : parts_) boxes.push_back(detail::box_of_root(one.boxes));
+    top_ = detail::tree_in_order(std::span<const box_type>(boxes));
 }
 
 template class dynamic_tree<2>;

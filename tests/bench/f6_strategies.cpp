@@ -4,9 +4,9 @@
 #include "bench/face_boxes.hpp"
 #include "bench/models.hpp"
 #include "bench/page.hpp"
+#include <libtree/paper/medians.hpp>
 #include <libtree/paper/nary_tree.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/strategy/medians.hpp>
 #include <treeform/tree/strategy/select.hpp>
 
 #include <fmt/core.h>

@@ -4,6 +4,8 @@
 set -euo pipefail
 project=$SOURCE/tests/consumer/project
 installed=$WORK/${2-static}
+# Programs of one source, as the documents show them. They read models of data/.
+programs=(detect resolve boolean_of_three weld_cloud slide nearest_of_own_struct)
 
 # Installs a build tree, then moves the installation, since a package must not know where it lies.
 install_and_move() { # build tree, kind
@@ -18,6 +20,19 @@ configure() { # build tree, source, options
         "${@:3}" >/dev/null
 }
 
+# Runs the consumer and the programs: each exits 0 when its answers are right.
+run_all() { # folder with the programs
+    local program
+    "$1/consumer"
+    for program in "${programs[@]}"; do
+        (cd "$SOURCE" && "$1/$program" >"$1/$program.out") || {
+            echo "$program failed; it said:" >&2
+            cat "$1/$program.out" >&2
+            return 1
+        }
+    done
+}
+
 install_static() { install_and_move "$BUILD" static; }
 
 install_shared() { install_and_move "$OTHER_BUILDS/shared_library" shared; }
@@ -26,19 +41,25 @@ find_package() {
     rm -rf "$WORK/find_$1"
     configure "$WORK/find_$1" "$project" -DCMAKE_PREFIX_PATH="$installed"
     cmake --build "$WORK/find_$1"
-    "$WORK/find_$1/consumer"
+    run_all "$WORK/find_$1"
 }
 
 pkg_config() {
-    local flags
+    local flags folder=$WORK/pkg_$1 program
     command -v pkg-config >/dev/null || { echo "skipped: no pkg-config"; exit 77; }
     export PKG_CONFIG_PATH=$installed/$LIBDIR/pkgconfig
     pkg-config --exact-version="$(pkg-config --modversion treeform)" treeform
     flags=$(pkg-config --cflags --libs treeform)
-    # shellcheck disable=SC2086 # the flags are words
-    "$CXX" -std=c++20 -Wall -Wextra -Wpedantic -Werror "$project"/*.cpp -o "$WORK/pkg_$1" $flags \
-        -Wl,-rpath,"$installed/$LIBDIR"
-    "$WORK/pkg_$1"
+    rm -rf "$folder"
+    mkdir "$folder"
+    compile() { # name, sources
+        # shellcheck disable=SC2086 # the flags are words
+        "$CXX" -std=c++20 -Wall -Wextra -Wpedantic -Werror "${@:2}" -o "$folder/$1" $flags \
+            -Wl,-rpath,"$installed/$LIBDIR"
+    }
+    compile consumer "$project"/{main,other}.cpp
+    for program in "${programs[@]}"; do compile "$program" "$project/$program.cpp"; done
+    run_all "$folder"
 }
 
 run_tool() {
@@ -73,7 +94,7 @@ subdirectory() {
     configure "$folder" "$project" -DTREEFORM_SUBDIRECTORY="$SOURCE" \
         -DTREEFORM_WERROR="$WERROR"
     cmake --build "$folder"
-    "$folder/consumer"
+    run_all "$folder"
 }
 
 "$@"

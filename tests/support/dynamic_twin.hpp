@@ -100,7 +100,8 @@ void check_shape(const twin<D>& both) {
     REQUIRE(both.tree.size() == both.all.size());
     std::vector<std::size_t> sizes;
     ids found;
-    for (const tf::tree<D>* one : both.tree.trees()) {
+    for (const std::uint32_t part : both.tree.top().ids()) {
+        const tf::tree<D>* const one = &both.tree.part(part);
         std::size_t live = 0;
         for (std::size_t place = 0; place < one->size(); ++place) {
             const std::uint32_t id = one->ids()[place];

@@ -12,6 +12,15 @@ struct command_line::parser {
     CLI::App app;
 };
 
+namespace {
+
+/// The last one: "--tolerance" of "-t, --tolerance".
+std::string long_name(const option_text& text) {
+    return text.names.substr(text.names.rfind(' ') + 1);
+}
+
+}  // namespace
+
 command_line::command_line(std::string name, std::string usage, std::string purpose)
     : name_(std::move(name)),
       usage_(std::move(usage)),
@@ -48,6 +57,24 @@ void command_line::repeatable_flag(int& target, option_text text) {
 
 void command_line::option(std::string& target, option_text text) {
     option(std::move(text), [&target](std::string_view value) { target = value; });
+}
+
+void command_line::option(std::uint64_t& target, option_text text) {
+    const std::string name = long_name(text);
+    option(std::move(text),
+           [&target, name](std::string_view value) { target = parse_count(name, value); });
+}
+
+void command_line::option(distance& target, option_text text) {
+    const std::string name = long_name(text);
+    option(std::move(text),
+           [&target, name](std::string_view value) { target = parse_distance(name, value); });
+}
+
+void command_line::option(std::optional<distance>& target, option_text text) {
+    const std::string name = long_name(text);
+    option(std::move(text),
+           [&target, name](std::string_view value) { target = parse_distance(name, value); });
 }
 
 void command_line::option(option_text text, std::function<void(std::string_view)> accept) {
@@ -108,6 +135,8 @@ void command_line::epilogue(std::string text) { epilogue_ = std::move(text); }
 void command_line::version_text(const std::string& text) {
     parser_->app.set_version_flag("--version", text);
 }
+
+bool command_line::given(const std::string& name) const { return parser_->app.count(name) > 0; }
 
 command_line::outcome command_line::parse(int argc, const char* const* argv) {
     try {

@@ -3,12 +3,16 @@
 /// The command line of a tool: what it accepts, and how --help describes it.
 
 #include "tools/common/help_text.hpp"
+#include "tools/common/parse_value.hpp"
 
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tools {
@@ -27,6 +31,17 @@ class command_line {
     /// A flag that counts how often it is given.
     void repeatable_flag(int& target, option_text text);
     void option(std::string& target, option_text text);
+    void option(std::uint64_t& target, option_text text);
+    void option(distance& target, option_text text);
+    void option(std::optional<distance>& target, option_text text);
+    /// One of `words`, as the enumerator of that number.
+    template <class Enum>
+    void option(Enum& target, option_text text, std::span<const char* const> words) {
+        const std::string name = text.names;
+        option(std::move(text), [&target, words, name](std::string_view value) {
+            target = static_cast<Enum>(parse_choice(name, value, words));
+        });
+    }
     /// `accept` parses the value; what it throws ends the run.
     void option(option_text text, std::function<void(std::string_view)> accept);
     /// An option whose value, if any, follows "=": --name or --name=VALUE. `bare` is accepted for
@@ -48,6 +63,9 @@ class command_line {
     /// Text at the end of the help.
     void epilogue(std::string text);
     void version_text(const std::string& text);
+
+    /// Whether an option with this name, "--repair", was given.
+    [[nodiscard]] bool given(const std::string& name) const;
 
     enum class outcome { run, help_shown };
     /// \throws failure (bad_usage) for anything that is not as described

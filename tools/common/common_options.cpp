@@ -17,8 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& text) { throw failure(bad_usage, "usage", text); }
-
 std::string one_of(std::string_view option, std::string_view value,
                    const std::vector<std::string>& words) {
     if (std::find(words.begin(), words.end(), value) != words.end()) return std::string(value);
@@ -211,16 +209,19 @@ bool wants_mesh(const common_options& options) {
     return !options.output.empty() || !options.output_dir.empty() || options.in_place;
 }
 
+std::string stem_of(const std::string& input) {
+    return input == "-" ? "stdin" : fs::path(input).stem().string();
+}
+
 std::optional<std::filesystem::path> mesh_output(const common_options& options,
                                                  const std::string& input) {
     if (!options.output.empty()) return options.output;
     if (options.in_place) return input;
     if (options.output_dir.empty()) return std::nullopt;
-    const std::string stem = input == "-" ? "stdin" : fs::path(input).stem().string();
     std::string format =
         options.output_format.empty() ? extension_of(input) : options.output_format;
     if (!offers(options, format)) format = options.mesh_formats.front();
-    return options.output_dir / (stem + options.suffix + "." + format);
+    return options.output_dir / (stem_of(input) + options.suffix + "." + format);
 }
 
 std::string mesh_format(const common_options& options, const fs::path& path) {

@@ -79,6 +79,9 @@ void require_output(const command_line& line, const common_options& options,
 [[nodiscard]] std::string mesh_format(const common_options& options,
                                       const std::filesystem::path& path);
 
+/// Its name without folder and extension; "stdin" of "-".
+[[nodiscard]] std::string stem_of(const std::string& input);
+
 /// The file's extension in small letters, without its dot.
 [[nodiscard]] std::string extension_of(const std::filesystem::path& path);
 

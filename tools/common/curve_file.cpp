@@ -3,6 +3,7 @@
 #include "tools/common/common_options.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/exit_status.hpp"
+#include "tools/common/output_file.hpp"
 #include <treeform/mesh/curves.hpp>
 #include <treeform/tf.hpp>
 
@@ -53,14 +54,6 @@ drawn_curves draw(tf::mesh_view mesh, std::span<const tf::face_pair> pairs) {
     return drawn;
 }
 
-/// Written in pieces, so that the text of a million lines is never in memory at once.
-void write_full_pieces(output_file& file, std::string& text) {
-    constexpr std::size_t piece = std::size_t{1} << 16;
-    if (text.size() < piece) return;
-    file.write(text);
-    text.clear();
-}
-
 std::string ply_head(const drawn_curves& drawn, const std::vector<pair_numbers>& numbers) {
     std::string text =
         "ply\nformat ascii 1.0\nelement vertex " + std::to_string(drawn.points.size()) +
@@ -80,23 +73,15 @@ void append_segments(std::string& text, const drawn_curves::line& line,
     }
 }
 
-}  // namespace
-
 bool curves_as_ply(const std::filesystem::path& path) { return extension_of(path) == "ply"; }
 
-void check_curve_path(const std::filesystem::path& path) {
-    if (!path.empty() && path != "-" && !curves_as_ply(path) && extension_of(path) != "obj")
-        throw failure(bad_usage, "usage", path.string() + ": curves can be written as obj or ply");
-}
-
-void write_curves(output_file& file, tf::mesh_view mesh, std::span<const tf::face_pair> pairs,
-                  const std::vector<pair_numbers>& numbers, bool as_ply) {
-    const drawn_curves drawn = draw(mesh, pairs);
+void write_lines(output_file& file, const drawn_curves& drawn,
+                 const std::vector<pair_numbers>& numbers, bool as_ply) {
     std::string text = as_ply ? ply_head(drawn, numbers) : std::string();
     for (const tf::point3& p : drawn.points) {
         if (!as_ply) text += "v ";
         text += shortest(p.x) + " " + shortest(p.y) + " " + shortest(p.z) + "\n";
-        write_full_pieces(file, text);
+        file.write_full_pieces(text);
     }
     for (const drawn_curves::line& line : drawn.lines) {
         if (as_ply) {
@@ -106,9 +91,24 @@ void write_curves(output_file& file, tf::mesh_view mesh, std::span<const tf::fac
             for (const std::size_t p : line.points) text += " " + std::to_string(p + 1);
             text += "\n";
         }
-        write_full_pieces(file, text);
+        file.write_full_pieces(text);
     }
     file.write(text);
+}
+
+}  // namespace
+
+void check_curve_path(const std::filesystem::path& path) {
+    if (!path.empty() && path != "-" && !curves_as_ply(path) && extension_of(path) != "obj")
+        throw failure(bad_usage, "usage", path.string() + ": curves can be written as obj or ply");
+}
+
+void write_curves(const job& work, const std::filesystem::path& path, tf::mesh_view mesh,
+                  std::span<const tf::face_pair> pairs, const std::vector<pair_numbers>& numbers) {
+    if (work.options.dry_run) return;
+    write_file(path, work.options.force, work.keeper, [&](output_file& file) {
+        write_lines(file, draw(mesh, pairs), numbers, curves_as_ply(path));
+    });
 }
 
 }  // namespace tools

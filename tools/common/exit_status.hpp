@@ -36,4 +36,9 @@ class failure : public std::runtime_error {
     std::string code_;
 };
 
+/// Says that the command line makes no sense.
+[[noreturn]] inline void refuse(const std::string& text) {
+    throw failure(bad_usage, "usage", text);
+}
+
 }  // namespace tools

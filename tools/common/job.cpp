@@ -58,7 +58,7 @@ job::job(const std::string& input, const common_options& all_options, console& m
 
 tf::mesh_file job::read() {
     tf::mesh_file file = read(path, entry);
-    for (const tf::io_warning& w : file.warnings) warn(w.code, w.text);
+    warn(file.warnings);
     return file;
 }
 
@@ -90,9 +90,8 @@ tf::mesh_file job::read(const std::string& input, json& about) {
     }
     about["format"] = file.format;
     about["sha256"] = digest.empty() ? json(nullptr) : json(digest);
-    about["precision_in"] = file.stored_as == tf::precision::float32 ? "float" : "double";
-    out.end_progress();
-    keeper.check();
+    about["precision_in"] = name_of(file.stored_as);
+    call_ended();
     return file;
 }
 
@@ -106,9 +105,26 @@ tf::progress_callback job::progress(std::string_view step) {
     };
 }
 
+void job::call_ended(bool cancelled) {
+    out.end_progress();
+    keeper.check();
+    if (cancelled) throw failure(stopped, "stopped", name + ": stopped");
+}
+
 void job::warn(const std::string& code, const std::string& text) {
     out.warning(text.starts_with(name + ": ") ? text : name + ": " + text);
     entry["warnings"].push_back({{"code", code}, {"text", text}});
+}
+
+void job::warn(const std::vector<tf::io_warning>& remarks, const std::string& whose) {
+    for (const tf::io_warning& w : remarks) warn(w.code, whose + w.text);
+}
+
+void job::warn_of_non_finite(std::uint64_t count, const char* one, const char* many,
+                             const std::string& whose) {
+    if (count > 0)
+        warn("non-finite",
+             whose + counted(count, one, many) + " with a NaN or infinite coordinate left out");
 }
 
 }  // namespace tools

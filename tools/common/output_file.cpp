@@ -118,6 +118,13 @@ void output_file::write(std::string_view bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail();
 }
 
+void output_file::write_full_pieces(std::string& text) {
+    constexpr std::size_t piece = std::size_t{1} << 16;
+    if (text.size() < piece) return;
+    write(text);
+    text.clear();
+}
+
 void output_file::commit() {
     if (std::fflush(file_) != 0) fail();
     if (file_ != stdout) {

@@ -15,6 +15,11 @@ namespace tools {
 ///         is missing. "-", pipes and devices always pass.
 void check_output(const std::filesystem::path& path, bool force);
 
+/// Makes the file at `path`, where one is named, of what `write` puts into the `output_file`.
+/// \throws failure (bad_output)
+template <class Write>
+void write_file(const std::filesystem::path& path, bool force, guard& keeper, const Write& write);
+
 /// A name in a new folder beside `path` to write to, and the move that makes it final. Without a
 /// `commit` nothing stays, also when the process is stopped, whatever else a writer has put into
 /// the folder. For "-", pipes and devices the name is `path` itself.
@@ -58,6 +63,9 @@ class output_file {
     [[nodiscard]] const std::filesystem::path& folder() const { return place_.folder(); }
     /// \throws failure (bad_output) when the device is full or the reader has gone
     void write(std::string_view bytes);
+    /// Writes and empties `text` where it is long, so that that of a million lines is never in
+    /// memory at once.
+    void write_full_pieces(std::string& text);
     void commit();
 
   private:
@@ -66,5 +74,13 @@ class output_file {
     output_place place_;
     std::FILE* file_ = nullptr;
 };
+
+template <class Write>
+void write_file(const std::filesystem::path& path, bool force, guard& keeper, const Write& write) {
+    if (path.empty()) return;
+    output_file file(path, force, keeper);
+    write(file);
+    file.commit();
+}
 
 }  // namespace tools

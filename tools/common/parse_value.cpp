@@ -50,6 +50,16 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
     return values;
 }
 
+std::size_t parse_choice(std::string_view option, std::string_view text,
+                         std::span<const char* const> words) {
+    std::string list;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (text == words[i]) return i;
+        list += (i == 0 ? "one of " : ", ") + std::string(words[i]);
+    }
+    refuse(option, text, list);
+}
+
 std::uint64_t parse_count(std::string_view option, std::string_view text) {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,9 @@ struct distance {
 [[nodiscard]] double parse_number(std::string_view option, std::string_view text);
 [[nodiscard]] std::vector<double> parse_numbers(std::string_view option, std::string_view text,
                                                 std::size_t count);
+/// Which of `words` it is.
+[[nodiscard]] std::size_t parse_choice(std::string_view option, std::string_view text,
+                                       std::span<const char* const> words);
 [[nodiscard]] std::uint64_t parse_count(std::string_view option, std::string_view text);
 /// Finite, not negative.
 [[nodiscard]] distance parse_distance(std::string_view option, std::string_view text);

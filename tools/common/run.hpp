@@ -5,13 +5,12 @@
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
 #include "tools/common/console.hpp"
+#include "tools/common/entries.hpp"
 #include "tools/common/exit_status.hpp"
 #include "tools/common/guard.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
-
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <functional>
@@ -21,8 +20,6 @@
 #include <vector>
 
 namespace tools {
-
-using json = nlohmann::ordered_json;
 
 /// For people: the path, or "standard input" for "-".
 [[nodiscard]] std::string name_of_input(const std::string& path);
@@ -57,8 +54,16 @@ class job {
     /// For library calls: shows progress, and asks them to stop when the tool has to.
     [[nodiscard]] tf::progress_callback progress(std::string_view step);
 
+    /// After such a call: \throws failure (stopped) where it was `cancelled`, or the tool has to
+    void call_ended(bool cancelled = false);
+
     /// A remark for the person and for the report.
     void warn(const std::string& code, const std::string& text);
+    /// The remarks of a reader or writer; `whose` stands ahead of each.
+    void warn(const std::vector<tf::io_warning>& remarks, const std::string& whose = {});
+    /// Says how many `things` ("face", "faces") of an input were left out, if any.
+    void warn_of_non_finite(std::uint64_t count, const char* one, const char* many,
+                            const std::string& whose = {});
 
     const std::string& path;
     std::string name;  ///< of the input, for people: "part.stl", "standard input", "3 inputs"

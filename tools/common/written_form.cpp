@@ -30,12 +30,21 @@ bool is_single(const tf::mesh_file& file) {
            tf::fits_single(file.mesh.points);
 }
 
-bool writes_single(const common_options& options, const std::optional<written_form>& form,
-                   std::span<const tf::mesh_file* const> inputs) {
-    if (form && form->single_only()) return true;
-    if (options.precision != "keep") return options.precision == "float";
-    return std::all_of(inputs.begin(), inputs.end(),
-                       [](const tf::mesh_file* file) { return is_single(*file); });
+tf::precision written_precision(const common_options& options,
+                                const std::optional<written_form>& form,
+                                std::span<const tf::mesh_file* const> inputs) {
+    const bool single = (form && form->single_only()) || options.precision == "float" ||
+                        (options.precision == "keep" &&
+                         std::all_of(inputs.begin(), inputs.end(),
+                                     [](const tf::mesh_file* file) { return is_single(*file); }));
+    return single ? tf::precision::float32 : tf::precision::float64;
+}
+
+tf::write_options write_options_for(const common_options& options, const written_form& form) {
+    tf::write_options how{.format = form.format, .ascii = form.ascii};
+    if (options.precision == "float") how.precision = tf::precision::float32;
+    if (options.precision == "double") how.precision = tf::precision::float64;
+    return how;
 }
 
 }  // namespace tools

@@ -4,6 +4,7 @@
 
 #include "tools/common/run.hpp"
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 
 #include <filesystem>
@@ -31,10 +32,14 @@ struct written_form {
 /// Whether the file holds its coordinates as float32.
 [[nodiscard]] bool is_single(const tf::mesh_file& file);
 
-/// Whether coordinates become floats: where `form` has nothing else, or where the user, or else
-/// every input, says so. Known before the work, which depends on it.
-[[nodiscard]] bool writes_single(const common_options& options,
-                                 const std::optional<written_form>& form,
-                                 std::span<const tf::mesh_file* const> inputs);
+/// The numbers that coordinates become: floats where `form` has nothing else, or where the user, or
+/// else every input, says so. Known before the work, which depends on it.
+[[nodiscard]] tf::precision written_precision(const common_options& options,
+                                              const std::optional<written_form>& form,
+                                              std::span<const tf::mesh_file* const> inputs);
+
+/// For a mesh that nothing was computed for: coordinates as the user says, or as they were stored.
+[[nodiscard]] tf::write_options write_options_for(const common_options& options,
+                                                  const written_form& form);
 
 }  // namespace tools

@@ -1,9 +1,9 @@
 /// \file
 /// tf-boolean: set operations on solids.
 
-#include "tools/common/certified_output.hpp"
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
+#include "tools/common/mesh_output.hpp"
 #include "tools/common/run.hpp"
 #include "tools/tf-boolean/outputs.hpp"
 #include "tools/tf-boolean/settings.hpp"
@@ -40,29 +40,25 @@ void add_options(command_line& line, boolean_settings& s) {
                                "+ | union, * & intersection, -, ^ exclusive or"});
     line.repeatable_option(s.matrix_texts,
                            {"--matrix", "N:FILE", "4x4 matrix for INPUT N (repeatable)"});
-    line.option({"--inside", "RULE", "what is solid: nonzero | odd | positive", "nonzero"},
-                [&s](std::string_view text) { s.inside = tools::parse_inside(text); });
+    line.option(s.inside,
+                {"--inside", "RULE", "what is solid: nonzero | odd | positive", "nonzero"},
+                tools::fill_rules);
     line.flag(s.check, {"--check", "", "only check that the inputs bound solids"});
     line.flag(s.accept_open, {"--accept-open", "",
                               "an open input is a surface that the others cut:\n"
                               "a difference or intersection keeps a part of it"});
     line.flag(s.simplify, {"--simplify", "", "merge coplanar faces, such as the cut has made"});
-    line.option(
-        {"--max-move", "DIST", "fail (exit 1) if rounding moves a point further"},
-        [&s](std::string_view text) { s.max_move = tools::parse_distance("--max-move", text); });
+    line.option(s.max_move,
+                {"--max-move", "DIST", "fail (exit 1) if rounding moves a point further"});
 }
 
 void add_what_to_give_back(command_line& line, boolean_settings& s, common_options& options) {
     line.group("What to give back");
     line.output(options.output, {"-o, --output", "FILE", "the solid"});
-    line.option({"--source", "P",
-                 "write source mesh and face of each face to\n"
-                 "properties P_mesh, P_face of a PLY or GLB",
-                 "source"},
-                [&s](std::string_view text) {
-                    s.source = text;
-                    s.source_given = true;
-                });
+    line.option(s.source, {"--source", "P",
+                           "write source mesh and face of each face to\n"
+                           "properties P_mesh, P_face of a PLY or GLB",
+                           "source"});
     line.flag(s.no_attributes, {"--no-attributes", "",
                                 "do not interpolate colors, normals, uv, others,\n"
                                 "also of corners; no materials, no textures"});
@@ -114,12 +110,12 @@ std::vector<std::uint32_t> groups_of(const tools::job& work, const boolean_setti
 
 tf::boolean_result ask(tools::job& work, const boolean_settings& s,
                        const std::vector<tools::solid>& solids,
-                       const std::optional<std::uint32_t>& sheet, bool to_single) {
+                       const std::optional<std::uint32_t>& sheet, tf::precision precision) {
     const auto timing = work.time("cut");
     const std::vector<tf::mesh_view> views = tools::views_of(solids);
     tf::boolean_options options;
     options.inside = s.inside;
-    options.precision = to_single ? tf::precision::float32 : tf::precision::float64;
+    options.precision = precision;
     options.simplify = s.simplify;
     const std::vector<std::uint32_t> groups = groups_of(work, s, solids);
     options.face_groups = groups;
@@ -132,10 +128,7 @@ tf::boolean_result ask(tools::job& work, const boolean_settings& s,
         result = tf::clip(views, *sheet, tools::formula_of(s, views.size()), options);
     else
         result = tf::boolean(views, tools::formula_of(s, views.size()), options);
-    work.out.end_progress();
-    work.keeper.check();
-    if (result.certificate.status == tf::status::cancelled)
-        throw tools::failure(tools::stopped, "stopped", work.name + ": stopped");
+    work.call_ended(result.certificate.status == tf::status::cancelled);
     return result;
 }
 
@@ -145,7 +138,7 @@ std::string remedy_for_floats(tools::job& work, const boolean_settings& s,
                               const std::optional<std::uint32_t>& sheet, bool vanished) {
     const std::string doubles = "--precision double, in a format that has it, ";
     if (!vanished) return "; " + doubles + "may do";
-    const tf::boolean_result result = ask(work, s, solids, sheet, false);
+    const tf::boolean_result result = ask(work, s, solids, sheet, tf::precision::float64);
     if (!result.certificate) return "; nor do doubles hold it";
     return "; " + doubles +
            "holds it: " + tools::counted(result.mesh.faces.size(), "face", "faces");
@@ -186,10 +179,10 @@ bool moves_too_far(tools::job& work, const boolean_settings& s,
 
 exit_status operate(tools::job& work, const boolean_settings& s) {
     tools::enter_blank_report(work, s);
-    tools::check_output_places(work, s);
+    tools::check_outputs(work, {}, {s.curves});
     const std::vector<tools::solid> solids = tools::read_solids(work, s);
     if (s.check) return check_only(work, solids);
-    const bool to_single = tools::writes_single(work, solids);
+    const tf::precision precision = tools::written_precision(work, solids);
     std::optional<std::uint32_t> sheet;
     if (s.accept_open && !s.splits()) {
         const std::vector<std::uint32_t> open = tools::check_solids(work, solids);
@@ -199,7 +192,7 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
             return refuse_open(work, solids, open,
                                "an open surface can be cut, but not united with a solid; ");
     }
-    tf::boolean_result result = ask(work, s, solids, sheet, to_single);
+    tf::boolean_result result = ask(work, s, solids, sheet, precision);
     const bool holds = static_cast<bool>(result.certificate);
     if (!result.certificate.open.empty())
         return refuse_open(work, solids, tools::check_solids(work, solids), {});
@@ -207,22 +200,22 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
         for (tools::json& input : work.entry["inputs"])
             input["closed"] = s.splits() ? tools::json(nullptr) : tools::json(true);
     const bool bounds_solid = !s.splits() && !sheet;
-    tools::enter_result(work, result, bounds_solid, to_single);
+    tools::enter_result(work, result, bounds_solid);
     work.out.result(work.name + ": " + tools::verdict(work, s, result));
     tools::write_curves(work, s, solids);
     tools::say_details(work, result);
     tools::warn_of_surprises(work, s, solids, result);
     if (!holds) {
         std::string remedy;
-        if (to_single)
+        if (precision == tf::precision::float32)
             remedy = remedy_for_floats(work, s, solids, sheet,
                                        result.certificate.status == tf::status::vanished);
         tools::warn_of_failure(work, result, remedy);
         return tools::found;
     }
     if (moves_too_far(work, s, solids, result)) return tools::found;
-    tools::warn_of_moves(work, result.mesh.points, result.certificate.max_displacement, to_single);
-    tools::write_surface(work, s, solids, result, to_single);
+    tools::warn_of_moves(work, result.mesh.points, result.certificate);
+    tools::write_surface(work, s, solids, result);
     return tools::done;
 }
 
@@ -247,6 +240,7 @@ int main(int argc, char** argv) {
     return tools::run(
         line, options, {"read", "prepare", "cut", "check", "write"}, argc, argv,
         [&] {
+            s.source_given = line.given("--source");
             tools::settle_words(s, options);
             if (!s.check) tools::require_output(line, options);
         },

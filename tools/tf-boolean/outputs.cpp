@@ -1,10 +1,9 @@
 #include "tools/tf-boolean/outputs.hpp"
 
-#include "tools/common/certified_output.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/curve_file.hpp"
 #include "tools/common/material_words.hpp"
-#include "tools/common/output_file.hpp"
+#include "tools/common/mesh_output.hpp"
 #include "tools/tf-boolean/words.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
@@ -14,26 +13,11 @@
 #include <treeform/tf.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
 namespace tools {
 namespace {
-
-/// Of the faces that meet each other, where the first of them is.
-json meeting_list(const tf::boolean_result& result) {
-    json list = json::array();
-    for (const auto& [f, g] : result.certificate.meeting) {
-        const tf::point3& at = result.mesh.points[result.mesh.faces[f][0]];
-        list.push_back({{"faces", {f, g}}, {"near", {at.x, at.y, at.z}}});
-    }
-    return list;
-}
-
-bool finite(const tf::point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 bool printable(const std::string& text) {
     return std::all_of(text.begin(), text.end(),
@@ -69,13 +53,6 @@ written_form form_of(const common_options& o) { return {mesh_format(o, o.output)
 
 }  // namespace
 
-void check_output_places(const job& work, const boolean_settings& settings) {
-    const common_options& o = work.options;
-    if (o.dry_run) return;
-    for (const auto& path : {o.output, settings.curves})
-        if (!path.empty()) check_output(path, o.force);
-}
-
 void enter_blank_report(job& work, const boolean_settings& settings) {
     json& entry = work.entry;
     entry["operation"] = settings.name().empty() ? json(nullptr) : json(settings.name());
@@ -91,21 +68,22 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
     entry["output"] = nullptr;
 }
 
-bool writes_single(const job& work, const std::vector<solid>& solids) {
+tf::precision written_precision(const job& work, const std::vector<solid>& solids) {
     const common_options& o = work.options;
-    return writes_single(o, o.output.empty() ? std::nullopt : std::optional(form_of(o)),
-                         files_of(solids));
+    return written_precision(o, o.output.empty() ? std::nullopt : std::optional(form_of(o)),
+                             files_of(solids));
 }
 
-void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid, bool to_single) {
+void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid) {
     json& entry = work.entry;
+    const tf::boolean_statistics& did = result.statistics;
+    const tf::certificate& known = result.certificate;
     std::uint64_t triangles = 0;
     for (const json& input : entry["inputs"]) triangles += input["triangles"].get<std::uint64_t>();
-    entry["pairs"] = result.statistics.pairs;
-    entry["cut_faces"] = result.statistics.cut_faces;
-    entry["cells"] = result.statistics.cells > 0 ? json(result.statistics.cells) : json(nullptr);
-    if (bounds_solid && result.certificate)
-        entry["separated_points"] = result.statistics.split_vertices;
+    entry["pairs"] = did.pairs;
+    entry["cut_faces"] = did.cut_faces;
+    entry["cells"] = or_null(did.cells > 0, did.cells);
+    if (bounds_solid && known) entry["separated_points"] = did.split_vertices;
     if (result.volumes) {
         const auto& [first, second, either, both] = *result.volumes;
         entry["volumes"] = {{"first", first},
@@ -114,11 +92,8 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
                             {"intersection", both},
                             {"error", (first - either) + (second - both)}};
     }
-    entry["skipped"] = {
-        {"degenerate", result.statistics.degenerate},
-        {"faces_not_cut", triangles - std::min(triangles, result.statistics.cut_faces)}};
-    json places = json::array();
-    for (const tf::point3& p : result.vanished_at) places.push_back({p.x, p.y, p.z});
+    entry["skipped"] = {{"degenerate", did.degenerate},
+                        {"faces_not_cut", triangles - std::min(triangles, did.cut_faces)}};
     const tf::mesh& surface = result.mesh;
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
     const auto cut =
@@ -126,35 +101,31 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
     entry["output"] = {
         {"file", nullptr},
         {"format", nullptr},
-        {"precision_out", to_single ? "float" : "double"},
+        {"precision_out", name_of(known.precision)},
         {"vertices", surface.points.size()},
         {"cut_vertices", cut},
         {"faces", surface.faces.size()},
         {"components", topology.components_by_point},
         {"nonmanifold_edges", topology.nonmanifold_edges},
-        {"volume", bounds_solid ? json(tf::signed_volume(surface)) : json(nullptr)},
-        {"closed", bounds_solid ? json(true) : json(topology.boundary_edges == 0)},
-        {"oriented", bounds_solid ? json(true) : json(nullptr)},
-        {"self_intersections", result.certificate.meeting_count},
-        {"meeting", meeting_list(result)},
-        {"exact_faces", result.statistics.exact_faces},
-        {"lost_parts", {{"count", result.vanished_components}, {"list", places}}},
-        {"certified", static_cast<bool>(result.certificate)},
-        {"max_move", result.certificate.max_displacement},
-        {"step", tf::coordinate_step(surface.points,
-                                     to_single ? tf::precision::float32 : tf::precision::float64)},
-        {"rounding_steps", result.statistics.rounding_steps}};
+        {"volume", or_null(bounds_solid, bounds_solid ? tf::signed_volume(surface) : 0.0)},
+        {"closed", bounds_solid || topology.boundary_edges == 0},
+        {"oriented", or_null(bounds_solid, true)},
+        {"self_intersections", known.meeting_count},
+        {"meeting", meeting_entry(known)},
+        {"exact_faces", did.exact_faces},
+        {"lost_parts", {{"count", result.vanished_components}, {"list", result.vanished_at}}},
+        {"certified", static_cast<bool>(known)},
+        {"max_move", known.max_displacement},
+        {"step", tf::coordinate_step(surface.points, known.precision)},
+        {"rounding_steps", did.rounding_steps}};
 }
 
 void write_surface(job& work, const boolean_settings& settings, const std::vector<solid>& solids,
-                   tf::boolean_result& result, bool to_single) {
+                   tf::boolean_result& result) {
     const common_options& o = work.options;
     if (o.output.empty() || o.dry_run) return;
     const auto timing = work.time("write");
-    tf::mesh_file file;
-    file.mesh = std::move(result.mesh);
-    file.stored_faces = file.mesh.faces.size();
-    file.stored_as = to_single ? tf::precision::float32 : tf::precision::float64;
+    tf::mesh_file file = file_of(std::move(result.mesh), result.certificate);
     const written_form form = form_of(o);
     if (!settings.no_attributes)
         tf::carry(file, sources_of(solids),
@@ -162,42 +133,22 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     if (!settings.no_attributes && form.format == "obj")
         warn_of_ambiguous_materials(work, files_of(solids));
     if (holds_sources(form.format)) add_sources(file, settings, solids, result);
-    const tf::write_result written = write_certified(work, file, form, o.output);
-    work.entry["output"]["file"] = o.output.string();
-    work.entry["output"]["format"] = written.format;
-    for (const tf::io_warning& w : written.warnings) work.warn(w.code, w.text);
+    write_certified(work, file, form, o.output);
 }
 
 void write_curves(job& work, const boolean_settings& settings, const std::vector<solid>& solids) {
     if (settings.curves.empty() || work.options.dry_run) return;
-    tf::mesh all;
-    pair_numbers first_mesh{settings.source + "_mesh1", {}};
-    pair_numbers second_mesh{settings.source + "_mesh2", {}};
-    std::vector<std::uint32_t> mesh_of_face;
-    for (std::uint32_t i = 0; i < solids.size(); ++i) {
-        const tf::mesh& one = solids[i].file.mesh;
-        const auto offset = static_cast<std::uint32_t>(all.points.size());
-        for (const tf::point3& p : one.points)  // none of the faces has one that is not finite
-            all.points.push_back(finite(p) ? p : tf::point3{});
-        for (const auto& [a, b, c] : one.faces) {
-            all.faces.push_back({a + offset, b + offset, c + offset});
-            mesh_of_face.push_back(i);
-        }
-    }
-    all = tf::join_equal_points(all);
+    const tf::joined_meshes all = tf::join_meshes(views_of(solids));
     const auto found = tf::self_intersections(
-        all, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("curves")});
-    work.out.end_progress();
-    work.keeper.check();
-    if (found.cancelled) throw failure(stopped, "stopped", work.name + ": stopped");
+        all.mesh, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("curves")});
+    work.call_ended(found.cancelled);
+    pair_numbers first{settings.source + "_mesh1", {}}, second{settings.source + "_mesh2", {}};
     for (const tf::face_pair& pair : found.pairs) {
-        first_mesh.of_pair.push_back(mesh_of_face[pair.a]);
-        second_mesh.of_pair.push_back(mesh_of_face[pair.b]);
+        first.of_pair.push_back(all.mesh_of_face[pair.a]);
+        second.of_pair.push_back(all.mesh_of_face[pair.b]);
     }
-    output_file file(settings.curves, work.options.force, work.keeper);
-    write_curves(file, all, found.pairs, {std::move(first_mesh), std::move(second_mesh)},
-                 curves_as_ply(settings.curves));
-    file.commit();
+    write_curves(work, settings.curves, all.mesh, found.pairs,
+                 {std::move(first), std::move(second)});
 }
 
 }  // namespace tools

@@ -8,17 +8,14 @@
 
 namespace tools {
 
-/// Looks at the output before the work, so that it is not lost in the end. \throws failure
-void check_output_places(const job& work, const boolean_settings& settings);
-
 /// The keys of the report's file, each with nothing in it.
 void enter_blank_report(job& work, const boolean_settings& settings);
 
-/// Whether the result will be written as float32.
-[[nodiscard]] bool writes_single(const job& work, const std::vector<solid>& solids);
+/// The numbers that the result will be written as.
+[[nodiscard]] tf::precision written_precision(const job& work, const std::vector<solid>& solids);
 
 /// The facts of the result; an open one, or one of many pieces, has no volume.
-void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid, bool to_single);
+void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid);
 
 /// The lines along which faces of the inputs meet each other or themselves, where asked for.
 void write_curves(job& work, const boolean_settings& settings, const std::vector<solid>& solids);
@@ -26,6 +23,6 @@ void write_curves(job& work, const boolean_settings& settings, const std::vector
 /// Writes the surface, reads it again, and puts it in its place only if it is what was certified.
 /// \throws failure (bad_output)
 void write_surface(job& work, const boolean_settings& settings, const std::vector<solid>& solids,
-                   tf::boolean_result& result, bool to_single);
+                   tf::boolean_result& result);
 
 }  // namespace tools

@@ -13,18 +13,14 @@ namespace {
 
 constexpr std::array<const char*, 5> operations{"union", "intersection", "difference", "xor",
                                                 "split"};
-constexpr std::array<const char*, 3> rules{"nonzero", "odd", "positive"};
-
-[[noreturn]] void refuse(const std::string& text) { throw failure(bad_usage, "usage", text); }
 
 bool is_operation(const std::string& word) {
     return std::find(operations.begin(), operations.end(), word) != operations.end();
 }
 
-template <std::size_t N>
-std::string listed(const std::array<const char*, N>& words) {
+std::string listed_operations() {
     std::string list;
-    for (const char* word : words) list += (list.empty() ? "" : ", ") + std::string(word);
+    for (const char* word : operations) list += (list.empty() ? "" : ", ") + std::string(word);
     return list;
 }
 
@@ -39,7 +35,7 @@ void take_operation(boolean_settings& s, common_options& o) {
         s.operation = first;
         o.inputs.erase(o.inputs.begin());
     } else if (!s.check) {
-        refuse(first + ": no operation; expected one of " + listed(operations) + ", or --expr");
+        refuse(first + ": no operation; expected one of " + listed_operations() + ", or --expr");
     }
     if (o.inputs.empty()) refuse(s.operation + ": expected an INPUT");
 }
@@ -87,13 +83,7 @@ void refuse_what_does_nothing(const boolean_settings& s, const common_options& o
 
 bool holds_sources(const std::string& format) { return format == "ply" || format == "glb"; }
 
-tf::fill_rule parse_inside(std::string_view text) {
-    for (std::size_t i = 0; i < rules.size(); ++i)
-        if (text == rules[i]) return static_cast<tf::fill_rule>(i);
-    refuse("--inside " + std::string(text) + ": expected one of " + listed(rules));
-}
-
-const char* name_of(tf::fill_rule rule) { return rules[static_cast<std::size_t>(rule)]; }
+const char* name_of(tf::fill_rule rule) { return fill_rules[static_cast<std::size_t>(rule)]; }
 
 void settle_words(boolean_settings& settings, common_options& options) {
     take_operation(settings, options);

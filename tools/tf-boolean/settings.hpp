@@ -7,10 +7,10 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace tools {
@@ -37,8 +37,8 @@ struct boolean_settings {
     }
 };
 
-/// \throws failure (bad_usage)
-[[nodiscard]] tf::fill_rule parse_inside(std::string_view text);
+/// By `fill_rule`.
+inline constexpr std::array<const char*, 3> fill_rules{"nonzero", "odd", "positive"};
 [[nodiscard]] const char* name_of(tf::fill_rule rule);
 
 /// Whether files of this format can tell which face each one comes from.

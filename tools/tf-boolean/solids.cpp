@@ -15,18 +15,6 @@
 namespace tools {
 namespace {
 
-json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
-
-/// Leaves out the faces that cannot be computed with.
-void keep_usable(job& work, solid& s) {
-    const std::size_t before = s.file.mesh.faces.size();
-    s.triangle_of_face = tf::drop_unusable_faces(s.file.mesh);
-    s.non_finite = before - s.file.mesh.faces.size();
-    if (s.non_finite == 0) return;
-    work.warn("non-finite", name_of_input(s.path) + ": " + counted(s.non_finite, "face", "faces") +
-                                " with a NaN or infinite coordinate left out");
-}
-
 /// Where faces of an earlier result came from is not what those of this one come from.
 void forget_sources(tf::mesh_file& file, const std::string& source) {
     for (tf::element& e : file.attributes.elements)
@@ -45,7 +33,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     s.path = path;
     const std::string name = name_of_input(path);
     s.file = work.read(path, about);
-    for (const tf::io_warning& w : s.file.warnings) work.warn(w.code, name + ": " + w.text);
+    work.warn(s.file.warnings, name + ": ");
     const auto timing = work.time("prepare");
     s.triangles = s.file.mesh.faces.size();
     if (!matrix_file.empty()) {
@@ -54,7 +42,9 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
         tf::transform_normals(s.file, matrix);
         about["matrix"] = matrix_file.string();
     }
-    keep_usable(work, s);
+    s.triangle_of_face = tf::drop_unusable_faces(s.file.mesh);
+    const std::uint64_t dropped = s.triangles - s.file.mesh.faces.size();
+    work.warn_of_non_finite(dropped, "face", "faces", name + ": ");
     // A mesh of nothing is what a difference may leave; points alone are no mesh.
     if (s.file.mesh.faces.empty() && !s.file.mesh.points.empty())
         throw failure(bad_input, "no-triangles", name + ": no triangle with finite coordinates");
@@ -63,21 +53,8 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     about["faces"] = s.file.stored_faces;
     about["triangles"] = s.triangles;
     about["volume"] = tf::signed_volume(s.file.mesh);
-    about["skipped"]["non_finite"] = s.non_finite;
+    about["skipped"]["non_finite"] = dropped;
     return s;
-}
-
-json edge_entry(const tf::open_edge& edge, const solid& s) {
-    return {{"face", s.stored_face(edge.face.index)},
-            {"from", triple(edge.ends[0])},
-            {"to", triple(edge.ends[1])}};
-}
-
-std::string reason_of(const tf::certificate& found, const solid& s) {
-    const tf::open_edge& first = found.open.front();
-    return "its surface ends at " + counted(found.open_count, "edge", "edges") +
-           ", the first from " + in_words(first.ends[0]) + " to " + in_words(first.ends[1]) +
-           " at face " + std::to_string(s.stored_face(first.face.index));
 }
 
 void settle_textures(job& work, std::vector<solid>& solids) {
@@ -87,14 +64,10 @@ void settle_textures(job& work, std::vector<solid>& solids) {
         files.push_back(&s.file);
         names.push_back(name_of_input(s.path));
     }
-    for (const tf::io_warning& w : tf::unite_textures(files, names)) work.warn(w.code, w.text);
+    work.warn(tf::unite_textures(files, names));
 }
 
 }  // namespace
-
-std::string in_words(const tf::point3& p) {
-    return "(" + shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z) + ")";
-}
 
 std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
     std::vector<solid> solids;
@@ -143,19 +116,15 @@ std::vector<std::uint32_t> check_solids(job& work, const std::vector<solid>& sol
     const auto timing = work.time("check");
     std::vector<std::uint32_t> open;
     for (std::uint32_t i = 0; i < solids.size(); ++i) {
-        const tf::certificate found = tf::check_solid(solids[i].file.mesh, work.progress("check"));
-        work.out.end_progress();
-        work.keeper.check();
-        if (found.status == tf::status::cancelled)
-            throw failure(stopped, "stopped", work.name + ": stopped");
+        const tf::certificate known = tf::check_solid(solids[i].file.mesh, work.progress("check"));
+        work.call_ended(known.status == tf::status::cancelled);
+        const auto stored_face = [&](std::uint32_t f) { return solids[i].stored_face(f); };
         json& about = work.entry["inputs"][i];
-        about["closed"] = found.open.empty();
-        about["open"]["count"] = found.open_count;
-        if (found.open.empty()) continue;
+        about["closed"] = known.open.empty();
+        about["open"] = open_entry(known, stored_face);
+        if (known.open.empty()) continue;
         open.push_back(i);
-        for (const tf::open_edge& edge : found.open)
-            about["open"]["list"].push_back(edge_entry(edge, solids[i]));
-        about["reason"] = reason_of(found, solids[i]);
+        about["reason"] = message_of(known, stored_face);
     }
     return open;
 }

@@ -21,7 +21,6 @@ struct solid {
     tf::mesh_file file{};
     std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
     std::uint64_t triangles = 0;                    ///< in the file
-    std::uint64_t non_finite = 0;                   ///< triangles left out
 
     [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
     /// The number in the file.
@@ -29,8 +28,6 @@ struct solid {
         return source().stored_face(face);
     }
 };
-
-[[nodiscard]] std::string in_words(const tf::point3& p);
 
 /// Reads and moves all inputs, and enters them in the report. \throws failure
 [[nodiscard]] std::vector<solid> read_solids(job& work, const boolean_settings& settings);

@@ -8,35 +8,14 @@
 #include <cmath>
 
 namespace tools {
-namespace {
-
-std::string numbers_of(const job& work) {
-    return work.entry["output"]["precision_out"] == "float" ? "float32 numbers" : "double numbers";
-}
-
-}  // namespace
-
 std::string verdict(const job& work, const boolean_settings& settings,
                     const tf::boolean_result& result) {
-    const json& output = work.entry["output"];
+    const json& volume = work.entry["output"]["volume"];
     std::string text = settings.name() + ": " + counted(result.mesh.faces.size(), "face", "faces");
-    if (result.certificate.status == tf::status::vanished)
-        return text + " are left of the exact result's " + grouped(result.statistics.exact_faces) +
-               " when rounded to " + output["precision_out"].get<std::string>();
-    if (result.mesh.faces.empty()) return text + ", nothing is left";
-    const json& volume = output["volume"];
-    if (!volume.is_null() && std::isfinite(volume.get<double>()))
+    if (result.certificate && result.mesh.faces.empty()) return text + ", nothing is left";
+    if (!volume.is_null() && !result.mesh.faces.empty() && std::isfinite(volume.get<double>()))
         text += ", volume " + shortest(volume.get<double>());
-    if (!result.certificate) {
-        const std::string rounded =
-            " when rounded to " + output["precision_out"].get<std::string>();
-        if (result.certificate.meeting_count == 0)
-            return text + ", but coordinates are too large" + rounded;
-        const tf::face& first = result.mesh.faces[result.certificate.meeting.front()[0]];
-        return text + ", but " + counted(result.certificate.meeting_count, "pair", "pairs") +
-               " of faces meet" + rounded + ", the first near " +
-               in_words(result.mesh.points[first[0]]);
-    }
+    if (!result.certificate) return text + ", but " + result.certificate.message();
     if (result.certificate.max_displacement > 0.0)
         text += ", rounding moved points by " + shortest(result.certificate.max_displacement) +
                 " at most";
@@ -54,7 +33,8 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
         work.warn("lost-parts", counted(result.vanished_components, "part", "parts") +
                                     " of the exact result left out, the first at " +
                                     in_words(result.vanished_at.front()) + ": thinner than " +
-                                    numbers_of(work) + " tell apart there");
+                                    numbers_of(result.certificate.precision) +
+                                    " numbers tell apart there");
     if (result.statistics.degenerate > 0)
         work.warn("degenerate", counted(result.statistics.degenerate, "face", "faces") +
                                     " without an area left out; nothing changes by that");
@@ -72,11 +52,9 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
 }
 
 void warn_of_failure(job& work, const tf::boolean_result& result, const std::string& remedy) {
-    if (result.certificate.status == tf::status::vanished)
-        work.warn("vanished", "all of the exact result is thinner than " + numbers_of(work) +
-                                  " tell apart there; nothing written" + remedy);
-    else
-        work.warn("not-certified", "nothing written" + remedy);
+    const bool vanished = result.certificate.status == tf::status::vanished;
+    work.warn(vanished ? "vanished" : "not-certified",
+              (vanished ? result.certificate.message() + "; " : "") + "nothing written" + remedy);
 }
 
 void say_details(job& work, const tf::boolean_result& result) {

@@ -41,16 +41,15 @@ struct body_set {
     bool as_single = false;
 
     [[nodiscard]] std::size_t indexed() const;
+    [[nodiscard]] std::vector<std::string> labels() const;
 };
-
-/// Adds what `file` holds: its parts, or all of it as one. What is left out is said by `work`.
-/// \throws failure (bad_input) when there is nothing to place
-void add_bodies(job& work, const std::string& path, tf::mesh_file file, bool in_parts,
-                body_set& to);
 
 /// Reads `path`, moves it by `start`, and adds it as one body. \returns what the report says of it;
 /// of the only input it says so
 json read_body(job& work, const std::string& path, const tf::transform<3>& start, body_set& to);
+
+/// Of --start.
+[[nodiscard]] tf::transform<3> start_of(const place_settings& settings);
 
 /// The fixed meshes, read once for all MOVING.
 void read_fixed(job& work, const place_settings& settings, bool as_single, body_set& fixed);

@@ -53,8 +53,8 @@ void lay(outcome& found, const body_set& moving, const place_settings& s,
          const tf::progress_callback& progress) {
     tf::lay_flat_options options = s.lay;
     options.bed = s.bed.value_or(0.0);
-    check_bed(options.bed, found.precision);
-    options.precision = found.precision;
+    check_bed(options.bed, found.at.precision);
+    options.precision = found.at.precision;
     options.tolerance = found.flatness = s.flatness.used(tf::diagonal(*moving.bodies[0].box));
     options.progress = progress;
     found.laid = tf::lay_flat(moving.shapes[0], options);
@@ -69,7 +69,8 @@ void lay(outcome& found, const body_set& moving, const place_settings& s,
                 .matrix = found.laid->matrix,
                 .bed = found.laid->bed,
                 .on_bed = true,
-                .at_place = tf::standing::touching};
+                .at_place = tf::standing::touching,
+                .precision = options.precision};
     if (found.laid->contact) found.at.contacts = {*found.laid->contact};
     found.at.contact_count = found.at.contacts.size();
 }
@@ -79,7 +80,7 @@ void fit(outcome& found, const body_set& moving, const body_set& fixed, const pl
     tf::align_options options = s.fit;
     if (s.max_distance)
         options.max_distance = s.max_distance->used(tf::diagonal(*moving.bodies[0].box));
-    options.precision = found.precision;
+    options.precision = found.at.precision;
     options.progress = progress;
     found.aligned = tf::align(moving.shapes[0], fixed.shapes[0], options);
     found.at.status = found.aligned->status;
@@ -87,41 +88,14 @@ void fit(outcome& found, const body_set& moving, const body_set& fixed, const pl
     found.at.matrix = found.aligned->matrix;
 }
 
-std::string reason_of(const outcome& found, const body& moving, const body_set& fixed,
-                      const place_settings& s) {
-    const tf::placement& p = found.at;
-    const bool single = found.precision == tf::precision::float32;
-    const std::string part = p.nearest ? fixed.bodies[p.nearest->fixed].label() : moving.label();
-    const std::string depth = "reaches " + shortest(p.below_bed) + " below " +
-                              (p.clearance > 0.0 ? "the clearance over the bed" : "the bed");
-    const std::string& longest = found.too_short;
-    switch (p.end) {
-        case tf::placement_end::starts_penetrating:
-            return "penetrates " + part + " where it is; clear would take it out";
-        case tf::placement_end::starts_too_near:
-            return "is nearer to " + part + " than the clearance where it is";
-        case tf::placement_end::starts_touching:
-            return "touches " + part + " where it is, which leaves no clearance";
-        case tf::placement_end::starts_below_bed:
-            return depth + "; with --fixed, drop only goes down: drop it without --fixed first";
-        case tf::placement_end::nothing_met:
-            return longest.empty() ? "nothing is in the way" : "nothing is met within " + longest;
-        case tf::placement_end::too_far:
-            if (s.mode == place_mode::drop) return depth + ", further than " + longest;
-            if (s.mode == place_mode::mate)
-                return "the nearest point is further away than " + longest;
-            return "the shortest translation found is longer than " + longest + ": " +
-                   shortest(p.travel);
-        case tf::placement_end::no_coordinates:
-            return single ? "rounded to float32 there is no such place; --precision double, in a "
-                            "format that has it, may find one"
-                          : "there is no such place in coordinates that can be written";
-        case tf::placement_end::out_of_range:
-            return std::string("is beyond the range of ") + (single ? "float32" : "doubles") +
-                   " at its place";
-        default:
-            return found.reason;
-    }
+/// What else may be done.
+std::string remedy_for(const tf::placement& p) {
+    if (p.end == tf::placement_end::starts_penetrating) return "; clear would take it out";
+    if (p.end == tf::placement_end::starts_below_bed)
+        return "; with --fixed, drop only goes down: drop it without --fixed first";
+    if (p.end == tf::placement_end::no_coordinates && p.precision == tf::precision::float32)
+        return "; --precision double, in a format that has it, may find one";
+    return {};
 }
 
 }  // namespace
@@ -130,17 +104,15 @@ void check_bed(double level, tf::precision precision) {
     if (precision == tf::precision::float64 ||
         std::abs(level) <= static_cast<double>(std::numeric_limits<float>::max()))
         return;
-    throw failure(bad_usage, "usage",
-                  "--bed: " + shortest(level) +
-                      " is beyond the range of float32, which is what will be written; a "
-                      "format of text, or --precision double in PLY, has more");
+    refuse("--bed: " + shortest(level) +
+           " is beyond the range of float32, which is what will be written; a format of text, or "
+           "--precision double in PLY, has more");
 }
 
 outcome place(job& work, const body_set& moving, const body_set& fixed, const place_settings& s,
               tf::precision precision) {
-    outcome found{.precision = precision};
-    if (s.max_travel)
-        found.too_short = shortest(s.max_travel->used(tf::diagonal(*moving.bodies[0].box)));
+    outcome found;
+    found.at.precision = precision;
     const auto timing = work.time("search");
     const tf::progress_callback progress = work.progress("search");
     try {
@@ -151,11 +123,13 @@ outcome place(job& work, const body_set& moving, const body_set& fixed, const pl
         else
             found.at = place_by_verb(moving, fixed, s, precision, progress);
     } catch (const std::overflow_error&) {
-        found.at = {.status = tf::status::out_of_range, .end = tf::placement_end::out_of_range};
+        found.at = {.status = tf::status::out_of_range,
+                    .end = tf::placement_end::out_of_range,
+                    .precision = precision};
     }
-    work.out.end_progress();
-    work.keeper.check();
-    if (!found.at) found.reason = reason_of(found, moving.bodies[0], fixed, s);
+    work.call_ended();
+    if (!found.at && found.reason.empty())
+        found.reason = found.at.message(fixed.labels()) + remedy_for(found.at);
     return found;
 }
 

@@ -20,9 +20,7 @@ struct outcome {
     std::optional<tf::laid_flat> laid{};
     double flatness = 0.0;  ///< of `lay`
     std::optional<tf::align_result> aligned{};
-    std::string reason{};     ///< why there is no place, in words
-    std::string too_short{};  ///< the largest travel allowed, in words
-    tf::precision precision = tf::precision::float64;
+    std::string reason{};  ///< why there is no place, in words
 
     /// Whether all is as wished: of `fit`, that it converged.
     [[nodiscard]] bool complete() const { return at && (!aligned || aligned->converged); }

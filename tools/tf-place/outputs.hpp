@@ -13,9 +13,6 @@
 
 namespace tools {
 
-/// Looks at the outputs before the work, so that it is not lost in the end. \throws failure
-void check_outputs(const job& work, const place_settings& settings);
-
 /// With what numbers the mesh made of `file` will be written.
 [[nodiscard]] tf::precision precision_of(const job& work, const tf::mesh_file& file);
 
@@ -27,7 +24,8 @@ void enter_report(job& work, const body& moving, const outcome& found, const bod
 /// A matrix, as in reports.
 [[nodiscard]] json rows_of(const tf::transform<3>& matrix);
 
-void write_matrix(const job& work, const std::filesystem::path& path, const std::string& text);
+/// To --matrix, where it is given.
+void write_matrix(const job& work, const place_settings& settings, const std::string& text);
 
 /// What the points of body `i`, moved by `matrix`, have lost.
 [[nodiscard]] tf::rounding_effects look_at_rounding(job& work, const body_set& moving,
@@ -50,5 +48,9 @@ void write_result(job& work, body_set& moving, const outcome& found, const body_
 /// The parts that were placed, together in one file.
 void write_plate(job& work, const body_set& parts, const std::vector<bool>& placed,
                  tf::precision precision);
+
+/// All MOVING put beside each other on a plate: reads all inputs, arranges and writes them.
+/// \returns found when not all fit
+[[nodiscard]] exit_status arrange_all(job& work, const place_settings& settings);
 
 }  // namespace tools

@@ -1,7 +1,8 @@
-#include "tools/tf-place/plate.hpp"
+#include "tools/tf-place/outputs.hpp"
 
 #include "tools/common/console.hpp"
-#include "tools/tf-place/outputs.hpp"
+#include "tools/common/matrix_file.hpp"
+#include "tools/common/mesh_output.hpp"
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -17,8 +18,7 @@ body_set read_all(job& work, const tf::transform<3>& start) {
         json about = read_body(work, path, start, parts);
         const body& one = parts.bodies.back();
         if (one.cloud)
-            throw failure(bad_usage, "usage",
-                          one.label() + ": is a cloud of points; arrange takes meshes only");
+            refuse(one.label() + ": is a cloud of points; arrange takes meshes only");
         about["faces"] = one.file->stored_faces;
         non_finite += one.non_finite;
         work.entry["parts"].push_back(std::move(about));
@@ -33,7 +33,7 @@ void enter_places(job& work, const body_set& parts, const tf::packing& found,
     const std::uint64_t count = parts.bodies.size();
     for (std::size_t i = 0; i < count; ++i) {
         entry["parts"][i]["placed"] = found.parts[i].placed;
-        entry["parts"][i]["matrix"] = found.parts[i].placed ? rows_of(matrices[i]) : json(nullptr);
+        entry["parts"][i]["matrix"] = or_null(found.parts[i].placed, rows_of(matrices[i]));
     }
     for (const std::uint32_t i : found.not_placed)
         entry["not_placed"].push_back(parts.bodies[i].path);
@@ -53,8 +53,7 @@ tf::packing find_places(job& work, const body_set& parts, const place_settings& 
     options.progress = work.progress("search");
     const auto timing = work.time("search");
     tf::packing found = tf::pack(parts.shapes, options);
-    work.out.end_progress();
-    work.keeper.check();
+    work.call_ended();
     return found;
 }
 
@@ -62,9 +61,8 @@ tf::packing find_places(job& work, const body_set& parts, const place_settings& 
 
 exit_status arrange_all(job& work, const place_settings& settings) {
     enter_blank_report(work, settings);
-    check_outputs(work, settings);
-    const tf::transform<3> start =
-        settings.start.empty() ? tf::transform<3>{} : read_matrix(settings.start);
+    check_outputs(work, {settings.matrix});
+    const tf::transform<3> start = start_of(settings);
     body_set parts = read_all(work, start);
     const bool all_single = std::all_of(
         parts.bodies.begin(), parts.bodies.end(),
@@ -96,7 +94,7 @@ exit_status arrange_all(job& work, const place_settings& settings) {
     work.out.result(work.name + ": " + words);
     if (!roundings.empty()) enter_rounding(work, roundings, precision);
     const auto timing = work.time("write");
-    if (!settings.matrix.empty()) write_matrix(work, settings.matrix, matrix_lines);
+    write_matrix(work, settings, matrix_lines);
     write_plate(work, parts, placed, precision);
     return found.not_placed.empty() ? done : tools::found;
 }

@@ -7,13 +7,6 @@
 namespace tools {
 namespace {
 
-json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
-
-json box_entry(const std::optional<tf::box3>& box) {
-    if (!box) return nullptr;
-    return {{"min", triple(box->min)}, {"max", triple(box->max)}};
-}
-
 void extend(std::optional<tf::box3>& box, const std::optional<tf::box3>& more) {
     if (box && more)
         box = tf::bounding_box(std::array{box->min, box->max, more->min, more->max});
@@ -22,7 +15,7 @@ void extend(std::optional<tf::box3>& box, const std::optional<tf::box3>& more) {
 }
 
 json side_entry(const body& b, const tf::surface_point& at) {
-    json entry{{"point", triple(at.point)}};
+    json entry{{"point", at.point}};
     const json triangle = b.is.triangle(at.face);
     entry["face"] = b.cloud ? json(nullptr) : json(b.stored_face(at.face));
     entry["triangle"] = b.cloud ? json(nullptr) : triangle;
@@ -52,8 +45,8 @@ json contacts_entry(const body& moving, const tf::placement& p, const body_set& 
     json rows = json::array();
     for (const tf::placement_contact& c : p.contacts) {
         const body* const part = c.fixed_face ? &fixed.bodies[c.fixed] : nullptr;
-        rows.push_back({{"point", triple(c.point)},
-                        {"normal", triple(c.normal)},
+        rows.push_back({{"point", c.point},
+                        {"normal", c.normal},
                         {"moving", moving.stored_face(c.moving)},
                         {"fixed", part ? json(part->stored_face(*c.fixed_face)) : json(nullptr)},
                         {"part", part ? json(part->file_number) : json("bed")},
@@ -72,15 +65,15 @@ void enter_fit(json& entry, const tf::align_result& fit) {
                     {"scale", fit.scale},
                     {"converged", fit.converged},
                     {"iterations", fit.iterations},
-                    {"pivot", triple(fit.pivot)},
-                    {"pivot_moved", triple(fit.pivot_moved)}};
+                    {"pivot", fit.pivot},
+                    {"pivot_moved", fit.pivot_moved}};
 }
 
 void enter_lay(json& entry, const outcome& found) {
     for (const tf::hull_side& side : found.laid->sides)
-        entry["sides"].push_back({{"normal", triple(side.normal)},
+        entry["sides"].push_back({{"normal", side.normal},
                                   {"area", side.area},
-                                  {"center", triple(side.center)}});
+                                  {"center", side.center}});
     entry["chosen"] = found.laid->chosen;
     entry["tolerance"]["used"] = found.flatness;
     entry["corrected"] = found.laid->corrected;
@@ -104,7 +97,7 @@ void enter_skipped(json& entry, const tf::placement& p, const body_set& fixed) {
         if (part.is.name.empty()) continue;
         one["parts"].push_back({{"name", part.is.name},
                                 {"triangles", part.faces},
-                                {"box", box_entry(part.box)},
+                                {"box", part.box},
                                 {"indexed", indexed}});
     }
     json& skipped = entry["skipped"];
@@ -160,14 +153,14 @@ void enter_bodies(job& work, const body& moving, const body_set& fixed) {
     entry["fixed"] = fixed.entries;
     entry["faces"] = moving.file->stored_faces;
     entry["triangles"] = moving.file->mesh.faces.size();
-    entry["box"] = box_entry(moving.box);
+    entry["box"] = moving.box;
     std::uint64_t non_finite = moving.non_finite;
     std::vector<std::optional<tf::box3>> boxes(entry["fixed"].size());
     for (const body& part : fixed.bodies) {
         json& one = entry["fixed"][part.file_number];
         one["faces"] = part.file->stored_faces;
         extend(boxes[part.file_number], part.box);
-        one["box"] = box_entry(boxes[part.file_number]);
+        one["box"] = boxes[part.file_number];
         non_finite += part.non_finite;
     }
     entry["skipped"]["non_finite"] = non_finite;
@@ -193,7 +186,7 @@ void enter_report(job& work, const body& moving, const outcome& found, const bod
         entry["not_placed"].push_back(work.entry["input"]);
         return;
     }
-    entry["direction"] = p.travel > 0.0 ? triple(p.direction) : json(nullptr);
+    entry["direction"] = p.travel > 0.0 ? p.direction : json(nullptr);
     entry["travel"] = p.travel;
     entry["backed_off"] = p.statistics.backed_off;
     entry["matrix"] = rows_of(matrix);

@@ -5,54 +5,205 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
+#include <utility>
 
 namespace tools {
 namespace {
 
-constexpr std::array<const char*, 8> mode_names{"drop",  "lay",     "slide",   "mate",
-                                                "clear", "measure", "arrange", "fit"};
-
-}  // namespace
+constexpr std::array<const char*, 8> modes{"drop",  "lay",     "slide",   "mate",
+                                           "clear", "measure", "arrange", "fit"};
+/// By `plate_turns`.
+constexpr std::array<const char*, 4> turns{"none", "90", "45", "any"};
 
 place_mode parse_mode(std::string_view text) {
     if (text == "pack") return place_mode::arrange;
     if (text == "align") return place_mode::fit;
     if (text == "separate") return place_mode::clear;
-    for (std::size_t i = 0; i < mode_names.size(); ++i)
-        if (text == mode_names[i]) return static_cast<place_mode>(i);
     std::string list;
-    for (const char* name : mode_names) list += (list.empty() ? "" : ", ") + std::string(name);
-    throw failure(bad_usage, "usage", std::string(text) + ": no mode; expected one of " + list);
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        if (text == modes[i]) return static_cast<place_mode>(i);
+        list += (list.empty() ? "" : ", ") + std::string(modes[i]);
+    }
+    refuse(std::string(text) + ": no mode; expected one of " + list);
 }
 
-tf::plate_turns parse_turns(std::string_view text) {
-    if (text == "none") return tf::plate_turns::none;
-    if (text == "90") return tf::plate_turns::quarter;
-    if (text == "45") return tf::plate_turns::eighth;
-    if (text == "any") return tf::plate_turns::any;
-    throw failure(bad_usage, "usage",
-                  "--rotate " + std::string(text) + ": expected none, 90, 45 or any");
-}
-
+/// "250,210" or "250,210,300", all greater than 0.
 tf::point3 parse_size3(std::string_view text) {
     const bool flat = std::count(text.begin(), text.end(), ',') < 2;
     const auto v = parse_numbers("--size", text, flat ? 2 : 3);
     const tf::point3 size{v[0], v[1], flat ? tf::pack_options{}.size.z : v[2]};
     if (!(size.x > 0.0 && size.y > 0.0 && size.z > 0.0))
-        throw failure(bad_usage, "usage",
-                      "--size " + std::string(text) + ": expected lengths greater than 0");
+        refuse("--size " + std::string(text) + ": expected lengths greater than 0");
     return size;
 }
 
-const char* name_of(place_mode mode) { return mode_names[static_cast<std::size_t>(mode)]; }
+tf::point3 parse_point(std::string_view option, std::string_view text) {
+    const auto v = parse_numbers(option, text, 3);
+    return {v[0], v[1], v[2]};
+}
 
 tf::point3 parse_direction(std::string_view option, std::string_view text) {
-    const auto v = parse_numbers(option, text, 3);
-    const tf::point3 direction{v[0], v[1], v[2]};
+    const tf::point3 direction = parse_point(option, text);
     if (direction == tf::point3{})
-        throw failure(bad_usage, "usage",
-                      std::string(option) + " " + std::string(text) + ": has no direction");
+        refuse(std::string(option) + " " + std::string(text) + ": has no direction");
     return direction;
+}
+
+void add_modes(command_line& line) {
+    line.group("Modes");
+    line.mention({.names = "drop",
+                  .text = "translate down until MOVING rests on the bed or on\n--fixed; from below "
+                          "the bed, up to it, if there is no\n--fixed"});
+    line.mention({.names = "lay", .text = "turn a flat side down, on the bed"});
+    line.mention({.names = "slide",
+                  .text = "translate along --direction until contact (less\n--clearance)"});
+    line.mention(
+        {.names = "mate", .text = "bring the closest points of MOVING and --fixed\ntogether"});
+    line.mention({.names = "clear, separate",
+                  .text = "out of --fixed, or away from it to --clearance: a\n"
+                          "short translation, the shortest of many tried"});
+    line.mention({.names = "arrange, pack",
+                  .text = "put all MOVING on the bed or in a box without overlap"});
+    line.mention({.names = "fit, align", .text = "align by ICP from the present position"});
+    line.mention(
+        {.names = "measure", .text = "move nothing; report distance, contact or\npenetration"});
+}
+
+void add_lay_options(command_line& line, place_settings& s) {
+    line.flag(s.largest_side,
+              {"--largest-face", "", "lay: on the largest side of the convex hull", "this"});
+    line.option({"--face-normal", "X,Y,Z", "lay: on the side whose normal is nearest to this"},
+                [&s](std::string_view text) {
+                    s.lay.choose = tf::lay_choice::nearest_normal;
+                    s.lay.toward = parse_direction("--face-normal", text);
+                });
+    line.option({"--face-point", "X,Y,Z", "lay: on the side that holds this point"},
+                [&s](std::string_view text) {
+                    s.lay.choose = tf::lay_choice::holding_point;
+                    s.lay.toward = parse_point("--face-point", text);
+                });
+    line.option(s.flatness, {"-t, --tolerance", "DIST",
+                             "lay: what is this near to the plane of a side is on\n"
+                             "it, and flat afterwards; 0 = exactly in one plane",
+                             "0.0001%"});
+    line.flag(s.lay.keep_spin, {"--keep-spin", "", "lay: keep the turn about the vertical"});
+}
+
+void add_arrange_and_fit_options(command_line& line, place_settings& s) {
+    line.option({"--size", "X,Y[,Z]", "arrange: bed or box size"},
+                [&s](std::string_view text) { s.arrange.size = parse_size3(text); });
+    line.option({"--spacing", "DIST", "arrange: between parts", "2"}, [&s](std::string_view text) {
+        const distance spacing = parse_distance("--spacing", text);
+        if (spacing.relative) refuse("--spacing: expected a length");
+        s.arrange.spacing = spacing.value;
+    });
+    line.option(s.arrange.turns, {"--rotate", "SET", "arrange: none | 90 | 45 | any", "90"}, turns);
+    line.option(s.arrange.seed, {"--seed", "N", "arrange: same N, same result", "0"});
+    line.option(s.max_distance, {"--max-distance", "DIST", "fit: ignore pairs further apart"});
+    line.option({"--overlap", "F", "fit: share of MOVING that has a partner", "1"},
+                [&s](std::string_view text) {
+                    s.fit.overlap = parse_number("--overlap", text);
+                    if (!(s.fit.overlap > 0.0 && s.fit.overlap <= 1.0))
+                        refuse("--overlap " + std::string(text) + ": expected a share up to 1");
+                });
+    line.flag(s.fit.scale, {"--scale", "", "fit: allow uniform scale"});
+}
+
+void add_placing_options(command_line& line, place_settings& s, common_options& options) {
+    line.group("Options");
+    line.repeatable_option(options.also_read, {"--fixed", "FILE",
+                                               "what stays where it is (repeatable); its objects,\n"
+                                               "groups or nodes are bodies, except for what has\n"
+                                               "points in common"});
+    line.option({"--bed", "Z",
+                 "drop, lay, arrange: height of the bed; drop with\n"
+                 "--fixed has none unless this is given",
+                 "0"},
+                [&s](std::string_view text) { s.bed = parse_number("--bed", text); });
+    line.option(
+        {"-d, --direction", "X,Y,Z", "slide, drop: direction of travel", "0,0,-1"},
+        [&s](std::string_view text) { s.direction = parse_direction("--direction", text); });
+    line.option(s.clearance, {"--clearance", "DIST", "gap to leave", "0"});
+    line.option(s.max_travel, {"--max-travel", "DIST", "give up beyond this travel (exit 1)"});
+    add_lay_options(line, s);
+    add_arrange_and_fit_options(line, s);
+    line.option({"--start", "FILE", "4x4 matrix applied to MOVING first"},
+                [&s](std::string_view text) { s.start = text; });
+}
+
+void add_what_to_give_back(command_line& line, place_settings& s, common_options& options) {
+    line.group("What to give back");
+    line.output(options.output, {"-o, --output", "FILE",
+                                 "MOVING at its new place; of measure, where it is;\n"
+                                 "PLY, GLB: faces that penetrate --fixed are red,\n"
+                                 "touching yellow, closer than --clearance or\n"
+                                 "stopped at it cyan (if they had no colors)"});
+    line.flag(s.scene, {"--scene", "",
+                        "-o and --output-dir: the fixed meshes too, with\n"
+                        "the names of their parts"});
+    line.output(s.matrix, {"--matrix", "FILE",
+                           "4x4 matrix, 4 lines, row-major, column vectors:\n"
+                           "new = M * old, in file coordinates; \"-\" = stdout"});
+}
+
+}  // namespace
+
+const char* name_of(place_mode mode) { return modes[static_cast<std::size_t>(mode)]; }
+
+void add_options(command_line& line, place_settings& settings, common_options& options) {
+    add_modes(line);
+    add_placing_options(line, settings, options);
+    add_what_to_give_back(line, settings, options);
+}
+
+void check_settings(const command_line& line, place_settings& s, common_options& o) {
+    s.mode = parse_mode(s.mode_text);
+    const auto given = [&](std::initializer_list<const char*> names) {
+        return std::count_if(names.begin(), names.end(),
+                             [&](const char* name) { return line.given(name); });
+    };
+    const auto sides_chosen = given({"--largest-face", "--face-normal", "--face-point"});
+    const bool along = s.mode == place_mode::drop || s.mode == place_mode::slide;
+    s.fixed = o.also_read;
+    if (!s.start.empty()) o.also_read.push_back(s.start.string());
+    const std::string& mode = s.mode_text;
+    const bool lays = s.mode == place_mode::lay, arranges = s.mode == place_mode::arrange;
+    const bool fits = s.mode == place_mode::fit, measures = s.mode == place_mode::measure;
+    const bool on_bed = s.mode == place_mode::drop || lays || arranges;
+    const bool clearance = s.clearance.value > 0.0, mesh = wants_mesh(o);
+    const bool form = o.ascii || o.binary || o.precision != "keep" || !o.output_format.empty();
+    const std::initializer_list<std::pair<bool, std::string>> refused{
+        {!lays && (sides_chosen > 0 || s.lay.keep_spin || line.given("--tolerance")),
+         "--largest-face, --face-normal, --face-point, --tolerance and --keep-spin are for lay"},
+        {lays && sides_chosen > 1,
+         "--largest-face, --face-normal and --face-point exclude each other"},
+        {lays && !s.fixed.empty(), "--fixed: lay puts MOVING on the bed alone"},
+        {lays && clearance, "--clearance: lay puts MOVING on the bed"},
+        {lays && s.max_travel, "--max-travel: lay goes to the bed"},
+        {!arranges && given({"--size", "--spacing", "--rotate", "--seed"}) > 0,
+         "--size, --spacing, --rotate and --seed are for arrange"},
+        {!fits && (given({"--max-distance", "--overlap"}) > 0 || s.fit.scale),
+         "--max-distance, --overlap and --scale are for fit"},
+        {arranges && !line.given("--size"), "arrange needs --size"},
+        {arranges && !s.fixed.empty(), "--fixed: arrange puts MOVING on an empty plate"},
+        {fits && s.fixed.size() > 1, "fit: one --fixed only"},
+        {(arranges || fits) && (clearance || s.max_travel),
+         "--clearance and --max-travel are not for " + mode},
+        {s.fixed.empty() && !on_bed, mode + " needs --fixed"},
+        {s.bed && !on_bed, "--bed: only drop, lay and arrange have one"},
+        {s.direction && !along, "--direction: " + mode + " finds its own"},
+        {s.has_bed() && s.direction && !(s.direction->z < 0.0),
+         "--direction: does not lead down to the bed"},
+        {measures && s.max_travel, "--max-travel: measure moves nothing"},
+        {measures && !s.matrix.empty(), "--matrix: measure moves nothing"},
+        {measures && o.in_place, "--in-place: measure moves nothing"},
+        {s.scene && (!mesh || o.in_place), "--scene needs -o or --output-dir"},
+        {!mesh && form,
+         "--output-format, --ascii, --binary and --precision need -o, --output-dir or --in-place"}};
+    for (const auto& [broken, text] : refused)
+        if (broken) refuse(text);
+    if (!measures) require_output(line, o);
 }
 
 }  // namespace tools

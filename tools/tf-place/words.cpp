@@ -2,18 +2,14 @@
 #include "tools/tf-place/move.hpp"
 #include <treeform/tf.hpp>
 
+#include <array>
+
 namespace tools {
 namespace {
 
 const char* moved_word(place_mode mode, bool up) {
-    switch (mode) {
-        case place_mode::drop:
-            return up ? "lifted" : "dropped";
-        case place_mode::slide:
-            return "slid";
-        default:
-            return "moved";
-    }
+    if (mode == place_mode::drop) return up ? "lifted" : "dropped";
+    return mode == place_mode::slide ? "slid" : "moved";
 }
 
 /// The relation to the body that matters most.
@@ -42,28 +38,12 @@ std::string relation_in_words(const body& moving, const outcome& found, const bo
            std::to_string(met.stored_face(*first.fixed_face)) + ")";
 }
 
-std::string in_words(const tf::point3& p) {
-    std::string text = "(";
-    text += shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z);
-    return text += ")";
-}
-
 }  // namespace
 
 const char* name_of(tf::standing standing) {
-    switch (standing) {
-        case tf::standing::separate:
-            return "separate";
-        case tf::standing::touching:
-            return "touching";
-        case tf::standing::penetrating:
-            return "penetrating";
-        case tf::standing::closer_than_clearance:
-            return "closer-than-clearance";
-        case tf::standing::clear:
-            return "clear";
-    }
-    return "";
+    constexpr std::array<const char*, 5> names{"separate", "touching", "penetrating",
+                                               "closer-than-clearance", "clear"};
+    return names[static_cast<std::size_t>(standing)];
 }
 
 std::string verdict(const body& moving, const outcome& found, const body_set& fixed,

@@ -4,14 +4,14 @@
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
 #include "tools/common/curve_file.hpp"
-#include "tools/common/output_file.hpp"
+#include "tools/common/mesh_output.hpp"
 #include "tools/common/run.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
-#include "tools/tf-selfintersect/page.hpp"
 #include "tools/tf-selfintersect/repairing.hpp"
 #include "tools/tf-selfintersect/search.hpp"
-#include "tools/tf-selfintersect/words.hpp"
 #include <treeform/tf.hpp>
+
+#include <array>
 
 namespace {
 
@@ -24,9 +24,8 @@ struct request {
     std::uint64_t limit = 10000;
     std::filesystem::path pairs;
     std::filesystem::path curves;
-    std::optional<tools::repair_settings> repair;
-    std::optional<tools::distance> max_move;
-    bool keep_components = false;
+    bool repairs = false;
+    tools::repair_settings repair;
 };
 
 tf::box3 parse_box(std::string_view text) {
@@ -34,17 +33,8 @@ tf::box3 parse_box(std::string_view text) {
     const tf::box3 box{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (box.min[axis] > box.max[axis])
-            throw tools::failure(
-                tools::bad_usage, "usage",
-                "--box " + std::string(text) + ": the first corner must be the low one");
+            tools::refuse("--box " + std::string(text) + ": the first corner must be the low one");
     return box;
-}
-
-tools::vertex_mode parse_vertices(std::string_view text) {
-    if (text == "file") return tools::vertex_mode::stored;
-    if (text == "equal") return tools::vertex_mode::equal;
-    throw tools::failure(tools::bad_usage, "usage",
-                         "--vertices " + std::string(text) + ": expected file or equal");
 }
 
 void add_what_counts(command_line& line, tools::search_settings& s) {
@@ -62,14 +52,16 @@ void add_what_counts(command_line& line, tools::search_settings& s) {
                  "which corners are one vertex: file (indices as\n"
                  "stored) or equal (same coordinates)",
                  "equal for STL, else file"},
-                [&s](std::string_view text) { s.vertices = parse_vertices(text); });
-    line.option(
-        {.names = "-t, --tolerance",
-         .value = "DIST",
-         .text = "join corners within DIST before looking",
-         .fallback = "0",
-         .aliases = "--eps,--threshold"},
-        [&s](std::string_view text) { s.tolerance = tools::parse_distance("--tolerance", text); });
+                [&s](std::string_view text) {
+                    constexpr std::array<const char*, 2> words{"equal", "file"};
+                    s.vertices = static_cast<tf::vertex_identity>(
+                        tools::parse_choice("--vertices", text, words));
+                });
+    line.option(s.tolerance, {.names = "-t, --tolerance",
+                              .value = "DIST",
+                              .text = "join corners within DIST before looking",
+                              .fallback = "0",
+                              .aliases = "--eps,--threshold"});
     line.option({"--box", "X0,Y0,Z0,X1,Y1,Z1", "only faces that meet this box"},
                 [&s](std::string_view text) { s.box = parse_box(text); });
 }
@@ -77,11 +69,10 @@ void add_what_counts(command_line& line, tools::search_settings& s) {
 void add_what_to_give_back(command_line& line, request& r, common_options& options) {
     line.group("What to give back");
     line.flag(r.search.first, {"--first", "", "stop at the first one found"});
-    line.option({"--limit", "N",
-                 "list at most N pairs in the report (counts, --pairs\n"
-                 "and regions stay complete)",
-                 "10000"},
-                [&r](std::string_view text) { r.limit = tools::parse_count("--limit", text); });
+    line.option(r.limit, {"--limit", "N",
+                          "list at most N pairs in the report (counts, --pairs\n"
+                          "and regions stay complete)",
+                          "10000"});
     line.output(r.pairs, {"--pairs", "FILE", "all pairs as CSV: face,face,kind,region"});
     line.output(r.curves, {"--curves", "FILE", "intersection curves as OBJ or PLY lines"});
     line.output(options.html, {"--html", "FILE", "self-contained HTML page with a 3D view"});
@@ -90,14 +81,6 @@ void add_what_to_give_back(command_line& line, request& r, common_options& optio
                                  "properties tf_class and tf_region (PLY, GLB); the\n"
                                  "repaired mesh with --repair, and the face that each\n"
                                  "one lies in as property source_face (PLY)"});
-}
-
-tf::resolve_mode parse_repair(std::string_view text) {
-    for (const tf::resolve_mode mode :
-         {tf::resolve_mode::split, tf::resolve_mode::outer, tf::resolve_mode::remove})
-        if (text == tools::name_of(mode)) return mode;
-    throw tools::failure(tools::bad_usage, "usage",
-                         "--repair=" + std::string(text) + ": expected split, outer or remove");
 }
 
 void add_repair(command_line& line, request& r) {
@@ -109,13 +92,13 @@ void add_repair(command_line& line, request& r) {
                           .fallback = "outer",
                           .label = "--repair[=MODE]"},
                          "outer", [&r](std::string_view text) {
-                             r.repair.emplace();
-                             r.repair->mode = parse_repair(text);
+                             r.repairs = true;
+                             r.repair.mode = static_cast<tf::resolve_mode>(
+                                 tools::parse_choice("--repair", text, tools::repair_modes));
                          });
-    line.option(
-        {"--max-move", "DIST", "fail (exit 1) if any point would move further", "0.1%"},
-        [&r](std::string_view text) { r.max_move = tools::parse_distance("--max-move", text); });
-    line.flag(r.keep_components,
+    line.option(r.repair.max_move,
+                {"--max-move", "DIST", "fail (exit 1) if any point would move further", "0.1%"});
+    line.flag(r.repair.keep_components,
               {"--keep-components", "", "fail (exit 1) if a component would disappear"});
 }
 
@@ -149,101 +132,55 @@ const char* const epilogue =
     "  2 usage; 3 input; 4 output; 5 stopped (memory, timeout, signal); 70 bug.\n"
     "  Of several inputs, the highest.\n";
 
-/// Outputs are looked at before the work, so that it is not lost in the end.
-void check_outputs(const tools::job& work, const request& r) {
-    const common_options& o = work.options;
-    for (const auto& path : {r.pairs, o.html})
-        if (!path.empty()) tools::check_output(path, o.force);
-    if (o.dry_run) return;
-    if (!r.curves.empty()) tools::check_output(r.curves, o.force);
-    if (const auto path = tools::mesh_output(o, work.path))
-        tools::check_output(*path, o.force || o.in_place);
-}
-
-void check_request(const command_line& line, const request& r, common_options& options) {
-    const auto refuse = [](const std::string& text) {
-        throw tools::failure(tools::bad_usage, "usage", text);
-    };
+void check_request(const command_line& line, request& r, common_options& options) {
+    using tools::refuse;
     if (r.search.between && r.search.within) refuse("--between and --within exclude each other");
     tools::check_curve_path(r.curves);
-    if (!r.repair && (r.max_move || r.keep_components))
+    if (!r.repairs && (line.given("--max-move") || r.repair.keep_components))
         refuse("--max-move and --keep-components need --repair");
-    if (r.repair && (r.search.first || r.search.between || r.search.within || r.search.box))
+    if (r.repairs && (r.search.first || r.search.between || r.search.within || r.search.box))
         refuse("--repair looks at the whole mesh: no --first, --between, --within or --box");
-    if (options.in_place && !r.repair)
+    if (options.in_place && !r.repairs)
         refuse("--in-place: without --repair this tool changes no mesh; -o writes a marked copy");
-    if (!r.repair) options.mesh_formats = {"ply", "glb"};  // that can hold marks
+    if (!r.repairs) options.mesh_formats = {"ply", "glb"};  // that can hold marks
     if (!options.output.empty()) static_cast<void>(tools::mesh_format(options, options.output));
     if (!tools::wants_mesh(options)) {
         if (options.ascii || options.binary || !options.output_format.empty() ||
-            (options.precision != "keep" && !r.repair))
+            (options.precision != "keep" && !r.repairs))
             refuse("--output-format, --ascii, --binary and --precision need -o or --output-dir");
-        if (options.dry_run && !r.repair) refuse("-n needs -o or --output-dir, or --repair");
+        if (options.dry_run && !r.repairs) refuse("-n needs -o or --output-dir, or --repair");
     }
-    if (r.repair) tools::require_output(line, options);
-}
-
-template <class Write>
-void write_file(const tools::job& work, const std::filesystem::path& path, Write&& write) {
-    if (path.empty()) return;
-    tools::output_file file(path, work.options.force, work.keeper);
-    write(file);
-    file.commit();
-}
-
-void hint_at_near_points(tools::job& work, const tools::findings& result) {
-    const auto near = tools::nearly_equal_points(result);
-    if (!near || near->count == 0) return;
-    work.warn("near-corners",
-              tools::counted(near->count, "vertex lies", "vertices lie") + " within " +
-                  tools::shortest(near->within) +
-                  " of another without being equal to it; -t 0.0001% would join them");
-}
-
-void write_reports(tools::job& work, const request& r, const tools::findings& result) {
-    const auto timing = work.time("write");
-    const common_options& o = work.options;
-    write_file(work, r.pairs, [&](auto& out) { tools::write_pairs(out, result); });
-    if (!o.dry_run)
-        write_file(work, r.curves, [&](auto& out) {
-            tools::write_curves(out, result, tools::curves_as_ply(r.curves));
-        });
-    write_file(work, o.html, [&](auto& out) { tools::write_page(out, work, result, r.search); });
-}
-
-tools::repair_settings repair_settings_of(const request& r) {
-    tools::repair_settings settings = *r.repair;
-    settings.max_move = r.max_move ? *r.max_move : tools::parse_distance("--max-move", "0.1%");
-    settings.keep_components = r.keep_components;
-    settings.touching = r.search.touching;
-    return settings;
+    if (r.repairs) tools::require_output(line, options);
+    r.repair.touching = r.search.touching;
 }
 
 exit_status look_at(tools::job& work, const request& r) {
-    check_outputs(work, r);
-    tf::mesh_file file = work.read();
     const common_options& o = work.options;
+    tools::check_outputs(work, {r.pairs, o.html}, {r.curves});
+    tf::mesh_file file = work.read();
     const auto output = tools::mesh_output(o, work.path);
-    const bool keeps_mesh = r.repair || (output && !o.dry_run);
+    const bool keeps_mesh = r.repairs || (output && !o.dry_run);
     const tools::findings result = tools::search(work, file, r.search, keeps_mesh);
 
     work.out.result(work.name + ": " + tools::verdict(result, r.search));
     tools::say_details(work, result);
     tools::enter_report(work, result, r.search, r.limit);
-    if (result.pairs_that_count() > 0) hint_at_near_points(work, result);
-
-    write_reports(work, r, result);
-    if (r.repair) {
-        const bool done =
-            tools::repair_and_write(work, file, result, repair_settings_of(r), output);
-        return done ? tools::done : tools::found;
-    }
-    if (output && !o.dry_run) {
+    const bool found = !result.found.pairs.empty();
+    if (found) tools::hint_at_near_points(work, result);
+    {
         const auto timing = work.time("write");
-        tools::write_marked(work, file, result, *output);
+        tools::write_pairs(work, r.pairs, result);
+        tools::write_curves(work, r.curves, result);
+        tools::write_page(work, result, r.search);
     }
-    return result.pairs_that_count() > 0 ? tools::found : tools::done;
+    if (r.repairs) {
+        const bool repaired = tools::repair_and_write(work, file, result, r.repair, output);
+        return repaired ? tools::done : tools::found;
+    }
+    if (output && !o.dry_run) tools::write_marked(work, file, result, *output);
+    return found ? tools::found : tools::done;
 }
+
 }  // namespace
 
 int main(int argc, char** argv) {

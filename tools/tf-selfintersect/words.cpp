@@ -1,33 +1,20 @@
-#include "tools/tf-selfintersect/words.hpp"
-
 #include "tools/common/console.hpp"
+#include "tools/tf-selfintersect/outputs.hpp"
 #include <treeform/tf.hpp>
+
+#include <array>
 
 namespace tools {
 
 const char* name_of(tf::pair_kind kind) {
-    switch (kind) {
-        case tf::pair_kind::crossing:
-            return "crossing";
-        case tf::pair_kind::overlap:
-            return "overlap";
-        case tf::pair_kind::fold:
-            return "fold";
-        case tf::pair_kind::duplicate:
-            return "duplicate";
-        case tf::pair_kind::pierce:
-            return "pierce";
-        case tf::pair_kind::touching:
-            return "touching";
-        case tf::pair_kind::degenerate:
-            return "degenerate";
-    }
-    return "";
+    constexpr std::array<const char*, tf::pair_kind_count> names{
+        "crossing", "overlap", "fold", "duplicate", "pierce", "touching", "degenerate"};
+    return names[static_cast<std::size_t>(kind)];
 }
 
 std::string verdict(const findings& result, const search_settings& settings) {
     const auto& counts = result.found.counts;
-    const std::uint64_t pairs = result.pairs_that_count();
+    const std::uint64_t pairs = result.found.pairs.size();
     if (settings.first && pairs > 0) {
         const tf::face_pair& pair = result.found.pairs.front();
         return "self-intersecting: faces " + std::to_string(result.stored_face(pair.a)) + " and " +
@@ -41,13 +28,13 @@ std::string verdict(const findings& result, const search_settings& settings) {
     const char* separator = ": ";
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k) {
         const auto kind = static_cast<tf::pair_kind>(k);
-        if (!settings.counts(kind) || counts[k] == 0) continue;
+        if (!settings.counted().contains(kind) || counts[k] == 0) continue;
         text += separator + grouped(counts[k]) + " " + name_of(kind);
         separator = ", ";
     }
     if (pairs > 0) text += ", in " + counted(result.regions.regions.size(), "region", "regions");
     const auto apart = counts[static_cast<std::size_t>(tf::pair_kind::degenerate)];
-    if (apart > 0 && !settings.counts(tf::pair_kind::degenerate))
+    if (apart > 0 && !settings.counted().contains(tf::pair_kind::degenerate))
         text += "; " + counted(apart, "pair", "pairs") + " with a degenerate face not counted";
     return text;
 }
@@ -55,11 +42,11 @@ std::string verdict(const findings& result, const search_settings& settings) {
 void say_details(job& work, const findings& result) {
     console& out = work.out;
     if (!out.shows(level::info)) return;
-    out.info(work.name + ": " + counted(result.mesh.faces.size(), "triangle", "triangles") +
-             " on " + counted(result.mesh.points.size(), "vertex", "vertices") + " searched, " +
-             grouped(result.degenerate) + " degenerate");
+    out.info(work.name + ": " + counted(result.part.mesh.faces.size(), "triangle", "triangles") +
+             " on " + counted(result.part.mesh.points.size(), "vertex", "vertices") +
+             " searched, " + grouped(result.part.degenerate) + " degenerate");
     if (result.tolerance_used > 0.0)
-        out.info(work.name + ": " + counted(result.corners_joined, "vertex", "vertices") +
+        out.info(work.name + ": " + counted(result.part.joined, "vertex", "vertices") +
                  " joined within " + shortest(result.tolerance_used));
     for (std::size_t id = 0; id < result.regions.regions.size(); ++id) {
         const tf::intersection_region& region = result.regions.regions[id];
@@ -74,12 +61,6 @@ void say_details(job& work, const findings& result) {
               grouped(result.found.exact_pairs) + " left to the exact stage; " +
               grouped(predicates.calls) + " predicates, " + grouped(predicates.undecided) +
               " not settled by their filter");
-}
-
-std::string in_words(const tf::point3& p) {
-    std::string text = "(";
-    text += shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z);
-    return text += ")";
 }
 
 tf::point3 center(const tf::intersection_region& region) {

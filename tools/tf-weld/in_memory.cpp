@@ -1,6 +1,7 @@
 #include "tools/tf-weld/in_memory.hpp"
 
 #include "tools/common/material_words.hpp"
+#include "tools/common/mesh_output.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/welding.hpp"
 #include "tools/tf-weld/words.hpp"
@@ -61,8 +62,8 @@ tf::mesh_file read_all(job& work) {
         work.entry[key] = files.size() == 1 ? first[key] : json(nullptr);
     warn_of_materials(work, files);
     tf::mesh_file all = join(std::move(files), names);
-    work.entry["precision_in"] = all.stored_as == tf::precision::float32 ? "float" : "double";
-    for (const tf::io_warning& w : all.warnings) work.warn(w.code, w.text);
+    work.entry["precision_in"] = name_of(all.stored_as);
+    work.warn(all.warnings);
     return all;
 }
 
@@ -81,7 +82,7 @@ exit_status weld_in_memory(job& work, const weld_request& request, const std::st
     const weld_outputs& asked = request.outputs;
     enter_blank_report(work, request);
     if (!remark.empty()) work.warn("in-memory", remark);
-    check_outputs(work, request);
+    check_outputs(work, {asked.map}, {asked.removed});
     tf::mesh_file file = read_all(work);
     check_formats(work, request, file);
     const auto path = mesh_output(o, work.path);
@@ -90,7 +91,7 @@ exit_status weld_in_memory(job& work, const weld_request& request, const std::st
     work.out.result(work.name + ": " + verdict(w, request));
     say_details(work, w);
     enter_report(work, w, request);
-    warn_of_harm(work, w);
+    warn_of_defects(work, w);
 
     const job::timer timing = work.time("write");
     pending_outputs outputs(work);

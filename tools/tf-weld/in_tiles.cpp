@@ -1,6 +1,7 @@
 #include "tools/tf-weld/in_tiles.hpp"
 
 #include "tools/common/console.hpp"
+#include "tools/common/mesh_output.hpp"
 #include "tools/common/sha256.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/words.hpp"
@@ -53,9 +54,7 @@ void take(job& work, const char* timed, const Step& step) {
     } catch (const tf::weld_stream_error& error) {
         throw failure_of(work, error);
     }
-    work.out.end_progress();
-    work.keeper.check();
-    if (ended == tf::status::cancelled) throw failure(stopped, "stopped", work.name + ": stopped");
+    work.call_ended(ended == tf::status::cancelled);
 }
 
 tf::weld_stream_options library_options(job& work, const weld_request& request,
@@ -104,7 +103,7 @@ void enter_source(job& work, const tf::cloud_survey& survey, const fs::path& inp
     source["first_point"] = 0;
     for (const char* key : {"format", "sha256", "precision_in"}) work.entry[key] = source[key];
     work.entry["sources"].push_back(std::move(source));
-    for (const tf::io_warning& w : survey.warnings) work.warn(w.code, w.text);
+    work.warn(survey.warnings);
 }
 
 void say_plan(job& work, const tf::cloud_survey& survey, const fs::path& folder) {
@@ -165,12 +164,10 @@ class stream_files {
         if (written.label_replaced)
             work_.warn("replaced",
                        "property " + asked_.label + " was there before; its values are replaced");
-        if (written.removed)
-            for (const auto& w : written.removed->warnings) work_.warn(w.code, w.text);
+        if (written.removed) work_.warn(written.removed->warnings);
         if (!written.welded) return;
-        enter_output(work_, *path_, *written.welded,
-                     asked_.label.empty() ? std::optional<std::uint64_t>(0) : std::nullopt);
-        for (const auto& w : written.welded->warnings) work_.warn(w.code, w.text);
+        enter_output(work_, *path_, *written.welded);
+        work_.entry["output"]["within_tolerance"] = or_null(asked_.label.empty(), 0);
     }
 
     job& work_;
@@ -210,7 +207,7 @@ fs::path folder_for(const job& work, const weld_request& request, const tile_set
 exit_status weld_in_tiles(job& work, const weld_request& request, const tile_settings& tiles,
                           const fs::path& input, const tf::mesh_file& header) {
     enter_blank_report(work, request);
-    check_outputs(work, request);
+    check_outputs(work, {request.outputs.map}, {request.outputs.removed});
     check_formats(work, request, header);
     const tf::weld_stream_options options = library_options(work, request, tiles);
     std::optional<tf::stream_weld> weld;
@@ -230,7 +227,7 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_set
     say_details(work, w);
     enter_report(work, w, request);
     work.entry["polygons"] = {{"in", 0}, {"out", 0}};
-    warn_of_harm(work, w);
+    warn_of_defects(work, w);
     stream_files(work, request, header).write(*weld);
     weld->remove_folder();
     return request.outputs.check && w.removed() > 0 ? found : done;

@@ -14,18 +14,18 @@ namespace {
 
 using tools::command_line;
 using tools::common_options;
+using tools::refuse;
 using tools::weld_outputs;
 using tools::weld_settings;
 
 void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
     line.group("What is merged");
-    line.option(
-        {.names = "-t, --tolerance",
-         .value = "DIST",
-         .text = "Euclidean distance, inclusive; 0 = equal\ncoordinates only, lossless",
-         .fallback = "0",
-         .aliases = "--eps,--threshold"},
-        [&s](std::string_view text) { s.tolerance = tools::parse_distance("--tolerance", text); });
+    line.option(s.tolerance,
+                {.names = "-t, --tolerance",
+                 .value = "DIST",
+                 .text = "Euclidean distance, inclusive; 0 = equal\ncoordinates only, lossless",
+                 .fallback = "0",
+                 .aliases = "--eps,--threshold"});
     line.option({"--rule", "RULE",
                  "first: in file order, drop a point if an earlier\n"
                  "kept one is within DIST\n"
@@ -111,10 +111,6 @@ const char* const epilogue =
     "\n"
     "Exit status: 0 done; 1 --check found some; 2 usage; 3 input; 4 output;\n"
     "  5 stopped (memory, timeout, signal); 70 bug. Of several inputs, the highest.\n";
-
-[[noreturn]] void refuse(const std::string& text) {
-    throw tools::failure(tools::bad_usage, "usage", text);
-}
 
 /// Options that would do nothing are refused rather than passed over.
 void check_label(const weld_outputs& outputs, const weld_settings& s, const common_options& o) {

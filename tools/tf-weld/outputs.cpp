@@ -1,7 +1,7 @@
 #include "tools/tf-weld/outputs.hpp"
 
 #include "tools/common/console.hpp"
-#include "tools/common/folds.hpp"
+#include "tools/common/mesh_output.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
@@ -13,8 +13,6 @@
 
 namespace tools {
 namespace {
-
-json triple(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
 json path_entry(const std::filesystem::path& path) {
     return path.empty() ? json(nullptr) : json(path.string());
@@ -30,15 +28,11 @@ tf::write_result write_file(pending_outputs& outputs, const std::filesystem::pat
     }
 }
 
-void warn_of_rounding(job& work, const tf::write_result& written,
-                      const std::optional<std::uint64_t>& again, const weld_request& request) {
-    if (written.max_displacement > 0.0)
-        work.warn("rounded", "written in single precision: coordinates move by up to " +
-                                 shortest(written.max_displacement));
-    if (again.value_or(0) == 0) return;
-    const bool rounded = written.max_displacement > 0.0;
+void warn_of_near_points(job& work, bool rounded, std::uint64_t again,
+                         const weld_request& request) {
+    if (again == 0) return;
     work.warn(rounded ? "precision" : "within-tolerance",
-              counted(*again, "point", "points") + " that were kept " +
+              counted(again, "point", "points") + " that were kept " +
                   (request.settings.options.keep == tf::weld_keep::first
                        ? "came within the tolerance of another by rounding; --precision double "
                          "keeps them apart where the format has it"
@@ -48,10 +42,9 @@ void warn_of_rounding(job& work, const tf::write_result& written,
 
 void look_for_folds(job& work, const tf::mesh& welded) {
     const std::vector<tf::point3> rounded = tf::rounded(welded.points, tf::precision::float32);
-    const auto harm = tf::find_rounding_defects(welded, rounded, work.progress("rounding"));
-    work.out.end_progress();
-    work.keeper.check();
-    warn_of_folds(work, harm, true);
+    const auto defects = tf::find_rounding_defects(welded, rounded, work.progress("rounding"));
+    work.call_ended();
+    warn_of_folds(work, defects, tf::precision::float32);
 }
 
 void put_number(std::string& text, std::uint64_t number) {
@@ -75,26 +68,11 @@ void refuse_label_format(const std::filesystem::path& path, const std::string& f
 
 }  // namespace
 
-void check_outputs(const job& work, const weld_request& request) {
-    const common_options& o = work.options;
-    if (!request.outputs.map.empty()) check_output(request.outputs.map, o.force);
-    if (o.dry_run) return;
-    if (!request.outputs.removed.empty()) check_output(request.outputs.removed, o.force);
-    if (const auto path = mesh_output(o, work.path)) check_output(*path, o.force || o.in_place);
-}
-
 void check_formats(const job& work, const weld_request& request, const tf::mesh_file& file) {
     const auto path = mesh_output(work.options, work.path);
     if (!path) return;
     const written_form form = form_of(work, file, *path);
     if (!request.outputs.label.empty()) refuse_label_format(*path, form.format);
-}
-
-tf::write_options write_options_for(const common_options& o, const written_form& form) {
-    tf::write_options options{.format = form.format, .ascii = form.ascii};
-    if (o.precision == "float") options.precision = tf::precision::float32;
-    if (o.precision == "double") options.precision = tf::precision::float64;
-    return options;
 }
 
 const std::filesystem::path& pending_outputs::add(const std::filesystem::path& path, bool force) {
@@ -162,15 +140,14 @@ void enter_report(job& work, const welding& w, const weld_request& request) {
                       {"collapsed", r.collapsed},
                       {"degenerate", r.degenerate},
                       {"flipped", r.flipped}};
-    if (w.box) entry["box"] = {{"min", triple(w.box->min)}, {"max", triple(w.box->max)}};
+    entry["box"] = w.box;
     entry["skipped"] = {{"non_finite", r.non_finite}};
     entry["tolerance"]["used"] = w.tolerance;
     for (const auto& c : w.conditions)
         entry["same"].push_back({{"property", c.property}, {"tolerance", c.tolerance}});
     entry["displacement"] = {{"max", r.max_displacement}};
     entry["nonmanifold_edges"] = {{"before", r.nonmanifold_before}, {"after", r.nonmanifold_after}};
-    entry["left_alone"] =
-        request.settings.options.keep_manifold ? json(r.left_alone) : json(nullptr);
+    entry["left_alone"] = or_null(request.settings.options.keep_manifold, r.left_alone);
     entry["map"] = path_entry(request.outputs.map);
     entry["removed"] = work.options.dry_run ? json(nullptr) : path_entry(request.outputs.removed);
     if (all_kept) entry["label"] = request.outputs.label;
@@ -197,9 +174,7 @@ void write_map(output_file& file, const welding& w, bool as_csv) {
     const auto& group = w.result.groups.group_of_point;
     for (std::size_t p = 0; p < group.size(); ++p) {
         put_map_row(text, p, group[p], as_csv);
-        if (text.size() < (std::size_t{1} << 16)) continue;
-        file.write(text);
-        text.clear();
+        file.write_full_pieces(text);
     }
     file.write(text);
 }
@@ -220,17 +195,7 @@ void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& fil
     const auto written = write_file(
         outputs, path, work.options.force, gone,
         write_options_for(work.options, {check_points_format(path), work.options.ascii}));
-    for (const tf::io_warning& warning : written.warnings) work.warn(warning.code, warning.text);
-}
-
-void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written,
-                  const std::optional<std::uint64_t>& again) {
-    work.entry["output"] = {
-        {"file", path.string()},
-        {"format", written.format},
-        {"precision_out", written.written_as == tf::precision::float32 ? "float" : "double"},
-        {"max_move", written.max_displacement},
-        {"within_tolerance", again ? json(*again) : json(nullptr)}};
+    work.warn(written.warnings);
 }
 
 void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& welded,
@@ -242,9 +207,10 @@ void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& weld
     std::optional<std::uint64_t> again;
     if (request.outputs.label.empty())
         again = still_within(work, welded, w, request.settings, written.written_as);
-    enter_output(work, path, written, again);
-    for (const tf::io_warning& warning : written.warnings) work.warn(warning.code, warning.text);
-    warn_of_rounding(work, written, again, request);
+    enter_output(work, path, written);
+    work.entry["output"]["within_tolerance"] = again;
+    warn_of_rounding(work, written.max_displacement);
+    warn_of_near_points(work, written.max_displacement > 0.0, again.value_or(0), request);
     if (written.max_displacement > 0.0 && w.result.statistics.non_finite == 0)
         look_for_folds(work, welded.mesh);
 }

@@ -38,13 +38,8 @@ class pending_outputs {
 /// \throws failure (bad_usage) when it is none of ply, pcd, xyz (txt, asc) and csv
 std::string check_points_format(const std::filesystem::path& path);
 
-/// Looks at the outputs before the work, so that it is not lost in the end. \throws failure
-void check_outputs(const job& work, const weld_request& request);
 /// Looks whether what comes of `file` can be written as asked. \throws failure
 void check_formats(const job& work, const weld_request& request, const tf::mesh_file& file);
-
-[[nodiscard]] tf::write_options write_options_for(const common_options& o,
-                                                  const written_form& form);
 
 /// The keys of a report's file, each with nothing in it.
 void enter_blank_report(job& work, const weld_request& request);
@@ -59,10 +54,6 @@ void write_map(output_file& file, const welding& w, bool as_csv);
 /// The points of `file` that were dropped, with their properties.
 void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& file, const welding& w,
                    const std::filesystem::path& path);
-
-/// `again` points would merge with others if the file were welded once more.
-void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written,
-                  const std::optional<std::uint64_t>& again);
 
 /// The set at `path`, in the precision asked for; what is written is looked at in that precision.
 void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& welded,

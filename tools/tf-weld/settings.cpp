@@ -6,8 +6,6 @@
 namespace tools {
 namespace {
 
-[[noreturn]] void refuse(const std::string& text) { throw failure(bad_usage, "usage", text); }
-
 std::vector<std::string_view> split(std::string_view option, std::string_view text) {
     std::vector<std::string_view> parts;
     while (true) {

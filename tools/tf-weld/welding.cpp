@@ -26,10 +26,7 @@ welding weld(job& work, const tf::mesh_file& file, const weld_settings& settings
     } catch (const tf::weld_property_error& error) {
         throw property_failure(error, file.attributes);
     }
-    work.out.end_progress();
-    work.keeper.check();
-    if (w.result.status == tf::status::cancelled)
-        throw failure(stopped, "stopped", work.name + ": stopped");
+    work.call_ended(w.result.status == tf::status::cancelled);
     return w;
 }
 
@@ -41,8 +38,7 @@ std::optional<std::uint64_t> still_within(job& work, const tf::mesh_file& welded
     options.keep_seams = false;
     options.progress = work.progress("check");
     const auto again = tf::count_still_within(welded, options, written_as);
-    work.out.end_progress();
-    work.keeper.check();
+    work.call_ended();
     return again;
 }
 

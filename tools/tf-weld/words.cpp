@@ -53,7 +53,7 @@ std::string verdict(const welding& w, const weld_request& request) {
     return text + ")" + faces_in_words(w, request.settings);
 }
 
-void warn_of_harm(job& work, const welding& w) {
+void warn_of_defects(job& work, const welding& w) {
     const tf::weld_statistics& r = w.result.statistics;
     if (r.non_finite > 0)
         work.warn("non-finite", counted(r.non_finite, "point", "points") +

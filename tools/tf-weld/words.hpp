@@ -12,7 +12,7 @@ namespace tools {
 [[nodiscard]] std::string verdict(const welding& w, const weld_request& request);
 
 /// Warns of what welding has done to the faces, and of points that are nowhere.
-void warn_of_harm(job& work, const welding& w);
+void warn_of_defects(job& work, const welding& w);
 
 /// What -v adds to the verdict.
 void say_details(job& work, const welding& w);

@@ -14,6 +14,7 @@
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/lay_flat.hpp>
+#include <treeform/mesh/marks.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -41,9 +42,6 @@
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/build_within.hpp>
-#include <treeform/tree/dynamic_nearness.hpp>
-#include <treeform/tree/dynamic_ray.hpp>
-#include <treeform/tree/dynamic_search.hpp>
 #include <treeform/tree/dynamic_tree.hpp>
 #include <treeform/tree/lazy_tree.hpp>
 #include <treeform/tree/nearness.hpp>
@@ -56,7 +54,6 @@
 #include <treeform/tree/search.hpp>
 #include <treeform/tree/search_pair.hpp>
 #include <treeform/tree/search_self.hpp>
-#include <treeform/tree/strategy/medians.hpp>
 #include <treeform/tree/strategy/nearness_order.hpp>
 #include <treeform/tree/strategy/select.hpp>
 #include <treeform/tree/sweep.hpp>

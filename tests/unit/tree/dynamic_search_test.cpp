@@ -3,10 +3,11 @@
 
 #include <treeform/tf.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/dynamic_nearness.hpp>
-#include <treeform/tree/dynamic_ray.hpp>
-#include <treeform/tree/dynamic_search.hpp>
 #include <treeform/tree/dynamic_tree.hpp>
+#include <treeform/tree/nearness_batch.hpp>
+#include <treeform/tree/nearness_pair.hpp>
+#include <treeform/tree/ray.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>
@@ -240,14 +241,14 @@ TEST_CASE("dynamic_tree: empty, of one, and empty again") {
     (void)both.insert({});
     both.remove({});
     both.move({}, {});
-    CHECK(both.tree.trees().empty());
+    CHECK(both.tree.top().empty());
     CHECK(both.insert({source[0]}) == ids{0});
     check_answers(both, random, source);
     both.move({0}, {source[1]});
     check_answers(both, random, source);
     both.remove({0});
     check_answers(both, random, source);
-    CHECK(both.tree.trees().empty());
+    CHECK(both.tree.top().empty());
 }
 
 TEST_CASE("dynamic_tree: two dynamic trees, moved or not, meet where brute force says") {
@@ -261,7 +262,7 @@ TEST_CASE("dynamic_tree: two dynamic trees, moved or not, meet where brute force
         (void)one->insert(source);
         (void)one->insert(boxes<3>(source.begin(), source.begin() + 20));
         one->remove(one->some(100, random));
-        REQUIRE(one->tree.trees().size() > 1);
+        REQUIRE(one->tree.top().size() > 1);
     }
     tf::transform<3> map;
     map.rows[0][3] = 0.25;  // exact for boxes of multiples of 2^-53 in [0, 1)
@@ -283,7 +284,7 @@ TEST_CASE("dynamic_tree: two dynamic trees, moved or not, meet where brute force
                 if (meet(x, y)) expected.emplace_back(x, y);
                 if (distance(x, y) > 0.0) near.push_back({x, y, distance(x, y)});
             }
-        const tf::tree_parts<3> first(a.tree, moved ? map : tf::transform<3>{});
+        const tf::transformed first(a.tree, moved ? map : tf::transform<3>{});
         CHECK(tf::search_all(first, b.tree, meet) == expected);
         CHECK(tf::search_any(first, b.tree, meet) == !expected.empty());
         std::sort(near.begin(), near.end(),
@@ -325,7 +326,7 @@ TEST_CASE("dynamic_tree: a search that asks to stop is not asked again") {
     const boxes<3> source = box_family<3>("random", 600, 16);
     (void)both.insert(source);
     for (int step = 0; step < 6; ++step) both.step(random, source);
-    REQUIRE(both.tree.trees().size() > 1);
+    REQUIRE(both.tree.top().size() > 1);
     std::size_t asked = 0;
     tf::search(both.tree, box<3>{{0, 0, 0}, {2, 2, 2}},
                [&](std::uint32_t) { return ++asked == 3; });

@@ -2,9 +2,9 @@
 /// Sets of boxes that change: ids, slots, what an update costs, what is refused.
 
 #include <treeform/tf.hpp>
-#include <treeform/tree/dynamic_search.hpp>
 #include <treeform/tree/dynamic_tree.hpp>
 #include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>
@@ -54,7 +54,7 @@ TEST_CASE("dynamic_tree: a small move stays in its slot, a large one leaves it")
     CHECK(tree.statistics().refitted == 1);
     CHECK(tree.statistics().vacated == 1);
     CHECK(tree.statistics().built == built + 1);
-    CHECK(tree.trees().size() == 2);
+    CHECK(tree.top().size() == 2);
 }
 
 TEST_CASE("dynamic_tree: the same trees, ids and pairs on 1, 2 and 8 threads") {
@@ -74,8 +74,10 @@ TEST_CASE("dynamic_tree: the same trees, ids and pairs on 1, 2 and 8 threads") {
         tree.remove(std::span(which).subspan(5000, 4000));
         (void)tree.insert(source);
         ids result;
-        for (const tf::tree<3>* one : tree.trees())
-            result.insert(result.end(), one->ids().begin(), one->ids().end());
+        for (const std::uint32_t part : tree.top().ids()) {
+            const auto in_order = tree.part(part).ids();
+            result.insert(result.end(), in_order.begin(), in_order.end());
+        }
         const tf::update_statistics& cost = tree.statistics();
         for (const std::uint64_t count : {cost.built, cost.refitted, cost.vacated})
             result.push_back(static_cast<std::uint32_t>(count));

@@ -2,12 +2,18 @@
 /// Trees that are split where searches come by, against whole trees and brute force.
 
 #include <treeform/tf.hpp>
+#include <treeform/tree/dynamic_tree.hpp>
 #include <treeform/tree/lazy_tree.hpp>
+#include <treeform/tree/nearness_batch.hpp>
+#include <treeform/tree/nearness_pair.hpp>
+#include <treeform/tree/ray.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <limits>
@@ -143,6 +149,43 @@ TEST_CASE("lazy_tree: searches on several threads split a block once") {
     });
     for (const std::size_t one : found) CHECK(one == of.size());
     CHECK(tree.split() == tree.blocks());
+}
+
+TEST_CASE("lazy_tree: pairs, k nearest, batches and all hits are those of a whole tree") {
+    const boxes<3> of = along_a_line(20'000, 12), few = along_a_line(300, 13);
+    const auto whole = tf::build(of, itself);
+    const tf::lazy_tree tree(of, itself);
+    REQUIRE(tree.blocks() > 1);
+    const auto self = [&](std::uint32_t x, std::uint32_t y) { return overlaps(of[x], of[y]); };
+    CHECK(tf::search_self_all(tree, self) == tf::search_self_all(whole, self));
+    CHECK(tf::search_self_any(tree, self));
+    CHECK(!tf::search_self_any(tree, [](std::uint32_t, std::uint32_t) { return false; }));
+    const auto both = [&](std::uint32_t x, std::uint32_t y) { return overlaps(of[x], few[y]); };
+    const tf::dynamic_tree<3> others(few, itself);
+    CHECK(tf::search_all(tree, others, both) == tf::search_all(whole, others, both));
+    const auto between = [&](std::uint32_t x, std::uint32_t y) {
+        const double squared = squared_between(of[x], few[y]);
+        return squared > 0.0 ? squared : std::numeric_limits<double>::infinity();
+    };
+    const tf::transform<3> map = tf::translation<3>(std::array{0.0, 0.0, 0.0});
+    CHECK(tf::k_nearest_pairs(tf::transformed(tree, map), others, 9, between) ==
+          tf::k_nearest_pairs(whole, tf::build(few, itself), 9, between));
+    const auto from = [&](std::size_t query, std::uint32_t id) {
+        return squared_between(of[id], few[query]);
+    };
+    CHECK(tf::nearest_batch(tree, few, from) == tf::nearest_batch(whole, few, from));
+    CHECK(tf::k_nearest_batch(tree, few, 3, from).neighbors ==
+          tf::k_nearest_batch(whole, few, 3, from).neighbors);
+    CHECK(tf::all_within_batch(tree, few, 0.01, from).neighbors ==
+          tf::all_within_batch(whole, few, 0.01, from).neighbors);
+    const tf::ray<double, 3> ray{{-1.0, 0.05, 0.25}, {1, 0, 0}};
+    const auto hit_of = [&](std::uint32_t id) { return entry(ray, of[id]); };
+    const auto ids_of = [](const auto& hits) {
+        ids result;
+        for (const auto& hit : hits) result.push_back(hit.id);
+        return result;
+    };
+    CHECK(ids_of(tf::all_hits(tree, ray, hit_of)) == ids_of(tf::all_hits(whole, ray, hit_of)));
 }
 
 TEST_CASE("lazy_tree: of nothing finds nothing") {

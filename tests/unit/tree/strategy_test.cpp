@@ -1,7 +1,7 @@
 #include "support/random.hpp"
+#include <libtree/paper/medians.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/strategy/medians.hpp>
 #include <treeform/tree/strategy/select.hpp>
 
 #include <doctest/doctest.h>

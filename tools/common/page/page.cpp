@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <charconv>
+
 namespace tools {
 namespace {
 
@@ -67,13 +69,24 @@ std::string legend(const page& contents) {
     return text + "<button data-home>whole model</button>\n</div>\n";
 }
 
+/// What the view leaves out.
+std::string left_out(const packed_scene& scene) {
+    std::string text;
+    const auto name = [&](std::size_t count, const char* one, const char* many) {
+        if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many);
+    };
+    name(scene.plain_left_out, "other face", "other faces");
+    name(scene.marked_left_out, "face of a pair", "faces of pairs");
+    name(scene.segments_left_out, "curve segment", "curve segments");
+    return text.empty() ? text : " Not drawn, to keep the page light: " + text + ".";
+}
+
 std::string view(const page& contents) {
     std::string text = "<div class=\"view\" id=\"view\">\n<canvas></canvas>\n" + legend(contents) +
                        "<div class=\"picked\"></div>\n</div>\n"
                        "<p class=\"note\">Drag to turn, right button or Shift to shift, wheel to "
                        "zoom, click for the number of a face.";
-    if (!contents.view_note.empty()) text += " " + escaped(contents.view_note);
-    return text + "</p>\n";
+    return text + left_out(contents.scene) + "</p>\n";
 }
 
 std::string places(const page& contents) {
@@ -102,6 +115,18 @@ std::string facts(const page& contents) {
 }
 
 }  // namespace
+
+std::string in_brief(const tf::point3& p) {
+    std::string text = "(";
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        char digits[32];
+        const auto end =
+            std::to_chars(digits, digits + sizeof digits, p[axis], std::chars_format::general, 7)
+                .ptr;
+        text.append(axis == 0 ? "" : ", ").append(digits, end);
+    }
+    return text += ')';
+}
 
 std::string escaped(std::string_view text) {
     std::string out;

@@ -38,13 +38,15 @@ struct page {
     bool good = false;
     std::vector<face_kind> kinds;
     packed_scene scene;
-    bool y_is_up = false;   ///< the view starts with z up otherwise
-    std::string view_note;  ///< what the view leaves out
+    bool y_is_up = false;  ///< the view starts with z up otherwise
     std::vector<std::string> place_columns;
     std::vector<place_row> places;
     std::string places_note;
     std::vector<std::pair<std::string, std::string>> facts;
 };
+
+/// For a column of a table: seven digits.
+[[nodiscard]] std::string in_brief(const tf::point3& p);
 
 /// The text of the page, UTF-8. All texts are escaped here.
 [[nodiscard]] std::string html(const page& contents);

@@ -1,73 +1,135 @@
 #pragma once
 /// \file
-/// From files to meshes that are ready for every operation: usable faces, joined files, joined
-/// points.
+/// Makes meshes of files, ready for every operation: drops unusable faces, joins equal points,
+/// joins several files.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tree/detail/export.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace treeform {
 
-/// A mesh whose faces are finite, with the way back to the file.
+/// A mesh without NaN or infinite coordinates, and the file's number of each face.
 struct usable_mesh {
     treeform::mesh mesh{};
-    /// [F] triangle of the file that each face is; empty: the same number.
+    /// [F] the file's triangle that each face is; empty: numbers are the same.
     std::vector<std::uint32_t> triangle_of_face{};
-    /// [triangles] face of the file that each triangle is of; empty: the same number.
+    /// [triangles] the file's face that each triangle is part of; empty: numbers are the same.
     std::vector<std::uint32_t> stored_face{};
     std::uint64_t dropped = 0;  ///< triangles with a coordinate that is not finite
+    /// Of `usable_part`: [F] the component of the whole mesh, by vertices, that each face is of.
+    std::vector<std::uint32_t> component{};
+    std::uint64_t degenerate = 0;             ///< likewise: triangles that are a segment or a point
+    std::optional<std::uint64_t> distinct{};  ///< likewise: different points, where they are known
+    std::uint64_t joined = 0;                 ///< likewise: points, beyond equal ones
 
+    /// The triangle of the file.
+    [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {
+        return triangle_of_face.empty() ? f : triangle_of_face[f];
+    }
     /// The number in the file.
     [[nodiscard]] std::uint32_t face_in_file(std::uint32_t f) const {
-        const std::uint32_t t = triangle_of_face.empty() ? f : triangle_of_face[f];
+        const std::uint32_t t = triangle(f);
         return stored_face.empty() ? t : stored_face[t];
     }
     operator mesh_view() const { return mesh; }  // NOLINT: meant to be implicit
 };
 
-/// The mesh of `file`: triangles with a NaN or infinite coordinate are left out, corners with equal
-/// coordinates become one. Vertices keep the numbers of the file; of equal ones the lowest is used.
-/// A coordinate that is not finite, which no face uses then, becomes 0.
+/// The mesh of `file`. Triangles with a NaN or infinite coordinate are left out. Corners with equal
+/// coordinates become one vertex. Vertices keep the numbers of the file; of equal ones, faces use
+/// the lowest. Coordinates that are not finite become 0; no face uses them.
 ///
 /// \throws std::invalid_argument naming a face with a corner that is no vertex
 /// \cost   O(V + F)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API usable_mesh as_mesh(mesh_file file);
 
+struct part_options {
+    /// Of corners with equal coordinates, one; or corners as they are numbered.
+    vertex_identity vertices = vertex_identity::by_coordinates;
+    /// Greater than 0: equal points are joined, and then points within it of each other, as `weld`
+    /// does.
+    double tolerance = 0.0;
+    std::optional<box3> box{};  ///< only faces that meet it
+    bool details = false;       ///< find `component` and `distinct`, too
+};
+
+/// The faces of a file's mesh to look at, with the way back to the file: those that are finite, in
+/// the box if there is one. Where any are left out, so are the points that no other face uses.
+///
+/// `stored_face` is that of the file.
+///
+/// \throws std::invalid_argument as `faces_in_box`, `weld`
+/// \cost   O(V + F); with a tolerance, as `group_points`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API usable_mesh usable_part(mesh given,
+                                                   std::vector<std::uint32_t> stored_face,
+                                                   const part_options& options = {});
+
 /// Leaves out the faces of `mesh` with a corner that is not finite or no vertex. [F] the number
 /// before of each face that stays; empty where all do.
 TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 
-/// The points and faces of `files` one after the other, as one file of the first one's format.
+/// One file with the points and faces of all `files`, one after the other, in the format of the
+/// first.
 ///
-/// Columns of "vertex" and "face" go together by name; those that some files do not have are
-/// filled up with NaN, 0 or empty lists there, and types widened until they hold every value.
-/// Corners keep their texture coordinates and normals, and their texture files. Other elements are
-/// left out (warning "left-out"). `names`, one a file, stand for the files in the warnings.
+/// Columns of "vertex" and "face" are matched by name. Where a file lacks a column, its rows get
+/// NaN, 0 or empty lists. Types are widened until they hold every value. Corners keep their texture
+/// coordinates, normals and texture files. Other elements are left out (warning "left-out").
+/// `names` has one name for each file, for the warnings.
 ///
 /// \throws std::invalid_argument when a column holds lists in one file and single values in
-///         another, no type holds all values, or names are not one a file; std::length_error for
-///         more points or triangles than 32-bit numbers can name
+///         another, when no type holds all values, or when there is not one name for each file;
+///         std::length_error for more points or triangles than 32 bits can number
 /// \cost   O(size of all files)
 [[nodiscard]] TREEFORM_API mesh_file join(std::vector<mesh_file> files,
                                           std::span<const std::string> names);
 
+/// Of a scene: a file, and what it is called.
+struct scene_member {
+    const mesh_file* file = nullptr;
+    std::string name{};   ///< of its faces in the scene, where the file has a single part
+    std::string label{};  ///< in warnings
+};
+
+/// All members together, with the parts of their files, what their corners have, their materials
+/// and textures. Other properties are left out, and so is what their textures are warned of, in
+/// `warnings`. Format and numbers are those of the first.
+///
+/// \pre  there is a member
+/// \cost O(size of all files)
+[[nodiscard]] TREEFORM_API mesh_file scene_of(std::span<const scene_member> members);
+
+/// Several meshes as one.
+struct joined_meshes {
+    treeform::mesh mesh{};                    ///< points with equal coordinates joined
+    std::vector<std::uint32_t> mesh_of_face;  ///< [F] which of the meshes each face is of
+};
+
+/// The faces of `meshes` one after the other. A point that is not finite becomes 0.
+///
+/// \pre    no face has a corner that is not finite
+/// \throws std::invalid_argument as `join_equal_points`
+/// \cost   O(V + F)
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API joined_meshes join_meshes(std::span<const mesh_view> meshes);
+
 struct equal_points {
-    std::vector<std::uint32_t> new_of_old;    ///< [V] the distinct point that each point is
+    std::vector<std::uint32_t> new_of_old;    ///< [V] number of the distinct point each one is
     std::vector<std::uint32_t> first_of_new;  ///< [U] lowest-numbered point of each, ascending
 };
 
 /// Finds the points whose coordinates are equal as doubles (-0 equals +0).
 ///
-/// Distinct points are numbered in the order of their first appearance. Infinities equal
-/// themselves; points with a NaN coordinate equal nothing, not even themselves. However close
-/// they are, points that differ in one bit (other than that of -0) stay distinct.
+/// Distinct points are numbered in the order in which they first appear. Points that differ in one
+/// bit stay distinct, however close they are (only -0 and +0 are equal). An infinity equals itself.
+/// A point with a NaN coordinate equals no other, not even a copy of itself.
 ///
 /// \throws std::invalid_argument for more than 2^32 - 1 points
 /// \cost   O(V) expected time, also when all points are equal; about 12 bytes a point besides the
@@ -75,9 +137,9 @@ struct equal_points {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API equal_points find_equal_points(points_view points);
 
-/// `mesh` with equal points joined: points in order of first appearance, each at the coordinates
-/// of its first bit for bit; faces in order, also those that now repeat a corner. Nothing is
-/// dropped, not even points that no face uses.
+/// `mesh` with equal points joined. Points are in the order in which they first appear, with the
+/// coordinates of the first, bit for bit. Nothing is dropped: faces keep their order, even those
+/// that now repeat a corner, and points that no face uses stay.
 ///
 /// \throws std::invalid_argument for more than 2^32 - 1 points, or naming the lowest face with a
 ///         corner out of range

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// What travels with a mesh beside its points and faces: columns of values for vertices, faces and
-/// further elements, values of corners, names of parts, files of materials and textures, comments.
+/// Attributes: all that a mesh has besides points and faces. Columns of values for vertices,
+/// faces and other elements; values of corners; names of parts; files of materials and textures;
+/// comments.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -20,15 +21,15 @@
 
 namespace treeform {
 
-/// Texture coordinates and normals that corners name by their numbers, as in an OBJ: a point may
-/// have others in each of its triangles (a seam, a sharp edge), and corners that share one share it
-/// in a file that is written, too.
+/// Texture coordinates and normals that corners refer to by number, as in an OBJ. So a point may
+/// have different ones in each of its triangles (a seam, a sharp edge). Corners that share a value
+/// still share it in a file that is written.
 struct corner_values {
-    /// In place of a number: the corner has none.
+    /// Instead of a number: the corner has no value.
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
     std::vector<std::array<double, 3>> texture{};  ///< u, v, w
-    bool has_w = false;                            ///< else every w is 0 and stands in no file
+    bool has_w = false;                            ///< else every w is 0 and is not written
     std::vector<point3> normals{};
     std::vector<face> texture_of_corner{};  ///< [F] numbers in `texture`; empty: no corner has any
     std::vector<face> normal_of_corner{};   ///< [F] numbers in `normals`; empty: no corner has any
@@ -36,21 +37,25 @@ struct corner_values {
     friend bool operator==(const corner_values&, const corner_values&) = default;
 };
 
-/// The corners of the triangles `triangles`, in that order; `texture` and `normals` stay whole.
+/// The values of the corners of some triangles, in the order of `triangles`. `texture` and
+/// `normals` stay complete.
 ///
-/// \pre each one is less than the number of triangles that `c` is for
+/// \pre each number is less than the number of triangles that `c` is for
 [[nodiscard]] TREEFORM_API corner_values gather(const corner_values& c,
                                                 std::span<const std::uint32_t> triangles);
 
-/// Puts those of `more` behind those of `triangles` triangles that `to` is for.
+/// Appends the values of `more`, which is for `more_triangles` triangles, to `to`, which is for
+/// `triangles` triangles.
 ///
-/// \pre both together have fewer rows of a kind than `corner_values::none`
+/// \pre together, both have fewer texture coordinates, and fewer normals, than
+///      `corner_values::none`
 TREEFORM_API void append(corner_values& to, std::size_t triangles, const corner_values& more,
                          std::size_t more_triangles);
 
-/// What is wrong with `c` as values of `triangles` triangles, in words; empty when nothing is.
+/// What is wrong with `c` as values of `triangles` triangles, in words; empty when it is valid.
 [[nodiscard]] TREEFORM_API std::string fault_of(const corner_values& c, std::size_t triangles);
 
+/// The type of the values of a column.
 enum class scalar_type : std::uint8_t {
     int8,
     uint8,
@@ -70,6 +75,7 @@ enum class scalar_type : std::uint8_t {
     return sizes[static_cast<std::size_t>(type)];
 }
 
+/// The scalar type that stands for the C++ type T.
 template <class T>
 [[nodiscard]] constexpr scalar_type scalar_type_of() {
     if constexpr (std::is_same_v<T, std::int8_t>)
@@ -124,16 +130,16 @@ decltype(auto) with_type(scalar_type type, F&& f) {
     return f(double{});
 }
 
-/// What a column stands for. All but `data` hold no values of their own: they keep the type and
-/// the place among their neighbors of what lives in `mesh::points`, `mesh::faces` and, for
-/// `texture`, in `attributes::corners`.
+/// What a column stands for. Only `data` columns hold values. The others say with which type and at
+/// which place among the columns a file has what is stored in `mesh::points`, `mesh::faces` and,
+/// for `texture`, `attributes::corners`.
 enum class column_role : std::uint8_t { data, x, y, z, corners, texture };
 
 /// One named property: a value, or a list of values, for each row of its element.
 struct column {
     std::string name{};
     scalar_type type = scalar_type::float64;
-    /// Type of the length written ahead of each list; none when a row has exactly one value.
+    /// Type of the length before each list; none when each row has exactly one value.
     std::optional<scalar_type> list_length{};
     column_role role = column_role::data;
     std::vector<std::byte> values{};          ///< in the machine's byte order, row after row
@@ -147,7 +153,7 @@ struct column {
     return c.values.size() / size_of(c.type);
 }
 
-/// Value number `i` as a double: exact, except for whole numbers beyond 2^53, which are rounded.
+/// Value number `i` as a double: exact, except that whole numbers beyond 2^53 are rounded.
 [[nodiscard]] TREEFORM_API double number_at(const column& c, std::size_t i);
 
 /// A column with one value a row.
@@ -161,7 +167,7 @@ template <class T>
     return c;
 }
 
-/// A kind of thing that a file counts, with its properties in the order of the file.
+/// A kind of row in a file, such as vertices, with its properties in the order of the file.
 struct element {
     std::string name{};  ///< "vertex", "face", "edge", ...
     std::size_t rows = 0;
@@ -170,7 +176,7 @@ struct element {
     friend bool operator==(const element&, const element&) = default;
 };
 
-/// The rows `rows` of `e`, in that order; a row may be asked for several times.
+/// Some rows of `e`, in the order of `rows`; a row may come several times.
 ///
 /// \pre every row is less than `e.rows`
 [[nodiscard]] TREEFORM_API element gather(const element& e, std::span<const std::uint32_t> rows);
@@ -178,13 +184,13 @@ struct element {
 /// The column of that name; null when there is none.
 [[nodiscard]] TREEFORM_API const column* find_column(const element& e, std::string_view name);
 
-/// Puts `c` in the place of the column of its name, at the end when there is none. Returns whether
+/// Replaces the column with the name of `c`, or appends `c` when there is none. Returns whether
 /// there was one.
 ///
 /// \pre `c` has a value for each row of `e`
 TREEFORM_API bool set_column(element& e, column c);
 
-/// A run of faces that a file puts under one name; it ends where the next one starts.
+/// Consecutive faces that a file puts under one name. A part ends where the next one starts.
 struct part {
     std::string object{};          ///< OBJ `o`, the name of an STL solid or of a scene's node
     std::string group{};           ///< OBJ `g`
@@ -194,20 +200,22 @@ struct part {
     friend bool operator==(const part&, const part&) = default;
 };
 
+/// All attributes of a mesh.
 struct attributes {
-    /// In the order of the file. "vertex" has a row a point, "face" a row a face as stored.
+    /// In the order of the file. "vertex" has a row for each point, "face" one for each face as
+    /// stored.
     std::vector<element> elements{};
-    /// By triangles of the mesh, also where faces as stored are polygons: those of one polygon, a
-    /// fan, have the same at the corners that they have in common.
+    /// By triangles of the mesh, even where faces as stored are polygons. The triangles of a
+    /// polygon have equal values at the corners that they share.
     corner_values corners{};
     std::vector<part> parts{};  ///< by ascending first face; empty when nothing is named
     std::vector<std::string> material_files{};  ///< OBJ `mtllib`, as in the file
-    /// Of PLY, the lines `comment TextureFile NAME`: what the faces' property "texnumber" counts,
-    /// from 0 on; without it, texture coordinates are those of the first.
+    /// PLY: the names in the lines `comment TextureFile NAME`. The property "texnumber" of faces is
+    /// a number in this list, from 0; without it, faces use the first.
     std::vector<std::string> texture_files{};
-    std::vector<std::string> comments{};  ///< of PLY, one line each, except for those
-    std::vector<std::string> obj_info{};  ///< of PLY, one line each
-    std::string header{};                 ///< the 80 bytes ahead of a binary STL
+    std::vector<std::string> comments{};  ///< PLY: one line each, without those of texture files
+    std::vector<std::string> obj_info{};  ///< PLY: one line each
+    std::string header{};                 ///< binary STL: its first 80 bytes
 
     friend bool operator==(const attributes&, const attributes&) = default;
 };
@@ -215,7 +223,7 @@ struct attributes {
 /// The element of that name; null when there is none.
 [[nodiscard]] TREEFORM_API const element* find_element(const attributes& a, std::string_view name);
 
-/// The element of that name, added with `rows` rows at the end when there is none.
+/// The element of that name; when there is none, a new one with `rows` rows, at the end.
 [[nodiscard]] TREEFORM_API element& obtain_element(attributes& a, std::string_view name,
                                                    std::size_t rows);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is known of the coordinates that a verb returned.
+/// How an operation ended, and what was checked about the coordinates that it returned.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -16,21 +16,21 @@ namespace treeform {
 
 /// How an operation that makes a mesh has ended.
 enum class status : std::uint8_t {
-    ok,              ///< all that the operation promises was checked and holds
+    ok,              ///< everything that the operation promises was checked and holds
     open_input,      ///< an operand is not closed; `open` says where; no mesh is returned
-    sheet,           ///< the mesh has a border, as was asked for, and is otherwise as promised
+    sheet,           ///< the mesh has a border, as asked for; everything else holds
     excessive_loss,  ///< more was lost than the caller allows
     not_manifold,    ///< with equal coordinates joined, an edge has more than two faces, or a
                      ///< vertex more than one fan
     not_certified,   ///< faces still meet in the coordinates returned; `meeting` says which
-    vanished,        ///< nothing is left: the result is thinner than the coordinates tell apart,
-                     ///< or faces cancel each other out
-    out_of_range,    ///< a coordinate of the result is beyond the numbers asked for
-    no_place,        ///< of a placement: there is no such place, and its `end` says why
-    cancelled        ///< `progress` said stop; nothing is returned
+    vanished,        ///< no face is left: the result is thinner than the coordinates can show, or
+                     ///< faces cancel each other out
+    out_of_range,    ///< a coordinate of the result is too large for the precision asked for
+    no_place,        ///< of a placement: there is no such place; `placement::end` says why
+    cancelled        ///< `progress` asked to stop; nothing is returned
 };
 
-/// A vertex or face of an operand: `index` counts within operand `operand`.
+/// A vertex or face of an operand: its number within that operand.
 struct operand_element {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t operand = none;
@@ -40,30 +40,36 @@ struct operand_element {
 
 /// A place where a surface ends.
 struct open_edge {
-    operand_element face{};        ///< at the edge
-    std::array<point3, 2> ends{};  ///< of the open part of the edge; rounded where it is cut
+    operand_element face{};        ///< a face at the edge
+    std::array<point3, 2> ends{};  ///< ends of the open part of the edge; rounded where it is cut
 };
 
-/// The same in every operation that makes a mesh (`boolean`, `resolve_self_intersections`). What is
-/// certified was checked with exact predicates on the coordinates returned.
+/// What was checked about a mesh that an operation (`boolean`, `resolve_self_intersections`)
+/// returns: with exact predicates, on the coordinates returned.
 struct TREEFORM_API certificate {
     treeform::status status = treeform::status::ok;
-    /// Pairs of faces that meet where they should not; twice the same face where it is degenerate
-    /// or has its outside behind it. The first 100 of `meeting_count`.
+    /// Pairs of faces that meet where they should not. A face paired with itself is degenerate or
+    /// has its outside behind it. `meeting` lists the first 100.
     std::uint64_t meeting_count = 0;
     std::vector<std::array<std::uint32_t, 2>> meeting{};
+    std::vector<point3> meeting_at{};  ///< a corner of the first face of each pair in `meeting`
     /// Edges whose signed face count is not zero. The first 100 of `open_count`.
     std::uint64_t open_count = 0;
     std::vector<open_edge> open{};
-    /// Bound of how far rounding moved a vertex, in each coordinate.
+    /// Rounding moved no coordinate of a vertex further than this.
     double max_displacement = 0.0;
+    treeform::precision precision = treeform::precision::float64;  ///< of the coordinates
+    /// Of `vanished`, the faces of the exact result, all of them thinner than the coordinates tell
+    /// apart; 0 where there were none.
+    std::uint64_t vanished_faces = 0;
 
     explicit operator bool() const { return status == treeform::status::ok; }
-    /// One sentence for people.
+    /// Half a sentence for people, without a stop at its end. It names a face by the numbers in
+    /// `open`, and no operand where that is `operand_element::none`.
     [[nodiscard]] std::string message() const;
 };
 
-/// What `value()` of a result throws; `what()` is the certificate's message.
+/// Thrown by `value()` of a result that is not certified. `what()` is the certificate's message.
 class TREEFORM_API not_certified_error : public std::runtime_error {
   public:
     explicit not_certified_error(certificate why);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The convex hull of points, exactly, and its flat sides.
+/// The exact convex hull of points, and its flat sides.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -14,7 +14,7 @@
 
 namespace treeform {
 
-/// A facet of a convex hull: all of the hull that lies in one plane.
+/// A flat side of a convex hull: all of the hull that lies in one plane.
 struct hull_side {
     /// The first of its faces, in `convex_hull_result::faces`; any three corners span its plane.
     std::uint32_t first_face = 0;
@@ -25,12 +25,14 @@ struct hull_side {
     friend bool operator==(const hull_side&, const hull_side&) = default;
 };
 
+/// The hull as triangles, grouped by side.
 struct convex_hull_result {
-    /// 3 for points that span space, 2 in a plane, 1 on a line, 0 where all are equal, -1 for none.
+    /// 3 for points that span space, 2 in a plane, 1 on a line, 0 when all are equal, -1 for none.
     int dimension = -1;
-    /// [F] triangles of the hull in numbers of the points, outward, side by side in the order of
-    /// `sides`; no two share more than an edge, none is degenerate. Points in a plane have two
-    /// sides of the same triangles, one facing either way; of fewer dimensions there are none.
+    /// [F] triangles of the hull, outward, by point numbers; those of one side after those of the
+    /// side before it in `sides`. No two share more than an edge, and none is degenerate. Points in
+    /// a plane have two sides of the same triangles, one facing each way. Points on a line, or
+    /// equal ones, have none.
     std::vector<face> faces{};
     std::vector<hull_side> sides{};
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is empty
@@ -41,9 +43,9 @@ struct convex_hull_result {
     }
 };
 
-/// The convex hull of `points`, exact on the coordinates as given: no point is outside of a face's
-/// plane, and faces are of one side if and only if they are exactly coplanar. Of equal points the
-/// one of the lowest number is a corner; a corner may lie on an edge or in a side of the hull.
+/// The convex hull of `points`, exact on the coordinates as given: no point is outside the plane of
+/// a face, and faces belong to one side if and only if they are exactly coplanar. Of equal points,
+/// the lowest number is used. Corners of triangles may lie on an edge or inside a side of the hull.
 ///
 /// \throws std::invalid_argument naming the first point that is not finite, and for more points
 ///         than 32 bits can number
@@ -54,10 +56,10 @@ struct convex_hull_result {
 [[nodiscard]] TREEFORM_API convex_hull_result convex_hull(points_view points,
                                                           const progress_callback& progress = {});
 
-/// The corners of a side in order around it, counter-clockwise seen from outside, from the lowest
-/// number on; those at which it does not turn are left out.
+/// The corners of a side in order around it, counter-clockwise seen from outside, starting at the
+/// lowest number. Corners at which the rim goes straight on are left out.
 ///
-/// \pre `side` is one of `hull.sides`, and `points` what the hull is of
+/// \pre `side` is one of `hull.sides`, and `hull` is that of `points`
 [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> corners_of(const convex_hull_result& hull,
                                                                  const hull_side& side,
                                                                  points_view points);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The curves along which faces meet: as segments, and joined into paths with every point named by
-/// what meets there.
+/// The curves along which faces meet: as segments, and joined into paths. Each point of a path says
+/// which edges and faces meet there.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -14,18 +14,18 @@
 
 namespace treeform {
 
+/// What two faces have in common, or one side of it.
 struct curve_segment {
     std::array<point3, 2> ends{};  ///< equal when the faces meet in a point
     std::uint32_t pair = 0;        ///< index into the pairs given
     friend bool operator==(const curve_segment&, const curve_segment&) = default;
 };
 
-/// What the two faces of each pair have in common, as segments: one for a crossing, the rim for
-/// faces that overlap (3 to 6), a segment without length for a single point. In the order of
-/// `pairs`.
+/// What the two faces of each pair have in common, as segments, in the order of `pairs`: one
+/// segment for a crossing, the 3 to 6 sides of the common area for faces that overlap, a segment of
+/// length 0 for a single point.
 ///
-/// That there is a segment is exact; where it ends is rounded (`approximate_point`), and the
-/// coordinates are finite.
+/// Whether there is a segment is exact. Its ends are rounded, and finite.
 ///
 /// \pre  faces of `pairs` and their corners are in range, every coordinate is finite
 /// \cost O(pairs)
@@ -33,7 +33,7 @@ struct curve_segment {
 [[nodiscard]] TREEFORM_API std::vector<curve_segment> intersection_curves(
     mesh_view mesh, std::span<const face_pair> pairs);
 
-/// A point of a curve: the lowest-numbered of the features that meet there.
+/// A point of a curve, named by the lowest-numbered corners, edges or faces that meet there.
 struct curve_point {
     enum class origin : std::uint8_t {
         corner,    ///< a point of the mesh: `edge` holds it twice, and `by` too
@@ -47,26 +47,27 @@ struct curve_point {
     friend bool operator==(const curve_point&, const curve_point&) = default;
 };
 
-/// Points one after the other, each of them different, joined by segments.
+/// A path of different points, each joined to the next by a segment.
 struct curve_path {
-    std::vector<std::uint32_t> points;  ///< as numbers of `curve_network::points`; one or more
-    std::vector<std::uint32_t> pairs;   ///< of each segment, or of the single point, the first pair
+    std::vector<std::uint32_t> points;  ///< numbers in `curve_network::points`; one or more
+    std::vector<std::uint32_t> pairs;   ///< the first pair of each segment, or of the single point
     bool closed = false;                ///< a segment leads from the last point to the first
     friend bool operator==(const curve_path&, const curve_path&) = default;
 };
 
+/// All curves of a mesh.
 struct curve_network {
-    std::vector<curve_point> points;  ///< different as exact points
-    /// Between points where one or more than two segments end; closed ones for the rest; at last
-    /// single points for faces that meet in no more than that, where no segment ends.
+    std::vector<curve_point> points;  ///< no two are equal as exact points
+    /// First the paths between points where one segment, or more than two, end. Then closed paths.
+    /// Last single points, where faces meet in one point and no segment ends.
     std::vector<curve_path> paths;
 };
 
-/// What the two faces of each pair have in common, as `intersection_curves` gives it, joined where
-/// ends are equal as exact points.
+/// The segments of `intersection_curves`, joined into paths where their ends are equal as exact
+/// points.
 ///
-/// Segments that several pairs have are listed once. Paths are in the order of their first points'
-/// numbers, which are in the order of the points' names.
+/// A segment that several pairs have is listed once. Paths are in the order of the numbers of their
+/// first points, and points in the order of their names.
 ///
 /// \pre  faces of `pairs` and their corners are in range and not degenerate, coordinates finite
 /// \cost O(P log P) for P pairs

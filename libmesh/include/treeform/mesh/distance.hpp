@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Distances: of two meshes, and of points from a mesh. All are plain, none is squared.
+/// Distances of two meshes, and of points from a mesh. No distance is squared.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
@@ -17,9 +17,9 @@ namespace treeform {
 
 /// Where each of two meshes is, and how far apart they may be.
 struct distance_options {
-    transform<3> move_a{};  ///< corners are moved, rounded to double, and count from there on
+    transform<3> move_a{};  ///< applied to the corners first; the moved ones are rounded to double
     transform<3> move_b{};
-    /// Nothing is looked for beyond; inclusive.
+    /// Ignore everything further apart than this; inclusive.
     double radius = std::numeric_limits<double>::infinity();
 };
 
@@ -33,30 +33,31 @@ struct closest_points_result {
     friend bool operator==(const closest_points_result&, const closest_points_result&) = default;
 };
 
-/// The nearest points of the surfaces `a` and `b`; none when one has no faces or they are further
-/// apart than the radius. A mesh inside a closed one is as far as from its surface.
+/// The nearest points of the surfaces `a` and `b`; none when one has no faces, or when they are
+/// further apart than the radius. Surfaces count, not solids: a mesh inside a closed one has the
+/// distance to its surface.
 ///
-/// That meshes meet is decided exactly, on the coordinates as given or as moved. The distance
-/// otherwise is within 16 u L of the true one, where u = 2^-53 and L is the largest distance of two
-/// corners of the faces named; of pairs of faces that are as near, as computed, the one of the
-/// lowest numbers is named, but when meshes meet it may be any pair that does, the same in every
-/// run.
+/// Whether the meshes meet is decided exactly, on the coordinates as given or as moved. If they do
+/// not, the distance is within 16 u L of the true one, where u = 2^-53 and L is the largest
+/// distance of two corners of the faces named. Of several pairs of faces at the same computed
+/// distance, the lowest numbers are named. When the meshes meet, it may be any pair that meets, but
+/// the same one in every run.
 ///
-/// Prepared meshes keep what bounds their surfaces closely, which makes later questions several
-/// times as fast where surfaces are nearly flat and do not lie along the axes. A map that is no
-/// rotation, uniform scaling or mirror makes it slower, not wrong.
+/// Prepared meshes keep tight bounds of their surfaces. That makes later calls several times as
+/// fast where surfaces are nearly flat and not along the axes. A transform other than a rotation,
+/// uniform scaling or mirror makes a call slower, not wrong.
 ///
 /// \throws std::invalid_argument naming the mesh and its lowest face with a corner out of range or
-///         not finite, when a map is not finite, or the radius is negative or NaN
-/// \cost   O(F log F) for indexes that are not there yet; then as `nearest_pair`: most pairs of
-///         faces are passed over by the direction between the nearest points so far
+///         not finite, when a transform is not finite, or the radius is negative or NaN
+/// \cost   O(F log F) for indexes that are not built yet; then as `nearest_pair`: most pairs of
+///         faces are skipped by the direction between the nearest points so far
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
     const prepared_mesh& a, const prepared_mesh& b, const distance_options& options = {});
 [[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
     mesh_view a, mesh_view b, const distance_options& options = {});
 
-/// The distance of the surfaces `a` and `b`, infinite where `closest_points` finds none.
+/// The distance of the surfaces `a` and `b`; infinite when `closest_points` finds none.
 [[nodiscard]] TREEFORM_API double distance(const prepared_mesh& a, const prepared_mesh& b,
                                            const distance_options& options = {});
 [[nodiscard]] TREEFORM_API double distance(mesh_view a, mesh_view b,
@@ -70,19 +71,19 @@ struct closest_point_result {
     friend bool operator==(const closest_point_result&, const closest_point_result&) = default;
 };
 
-/// The point of the surface of `mesh` that is nearest to `query`; none when the mesh has no faces
-/// or all are beyond `radius` (inclusive).
+/// The point of the surface of `mesh` that is nearest to `query`; none when the mesh has no faces,
+/// or when all are further away than `radius` (inclusive).
 ///
 /// The distance is within 16 u L of the true one, where u = 2^-53 and L is the larger of the
-/// distance and the diagonal of the face's box, and in any case a rounding of the coordinates
-/// times u. Degenerate faces count as the segment or point they are. Where several faces are as
-/// near, as computed, the one with the lowest number is named.
+/// distance and the diagonal of the face's box; in any case there is a rounding of the coordinates
+/// times u. A degenerate face is treated as the segment or point that it is. Of several faces at
+/// the same computed distance, the lowest number is named.
 ///
 /// \throws std::invalid_argument naming the face with a corner out of range or not finite, or the
 ///         query that is not finite; for a radius that is negative or NaN
 /// \cost   O(F log F) and 128 bytes a face for the index, which a prepared mesh keeps. A query
-///         opens O(log F) nodes where the nearest point is clear, more when much of the mesh is
-///         about as far; many when it is further off than 1e5 times the extent
+///         opens O(log F) nodes in most cases; more when much of the mesh is about equally far;
+///         many when the query is further away than 1e5 times the extent of the mesh
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<closest_point_result> closest_point(
     const prepared_mesh& mesh, const point3& query,
@@ -90,7 +91,7 @@ struct closest_point_result {
 [[nodiscard]] TREEFORM_API std::optional<closest_point_result> closest_point(
     mesh_view mesh, const point3& query, double radius = std::numeric_limits<double>::infinity());
 
-/// [Q] The same for many queries, in their order, in parallel.
+/// [Q] The same for many queries in parallel; answers in the order of the queries.
 [[nodiscard]] TREEFORM_API std::vector<std::optional<closest_point_result>> closest_point(
     const prepared_mesh& mesh, std::span<const point3> queries,
     double radius = std::numeric_limits<double>::infinity());

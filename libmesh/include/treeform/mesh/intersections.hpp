@@ -18,17 +18,17 @@
 
 namespace treeform {
 
+/// Which pairs of faces to look for, and where the meshes are.
 struct mesh_intersection_options {
-    /// How each mesh is moved before it is looked at; what a prepared mesh keeps stays that of the
-    /// mesh as it is. A moved corner is what `transform::operator()` gives, rounded to double: these coordinates
-    /// are the given ones from there on, and the verdict on them is exact.
+    /// Applied to each mesh first. A moved corner is what `transform::operator()` gives, rounded to
+    /// double; the answer is exact for these coordinates. A prepared mesh itself is not changed.
     transform<3> move_a{};
     transform<3> move_b{};
-    /// Stop at the first pair found. Which one that is does not depend on the thread count.
+    /// Stop at the first pair found: the same pair on any number of threads.
     bool first_only = false;
     /// Kinds to look for; the others are neither counted nor listed.
     pair_kinds kinds = pair_kinds::all;
-    /// At most this many pairs are listed, those of the lowest face numbers; all are counted.
+    /// List at most this many pairs, those of the lowest face numbers. All are counted.
     std::size_t limit = static_cast<std::size_t>(-1);
     progress_callback progress{};
 };
@@ -37,22 +37,22 @@ struct mesh_intersection_result {
     std::vector<face_pair> pairs;  ///< face `a` of the first mesh, `b` of the second; ascending
     std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
     std::uint64_t box_pairs = 0;    ///< pairs of faces whose boxes overlap, under a move both ways
-    std::uint64_t exact_pairs = 0;  ///< of these, left open by the filter
+    std::uint64_t exact_pairs = 0;  ///< of these, undecided by the filter
     predicate_counters predicates{};  ///< what the undecided pairs cost
     search_statistics searched{};     ///< what was looked at; the rest of both meshes was skipped
-    bool cancelled = false;           ///< `progress` said stop
+    bool cancelled = false;           ///< `progress` asked to stop
 };
 
 /// All pairs of a face of `a` and a face of `b` that have a common point.
 ///
-/// Exact on the coordinates as given, or as moved. The meshes share no corners, whatever their
-/// numbers: faces that only touch, also in equal points, are `touching`, equal ones `overlap`; the
-/// kinds are crossing, overlap, touching and degenerate. This is about surfaces: a mesh inside the
-/// other that touches it nowhere gives no pair. A mesh may be given twice.
+/// Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
+/// degenerate: two meshes share no corners, so faces that meet in equal corners are `touching`, and
+/// equal faces `overlap`. Surfaces count, not solids: a mesh inside the other that does not touch
+/// it gives no pair. `a` and `b` may be the same mesh.
 ///
 /// \throws std::invalid_argument when a transform is not finite, or naming the mesh and its face
 ///         with a corner out of range or, as moved, not finite
-/// \cost   O(F log F) for indexes that are not there yet; O(B) time for the B pairs whose boxes
+/// \cost   O(F log F) for indexes that are not built yet; O(B) time for the B pairs whose boxes
 ///         overlap and the nodes above them. Of prepared meshes up to twice as fast
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
@@ -61,15 +61,15 @@ struct mesh_intersection_result {
 [[nodiscard]] TREEFORM_API mesh_intersection_result
 mesh_intersections(mesh_view a, mesh_view b, const mesh_intersection_options& options = {});
 
-/// How each mesh is moved; see `mesh_intersection_options`.
+/// Where each mesh is; see `mesh_intersection_options`.
 struct mesh_positions {
     transform<3> move_a{};
     transform<3> move_b{};
 };
 
-/// Whether a face of `a` and a face of `b` have a common point, touching included. Exact; returns
-/// as soon as one pair is found. Of meshes that are not prepared, only faces that reach into the
-/// common part of both boxes are indexed.
+/// Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns as
+/// soon as one pair is found. Of meshes that are not prepared, only faces that reach into the
+/// intersection of both bounding boxes are indexed.
 ///
 /// \throws std::invalid_argument as `mesh_intersections`
 /// \same   in its answer, on any number of threads
@@ -78,10 +78,10 @@ struct mesh_positions {
 [[nodiscard]] TREEFORM_API bool intersects(mesh_view a, mesh_view b,
                                            const mesh_positions& positions = {});
 
-/// Numbers of the faces, ascending, that have a point in the closed box from `min` to `max`.
+/// The faces, ascending, that have a point in the closed box from `min` to `max`.
 ///
-/// Exact: a face whose box overlaps but which passes beside a corner is left out, one that only
-/// touches the box is in. A box may be flat, a line or a point.
+/// Exact: faces are tested, not their boxes. A face that only touches the box is included. The box
+/// may be flat, a line or a point.
 ///
 /// \pre    every coordinate is finite
 /// \throws std::invalid_argument when a coordinate of the box is not finite or min exceeds max, or

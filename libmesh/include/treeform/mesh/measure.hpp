@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How two bodies lie: apart, touching, one in the other; how far, and where.
+/// Whether two bodies are apart, touch or penetrate each other; how far apart they are, and where.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -16,40 +16,44 @@
 
 namespace treeform {
 
+/// How two meshes lie to each other; see `relation`.
 enum class mesh_relation : std::uint8_t { separate, touching, penetrating };
 
 struct relation_options {
-    /// Only closed meshes have an inside; whether a mesh is closed depends on this.
+    /// Only closed meshes have an inside; this decides whether a mesh is closed.
     vertex_identity vertices = vertex_identity::by_coordinates;
     progress_callback progress{};
 };
 
 struct mesh_relation_result {
     mesh_relation relation = mesh_relation::separate;
-    /// Faces that tell why: two that pass through each other or overlap facing the same way, or
-    /// two that touch; of a mesh inside the other, or reaching into it, the lowest face there.
-    /// Both 0 when the meshes are separate.
+    /// Faces that show why: two that pass through each other, overlap facing the same way, or
+    /// touch. For a mesh inside the other, or reaching into it, the lowest face there. Both are 0
+    /// when the meshes are separate.
     std::uint32_t face_a = 0;
     std::uint32_t face_b = 0;
-    bool a_inside_b = false;  ///< a part of `a` lies in the solid `b`, and touches nothing there
-    bool b_inside_a = false;
+    bool a_inside_b = false;  ///< a part of `a` lies inside the solid `b` and does not touch `b`
+    bool b_inside_a = false;  ///< the same with `a` and `b` exchanged
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
 };
 
 /// How `a` and `b` lie to each other, exactly on the coordinates as given.
 ///
-/// They are penetrating when two faces pass through each other; or, where both are closed
-/// (`find_open_edge`), when coplanar faces overlap and face the same way; or when a corner of one
-/// lies strictly inside the other one, if that is closed: so also when one is wholly inside the
-/// other. Else they touch when they have a common point, and are separate when they have none.
+/// They penetrate each other in any of these cases:
+/// - two faces pass through each other;
+/// - both meshes are closed (`find_open_edge`), and coplanar faces overlap and face the same way;
+/// - one mesh is closed, and a corner of the other lies strictly inside it, as when one mesh is
+///   entirely inside the other.
 ///
-/// Corners with equal coordinates are one vertex unless the options say otherwise: a file that
+/// Otherwise they touch when they have a common point, and are separate when they have none.
+///
+/// Corners with equal coordinates are one vertex unless the options say otherwise. So a file that
 /// repeats its corners, as STL does, is closed when its surface is. With `by_index` such a mesh is
 /// open, and what is inside it is separate.
 ///
-/// For closed meshes penetrating means that interiors have a common point, except for one case that
-/// counts as touching: a body that passes through the other along nothing but edges and corners of
-/// both, with all its corners on the other's surface or outside.
+/// For closed meshes, penetrating means that their interiors have a common point. One case is
+/// treated as touching all the same: a body that passes through the other along nothing but edges
+/// and corners of both, with all its corners outside or on the other's surface.
 ///
 /// \throws std::invalid_argument naming the mesh and its lowest face with a corner out of range
 ///         or not finite
@@ -66,8 +70,8 @@ struct mesh_relation_result {
 struct surface_point {
     std::uint32_t face = 0;
     point3 point{};  ///< rounded
-    /// Weights of the corners of the face, each 0 or more, their sum 1, as rounded: those of the
-    /// point of the face that they give best. Of a face without area, weights of two corners.
+    /// Weights of the corners of the face that give the point: each 0 or more, their sum 1,
+    /// rounded. For a face without area, weights of two corners.
     std::array<double, 3> barycentric{1.0, 0.0, 0.0};
     friend bool operator==(const surface_point&, const surface_point&) = default;
 };
@@ -79,22 +83,22 @@ struct measure_options {
 };
 
 struct mesh_measure {
-    mesh_relation_result relation{};  ///< its status tells of both
-    /// Not squared. 0 when the meshes touch or penetrate each other, and only then.
+    mesh_relation_result relation{};  ///< its status is that of the whole answer
+    /// Not squared. 0 if and only if the meshes touch or penetrate each other.
     double distance = 0.0;
-    /// Exactly 0 if and only if a face of the one meets a face of the other: positive also for a
-    /// mesh inside a solid that it does not touch.
+    /// Exactly 0 if and only if a face of one meets a face of the other. So it is positive for a
+    /// mesh inside a solid whose surface it does not touch.
     double surface_distance = 0.0;
     surface_point on_a{};  ///< nearest points of the surfaces; where they meet, a common one
     surface_point on_b{};
 };
 
-/// The relation of `a` and `b`, their distance and their nearest points in one; none when one has
-/// no faces, or when they are further apart than `options.radius` and separate.
+/// The relation of `a` and `b`, their distance and their nearest points. None when one has no
+/// faces, or when they are separate and further apart than `options.radius`.
 ///
-/// The relation is exact, as `relation` says, and so is whether distances are 0. Else they are
-/// rounded as `distance` says. When the surfaces meet, the points are on the faces that
-/// `relation` names if these meet.
+/// The relation is exact (see `relation`), and so is whether a distance is 0. Other distances are
+/// rounded as `distance` says. When the two faces that `relation` names meet, the points are on
+/// them.
 ///
 /// \throws std::invalid_argument as `relation`, and for a radius that is negative or NaN
 /// \cost   that of `distance`, and of `relation` where the boxes of the meshes meet
@@ -107,8 +111,8 @@ struct mesh_measure {
 
 /// The weights of the corners of `t` that give the point `p` of it, as in `surface_point`.
 ///
-/// \pre coordinates are finite; `p` is on the triangle except for rounding, or else the weights are
-///      those of some point of it
+/// \pre coordinates are finite; `p` is on the triangle, except for rounding: otherwise the weights
+///      are those of some other point of it
 [[nodiscard]] TREEFORM_API std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t,
                                                                      const point3& p);
 

@@ -55,13 +55,14 @@ enum class precision : std::uint8_t {
     float64   ///< doubles
 };
 
-/// Which corners of faces are one vertex, where it matters: whether a mesh is closed, and which of
-/// its faces hang together.
+/// Which corners of faces are the same vertex. This decides whether a mesh is closed, and which of
+/// its faces are neighbors.
 enum class vertex_identity : std::uint8_t {
-    by_coordinates,  ///< equal coordinates: right also for files that repeat them, as STL does
-    by_index         ///< the same number
+    by_coordinates,  ///< those with equal coordinates: also right for files that repeat them (STL)
+    by_index         ///< those with the same number
 };
 
+/// A triangle mesh that owns its arrays. Every corner is less than `points.size()`.
 struct mesh {
     std::vector<point3> points;  ///< [V]
     std::vector<face> faces;     ///< [F]
@@ -70,19 +71,20 @@ struct mesh {
     friend bool operator==(const mesh&, const mesh&) = default;
 };
 
+/// A closed axis-aligned box.
 struct box3 {
     point3 min;
     point3 max;
     friend bool operator==(const box3&, const box3&) = default;
 };
 
-/// The box of the points whose coordinates are all finite; none when there is no such point.
+/// The smallest box around all finite points; none when there is no such point.
 ///
 /// \cost O(V) time
 /// \same on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<box3> bounding_box(points_view points);
 
-/// Length of the diagonal, rounded; the largest double where it would be infinite.
+/// Length of the diagonal, rounded. Where it would be infinite, the largest double.
 [[nodiscard]] TREEFORM_API double diagonal(const box3& box);
 
 }  // namespace treeform

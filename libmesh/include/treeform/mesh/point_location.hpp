@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Inside, outside or on: points against a closed mesh, and against closed curves of the plane.
+/// Whether points are inside, outside or on a closed mesh; the same for closed curves in the plane.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
@@ -15,22 +15,25 @@
 
 namespace treeform {
 
+/// Where a point is with respect to a surface or curve.
 enum class location : std::uint8_t { outside, inside, boundary };
 
+/// The answer of `locate`.
 struct point_location {
     location where = location::outside;
-    /// How often the surface or curve winds around the point, counter-clockwise and outward faces
-    /// counting +1: 0 is outside, anything else inside. 0 on the boundary, where there is none.
+    /// How often the surface or curve winds around the point; a mesh with outward faces, or a
+    /// counter-clockwise curve, counts +1. 0 is outside, anything else inside. On the boundary,
+    /// where it is not defined, 0.
     std::int32_t winding = 0;
-    /// On the boundary, the lowest face or edge that holds the point; else 0.
+    /// On the boundary, the lowest face or edge that contains the point; else 0.
     std::uint32_t on = 0;
     friend bool operator==(const point_location&, const point_location&) = default;
 };
 
-/// An edge, from its lower to its higher point, that faces do not run along as often one way as
-/// the other; the lowest such, or none: then the mesh is closed as far as winding numbers go. It
-/// may consist of parts, be non-manifold, fold, and pass through itself. Faces that repeat a
-/// corner have no say. Corners count by number: join equal ones first (`join_equal_points`).
+/// An open edge of the mesh, as its lower and higher point number: the lowest edge whose signed
+/// face count is not zero. None when the mesh is closed, so that winding numbers are defined; it
+/// may still consist of parts, be non-manifold, fold, and pass through itself. Faces that repeat a
+/// corner are ignored. Corners are compared by number: join equal ones first (`join_equal_points`).
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(V + F log d) time for at most d faces at a point
@@ -40,11 +43,11 @@ struct point_location {
 
 /// Where a point is with respect to a closed mesh.
 ///
-/// Exact on the coordinates as given, for every point: a ray along x is counted through, with each
-/// edge that it grazes taken as lying to one side of it by a rule that all faces share. No other
-/// ray is ever tried. Points with equal coordinates are one.
+/// Exact on the coordinates as given, for every point. The crossings of one ray along x are
+/// counted. An edge that the ray grazes is treated as lying to one side, by a rule that all faces
+/// share, so no second ray is needed. Points with equal coordinates are one vertex.
 ///
-/// \throws std::invalid_argument when the mesh is open, naming an edge that is (`find_open_edge`),
+/// \throws std::invalid_argument when the mesh is open, naming an open edge (`find_open_edge`), or
 ///         naming a face with a corner out of range or not finite, or the point that is not finite
 /// \cost   O(F log F) for the indexes, which a prepared mesh keeps; O(log F + B) a point, for the B
 ///         faces whose boxes meet the ray from the point along +x
@@ -54,25 +57,26 @@ struct point_location {
 [[nodiscard]] TREEFORM_API point_location locate(const prepared_mesh& mesh, const point3& point);
 [[nodiscard]] TREEFORM_API point_location locate(mesh_view mesh, const point3& point);
 
-/// [P] The same for many points, in their order, in parallel.
+/// [P] The same for many points in parallel; answers in the order of the points.
 [[nodiscard]] TREEFORM_API std::vector<point_location> locate(const prepared_mesh& mesh,
                                                               std::span<const point3> points);
 [[nodiscard]] TREEFORM_API std::vector<point_location> locate(mesh_view mesh,
                                                               std::span<const point3> points);
 
-/// Whether the solid that the mesh bounds contains the point, its surface included: where the
-/// winding number is not 0 (`fill_rule::nonzero`), or on a face. As `locate` for the rest.
+/// Whether the point is inside the closed mesh or on its surface: inside is where the winding
+/// number is not 0 (`fill_rule::nonzero`). For errors and cost, see `locate`.
 [[nodiscard]] TREEFORM_API bool contains(const prepared_mesh& mesh, const point3& point);
 [[nodiscard]] TREEFORM_API bool contains(mesh_view mesh, const point3& point);
 
-/// How often the surface winds around the point; 0 on the surface. As `locate` for the rest.
+/// How often the surface winds around the point; 0 on the surface. For errors and cost, see
+/// `locate`.
 [[nodiscard]] TREEFORM_API int winding_number(const prepared_mesh& mesh, const point3& point);
 [[nodiscard]] TREEFORM_API int winding_number(mesh_view mesh, const point3& point);
 
-/// An edge of a curve, from one point to another; the inside of a simple curve is on its left.
+/// An edge of a curve, from one point to another. The inside of a simple curve is on its left.
 using curve_edge = std::array<std::uint32_t, 2>;
 
-/// What algorithms take: somebody else's arrays.
+/// Curves in the plane, as a view of the caller's arrays.
 struct curve_view {
     std::span<const point2> points;     ///< [V]
     std::span<const curve_edge> edges;  ///< [E]
@@ -86,21 +90,22 @@ struct curve_view {
 /// \throws std::invalid_argument as `build_face_tree`
 [[nodiscard]] TREEFORM_API tree<2> edge_tree(curve_view curves);
 
-/// Points of the plane against closed curves: any number of them, also crossing or repeated. Exact
-/// in the same sense as `locate`.
+/// Locates points with respect to closed curves in the plane: any number of curves, even crossing
+/// or repeated ones. Exact as `locate` is.
 class TREEFORM_API curve_locator {
   public:
-    /// `tree` is `edge_tree(curves)`; it and the arrays of `curves` outlive the locator.
+    /// `tree` is `edge_tree(curves)`. It and the arrays of `curves` must outlive the locator.
     ///
-    /// \throws std::invalid_argument naming the lowest point that not as many edges lead to as
-    ///         from, an edge with an end out of range, or a tree of another number of edges
+    /// \throws std::invalid_argument naming the lowest point where a curve is open (more edges lead
+    ///         to it than from it, or fewer), or an edge with an end out of range; or for a tree
+    ///         with another number of edges
     curve_locator(curve_view curves, const tree<2>& tree);
 
     /// \throws std::invalid_argument when a coordinate is not finite; likewise below
     /// \cost   O(log E + B) for the B edges whose boxes meet the ray from the point along +x
     [[nodiscard]] point_location locate(const point2& point) const;
 
-    /// [P] the same for many points, in their order.
+    /// [P] The same for many points; answers in the order of the points.
     /// \same on any number of threads
     [[nodiscard]] std::vector<point_location> locate(std::span<const point2> points) const;
 

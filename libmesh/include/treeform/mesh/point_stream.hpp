@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Point files a block at a time, for clouds that are larger than memory.
+/// Reads and writes point files a block at a time, for clouds that are larger than memory.
 
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/write.hpp>
@@ -16,36 +16,36 @@
 
 namespace treeform {
 
-/// A run of points with their properties, as `mesh_file` holds those of a whole file.
+/// Consecutive points with their properties, as `mesh_file` has them for a whole file.
 struct point_block {
     std::vector<point3> points{};
     element properties{.name = "vertex"};  ///< a row a point
 };
 
-/// Reads PLY without faces, PCD, XYZ and CSV from the front to the back. What comes out, block
-/// behind block, is what `read` gives for the whole file.
+/// Reads PLY without faces, PCD, XYZ and CSV from the first point to the last. All blocks together
+/// are what `read` gives for the whole file.
 class TREEFORM_API point_reader {
   public:
-    /// Reads the header. `path` and `format` as for `read`. What is no file that can be mapped
-    /// (standard input, a pipe) goes to a file without a name in /var/tmp first, and so do the
-    /// unpacked points of a compressed PCD.
+    /// Reads the header. `path` and `format` as for `read`. Input that cannot be mapped (standard
+    /// input, a pipe) is copied to an unnamed file in /var/tmp first, and so are the unpacked
+    /// points of a compressed PCD.
     ///
-    /// \throws io_error for a format that is not of points, for a file with faces or other elements
-    ///         that have rows, and as `read`
+    /// \throws io_error for a format without points, for a file with faces or other elements that
+    ///         have rows, and as `read`
     explicit point_reader(const std::filesystem::path& path, std::string_view format = {});
     ~point_reader();
     point_reader(point_reader&&) noexcept;
     point_reader& operator=(point_reader&&) noexcept;
 
-    /// Format, precision, comments and columns (without rows) of the file; no points. `stored_as`
-    /// is what the types in the file can hold, `float64` for text. Text without a header (XYZ, CSV)
-    /// is gone through once for its number of lines and for whether they are alike. What is to be
-    /// said about the end of the file is among the warnings when `read` has returned false.
+    /// The file without its points: format, precision, comments and columns (without rows).
+    /// `stored_as` is by the types in the file, `float64` for text. Text without a header (XYZ,
+    /// CSV) is read once to count its lines and to see whether they are alike. Warnings about the
+    /// end of the file are there once `read` has returned false.
     [[nodiscard]] const mesh_file& header() const;
-    /// Points in the file, where its header says so.
+    /// Number of points in the file, if its header says it.
     [[nodiscard]] std::optional<std::uint64_t> count() const;
-    /// Replaces the content of `block` by the next points, at most `most`; false, and an empty
-    /// block, when there are none left.
+    /// Replaces the content of `block` by the next points, at most `most`. Returns false, with an
+    /// empty block, when none are left.
     ///
     /// \throws io_error as `read`
     bool read(point_block& block, std::size_t most);
@@ -55,13 +55,14 @@ class TREEFORM_API point_reader {
     std::unique_ptr<state> state_;
 };
 
-/// Writes what `write` would write for all blocks together. A compressed PCD, which is what
-/// becomes of one that was, is put together in a file without a name in /var/tmp.
+/// Writes the same file as `write` would for all blocks together. A compressed PCD (the input was
+/// one) is put together in an unnamed file in /var/tmp.
 class TREEFORM_API point_writer {
   public:
-    /// `header` as `point_reader::header` gives it, with columns added or removed; `count` points
-    /// will come. Coordinates are written with the types of their columns in "vertex", in binary as
-    /// doubles where all of these are at most float32 and `stored_as` says float64.
+    /// `header` is that of `point_reader`, perhaps with columns added or removed. `count` is the
+    /// number of points that will be written. Coordinates are written with the types of their
+    /// columns in "vertex"; in binary as doubles when these are at most float32 and `stored_as` is
+    /// float64.
     ///
     /// \throws io_error as `write`; also for a format other than ply, pcd, xyz and csv
     point_writer(const std::filesystem::path& path, const mesh_file& header, std::uint64_t count,
@@ -70,12 +71,12 @@ class TREEFORM_API point_writer {
     point_writer(point_writer&&) noexcept;
     point_writer& operator=(point_writer&&) noexcept;
 
-    /// \throws io_error when the file cannot be written, std::invalid_argument for columns that are
-    ///         not those of the header, more points than were announced, or a coordinate that the
-    ///         header's types do not hold and no `options.precision` says to round
+    /// \throws io_error when the file cannot be written, std::invalid_argument for columns other
+    ///         than those of the header, more than `count` points, or a coordinate that the
+    ///         header's types do not hold unless `options.precision` says to round
     void write(const point_block& block);
-    /// Puts the file into place; without it nothing stays.
-    /// \throws io_error, also when fewer points came than were announced
+    /// Finishes the file. Without this call, no file stays.
+    /// \throws io_error, also when fewer than `count` points were written
     write_result commit();
 
   private:

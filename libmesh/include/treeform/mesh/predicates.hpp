@@ -4,11 +4,11 @@
 ///
 /// Every function returns -1, 0 or +1: the sign of the real number its first line names, evaluated
 /// without rounding on the coordinates as given. A floating-point filter answers most calls; what
-/// it leaves open is evaluated in integers on the smallest power-of-two lattice that holds the
-/// coordinates of that call. No tolerance, no state, no allocation, no exception; safe to call
+/// it leaves undecided is evaluated in integers, on the smallest power-of-two lattice that holds
+/// the coordinates of that call. No tolerance, no state, no allocation, no exception; safe to call
 /// from any thread, in any rounding mode, with denormals flushed or not.
 ///
-/// \pre of all: coordinates are finite. An optional `counters` collects what the call cost.
+/// \pre for all: coordinates are finite. An optional `counters` collects what the call cost.
 /// \source filters: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust
 ///         Geometric Predicates, DCG 18 (1997), section 4; permanents as in Burnikel, Funke and
 ///         Seel, Exact Geometric Computation Using Cascading, IJCGA 11 (2001)
@@ -22,13 +22,13 @@
 
 namespace treeform {
 
-/// Counts of one caller; a thread has its own and the caller adds them up, so nothing is shared.
+/// Counts of predicate calls. Each thread has its own, and the caller adds them up.
 struct predicate_counters {
     /// Widths of the exact stage: 128-bit words, then 1, 2, 4, 8, 16 and 33 limbs a coordinate.
     static constexpr std::size_t widths = 7;
 
-    std::uint64_t calls = 0;                       ///< predicates asked
-    std::uint64_t undecided = 0;                   ///< of these, left open by the filter
+    std::uint64_t calls = 0;                       ///< predicates called
+    std::uint64_t undecided = 0;                   ///< of these, undecided by the filter
     std::array<std::uint64_t, widths> by_width{};  ///< of these, decided exactly at each width
 
     predicate_counters& operator+=(const predicate_counters& other) {
@@ -132,10 +132,10 @@ struct cutting_plane {
 [[nodiscard]] TREEFORM_API int compare_cut(const point3& o, const point3& d, const cutting_plane& p,
                                            double s, predicate_counters* counters = nullptr);
 
-/// The parameter at which the line o + t d meets plane p, with a relative error below 2^-40: its
-/// sign is right, and it is 0 where the exact one is. Beyond the range of double, infinite or 0.
+/// The parameter at which the line o + t d meets plane p, with a relative error below 2^-40. Its
+/// sign is right, and it is 0 when the exact one is. Beyond the range of double, infinite or 0.
 /// \pre  normal . d != 0
-/// \cost as a predicate: double arithmetic where that can be so good, otherwise integers
+/// \cost as a predicate: double arithmetic where that is accurate enough, otherwise integers
 [[nodiscard]] TREEFORM_API double cut_parameter(const point3& o, const point3& d,
                                                 const cutting_plane& p);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a mesh is made of: defects, edges, components, whether it is closed, its volume.
+/// Properties of a mesh: defects, counts of edges and components, whether it is closed, its volume.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -12,7 +12,7 @@
 
 namespace treeform {
 
-/// Lists of numbers, each ascending. A face is in one list at most.
+/// Points and faces with defects, ascending. A face is in at most one list.
 struct mesh_defects {
     std::vector<std::uint32_t> nonfinite_points;    ///< with a NaN or infinite coordinate
     std::vector<std::uint32_t> nonfinite_faces;     ///< with such a corner
@@ -21,19 +21,20 @@ struct mesh_defects {
     friend bool operator==(const mesh_defects&, const mesh_defects&) = default;
 };
 
-/// Finds the points and faces that algorithms refuse or treat apart.
+/// Finds the points and faces that algorithms refuse or treat in a special way.
 ///
-/// Collinear is exact: a face with a repeated corner or with equal corners is, a sliver of any
-/// thinness is not. A corner out of range is looked at first, then whether all are finite.
+/// Whether corners are collinear is exact: they are when a corner is repeated or two are equal;
+/// they are not in a sliver, however thin. A face is first tested for corners out of range, then
+/// for corners that are not finite.
 ///
 /// \throws std::invalid_argument for more than 2^32 - 1 points or faces
 /// \cost   O(V + F) time, memory for what is found
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API mesh_defects find_defects(mesh_view mesh);
 
-/// Counts over the faces with three different corners, by number; faces that repeat a corner have
-/// no edges of their own and are counted apart. Faces with collinear corners and duplicates count
-/// like any other. The Euler characteristic is points_used - edges + faces.
+/// Counts over the faces with three different corner numbers. Faces that repeat a corner have no
+/// edges here and are counted separately. Faces with collinear corners, and duplicates, are counted
+/// like all others. The Euler characteristic is points_used - edges + faces.
 struct topology_counts {
     std::uint64_t edges = 0;                  ///< undirected
     std::uint64_t boundary_edges = 0;         ///< used by one face
@@ -46,14 +47,14 @@ struct topology_counts {
     std::uint64_t faces = 0;                  ///< faces with three different corners
     std::uint64_t repeated_corner_faces = 0;  ///< the others
     std::uint64_t duplicate_faces = 0;        ///< beyond the first with the same three corners
-    bool closed = false;                      ///< a face, no boundary edge, no nonmanifold edge
+    bool closed = false;  ///< at least one face, no boundary edge, no nonmanifold edge
 };
 
-/// Counts what `topology_counts` names; by the numbers of the corners alone, so corners with equal
-/// coordinates should be one point first (`join_equal_points`).
+/// Counts edges, components and defects of a mesh. Only corner numbers matter, so corners with
+/// equal coordinates should be joined first (`join_equal_points`).
 ///
-/// A fan of a point is a set of its faces linked by edges at that point, whatever the number of
-/// faces at the edge. Neither fans nor components depend on how the faces are oriented.
+/// A fan of a point is a set of its faces that are linked by edges at that point, however many
+/// faces an edge has. Neither fans nor components depend on the orientation of faces.
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner that is not less than
 ///         `point_count`, or for more than 2^32 - 1 faces
@@ -62,8 +63,8 @@ struct topology_counts {
 [[nodiscard]] TREEFORM_API topology_counts count_topology(std::size_t point_count,
                                                           std::span<const face> faces);
 
-/// [F] component of each face, numbered in the order of their lowest face; faces are linked by
-/// shared corners, also those that repeat one.
+/// [F] the component of each face; components are numbered in the order of their lowest face. Faces
+/// that share a corner are in one component, even faces that repeat a corner.
 ///
 /// \throws std::invalid_argument as `count_topology`
 /// \cost   O(V + F) time except for an inverse Ackermann factor, about 8 bytes a point
@@ -71,14 +72,14 @@ struct topology_counts {
 [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> face_components(std::size_t point_count,
                                                                       std::span<const face> faces);
 
-/// The volume inside a closed mesh, in cubic units; negative when it is inside out. What it winds
-/// around several times counts as often. Of an open mesh, the volume of the cones over its faces
-/// from the origin. 0 of an empty one.
+/// The volume inside a closed mesh, in cubic units; negative when the mesh is inside out. A region
+/// that the surface winds around several times counts that often. For an open mesh, the sum of the
+/// signed volumes of the tetrahedra from the origin to its faces. 0 for an empty mesh.
 ///
-/// Computed in twice the precision of double and rounded at the end: exact except for a few units
-/// of 2^-100 times the sum, over the faces, of the largest product of three coordinates, so that a
-/// small part far from the origin has its volume, too. Not finite where such a product is beyond
-/// the range of double.
+/// Computed in twice the precision of double, and rounded at the end. The error before that is a
+/// few units of 2^-100 times the sum, over the faces, of the largest product of three coordinates.
+/// So the volume of a small part far from the origin is right, too. Not finite when such a product
+/// is beyond the range of double.
 ///
 /// \pre    every coordinate is finite
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
@@ -88,8 +89,8 @@ struct topology_counts {
 ///         18 (1971)
 [[nodiscard]] TREEFORM_API double signed_volume(mesh_view mesh);
 
-/// The faces numbered in `faces`, in that order, and the points they use, in the order they have
-/// in `mesh`.
+/// A mesh of the given faces, in the order of `faces`, and of the points that they use, in the
+/// order of `mesh`.
 ///
 /// \throws std::invalid_argument naming the number that is no face of the mesh, or a face with a
 ///         corner out of range

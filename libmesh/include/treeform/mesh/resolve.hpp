@@ -14,51 +14,52 @@
 
 namespace treeform {
 
+/// What to do with faces that meet.
 enum class resolve_mode : std::uint8_t {
-    split,  ///< cut along the curves where faces meet, keep every piece
-    outer,  ///< then keep the pieces that bound the solid, and no others
-    remove  ///< delete the faces that meet, and fill the holes
+    split,  ///< cut them along the curves where they meet, and keep every piece
+    outer,  ///< cut them, and keep only the pieces that bound the solid
+    remove  ///< delete them, and fill the holes
 };
 
 struct resolve_options {
-    fill_rule inside = fill_rule::nonzero;  ///< what is solid, for `outer`
-    /// The numbers of the coordinates returned; float32 values are widened to double.
+    fill_rule inside = fill_rule::nonzero;  ///< for `outer`: what is solid
+    /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    int rounding_steps = 5;  ///< of `split` and `outer`: see `boolean_options`
-    /// Of `remove`: faces that only touch (`pair_kind::touching`) are deleted, too. Otherwise they
-    /// stay, and touch.
+    int rounding_steps = 5;  ///< for `split` and `outer`: see `boolean_options`
+    /// For `remove`: delete faces that only touch (`pair_kind::touching`), too. Otherwise they
+    /// stay.
     bool touching = false;
-    /// Of `remove`: how often holes are made and made wider before giving up.
+    /// For `remove`: give up after making or widening holes this often.
     int removal_rounds = 16;
     progress_callback progress{};
 };
 
-/// What was done; for reports.
+/// Counts of what was done, for reports.
 struct resolve_statistics {
-    std::uint64_t removed = 0;  ///< faces of the mesh no part of which is left
-    /// Of `split`, faces that lie on lower ones altogether: one piece stands for all, and they are
-    /// not counted as removed.
+    std::uint64_t removed = 0;  ///< input faces of which no part is left
+    /// For `split`: input faces that lie entirely on faces of lower numbers. One piece stands for
+    /// all of them, so they are not counted as removed.
     std::uint64_t covered = 0;
     std::uint64_t filled = 0;          ///< faces that fill holes
-    std::uint64_t left_open = 0;       ///< of `remove`, edges that have no second face any more
-    std::uint64_t exact_faces = 0;     ///< of `split` and `outer`, as in `boolean_statistics`
-    std::uint64_t split_vertices = 0;  ///< of `outer`, as in `boolean_statistics`
+    std::uint64_t left_open = 0;       ///< for `remove`: edges that lost their second face
+    std::uint64_t exact_faces = 0;     ///< for `split` and `outer`, as in `boolean_statistics`
+    std::uint64_t split_vertices = 0;  ///< for `outer`, as in `boolean_statistics`
 };
 
+/// The mesh without self-intersections, where its parts came from, and what was checked.
 struct TREEFORM_API resolve_result {
-    /// In place of a number: a face that fills a hole, a vertex that is new.
+    /// Instead of a source: the face fills a hole, or the vertex is new.
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    treeform::mesh mesh;                       ///< faces in the order of those they lie in
-    std::vector<std::uint32_t> face_source;    ///< [F'] the face each lies in, or none
-    std::vector<std::uint32_t> vertex_source;  ///< [V'] the vertex each is, or none
-    /// Status ok: checked on the coordinates above, no face is degenerate, and two faces have a
-    /// common corner, a common edge or nothing in common. Of `outer`, also that the mesh is a
-    /// manifold, every edge runs as often one way as the other and the inside is behind every face;
-    /// of `remove`, that no edge of a closed part is open. There, what touched may touch
-    /// (`resolve_options::touching`).
+    treeform::mesh mesh;                       ///< faces in the order of their sources
+    std::vector<std::uint32_t> face_source;    ///< [F'] input face that each lies in, or none
+    std::vector<std::uint32_t> vertex_source;  ///< [V'] input vertex that each is, or none
+    /// Status ok says, checked on the coordinates above: no face is degenerate, and any two faces
+    /// have a corner, an edge or nothing in common. For `outer` also: the mesh is a closed
+    /// manifold, and the inside is behind every face. For `remove`: closed parts are still closed;
+    /// faces that touched before may still touch (`resolve_options::touching`).
     treeform::certificate certificate{};
-    std::uint64_t vanished_components = 0;  ///< components, by vertices, without a face left
+    std::uint64_t vanished_components = 0;  ///< components, by vertices, that have no face left
     resolve_statistics statistics{};
 
     /// The mesh.
@@ -68,21 +69,23 @@ struct TREEFORM_API resolve_result {
     [[nodiscard]] treeform::mesh value() &&;
 };
 
-/// `mesh` without self-intersections, as the certificate and nothing else tells.
+/// `mesh` without self-intersections. Look at the certificate: it says whether this was possible.
 ///
-/// `split` and `outer` decide exactly on the coordinates as given what is cut and what is inside,
-/// and then round; faces that meet nothing come out as they are. `remove` is for surfaces that
-/// bound nothing: it is local and keeps no volume. It deletes the faces that meet, or are
-/// degenerate, and closes each hole by triangles of the least total area between the vertices of
-/// its rim, up to where the mesh ended. Where these meet something, the hole becomes wider. In a
-/// part (faces linked by edges) that has a border, holes stay open (`left_open`) where even that
-/// does not help, or where they would go around the border; then few faces go, of each pair that
-/// meets one. Closed parts that parts with a border pass through stay as they are. Of parts whose
-/// every face has a copy, as of a sheet with a back, one copy stays.
+/// `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is inside.
+/// Then they round the points on cuts. Faces that meet nothing stay as they are.
 ///
-/// \throws std::invalid_argument as `boolean`; of `remove`, a coordinate may be beyond 2^1000
-/// \cost   as `boolean`; of `remove` a `self_intersections` a round, and O(n^3) for a hole of n <=
-///         200 vertices, O(n^2) beyond
+/// `remove` is for surfaces that bound no solid. It works locally and does not keep the volume. It
+/// deletes the faces that meet or are degenerate. It closes each hole by triangles of the least
+/// total area between the vertices of its rim, but not beyond where the mesh ended. Where the new
+/// triangles meet other faces, the hole is made wider. A part is a set of faces linked by edges:
+/// - In a part that has a border, a hole stays open (`left_open`) where widening does not help, or
+///   where the hole would surround the border. Then of each pair only one face is deleted.
+/// - A closed part stays as it is where a part with a border passes through it.
+/// - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
+///
+/// \throws std::invalid_argument as `boolean`; for `remove`, a coordinate may be beyond 2^1000
+/// \cost   as `boolean`; for `remove`, one `self_intersections` a round, and for a hole of n
+///         vertices O(n^3) when n <= 200, else O(n^2)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API resolve_result resolve_self_intersections(
     mesh_view mesh, resolve_mode mode = resolve_mode::outer, const resolve_options& options = {});

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What rounding coordinates does to a mesh.
+/// How rounding of coordinates changes a mesh.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -14,31 +14,31 @@
 
 namespace treeform {
 
-/// Distance between neighboring numbers of that precision at the largest coordinate of `points`.
-/// The least there is, where all coordinates are 0 or there are none; those that are not finite
-/// count for nothing.
+/// Distance between neighboring numbers of precision `of` at the largest finite coordinate of
+/// `points`. When there is none, or all are 0, the least positive number.
 [[nodiscard]] TREEFORM_API double coordinate_step(points_view points, precision of);
 
-/// The points with each coordinate rounded to that precision: the nearest number, infinite beyond
+/// The points with each coordinate rounded to the nearest number of precision `to`; infinite beyond
 /// its range.
 [[nodiscard]] TREEFORM_API std::vector<point3> rounded(points_view points, precision to);
 
-/// Largest change of a coordinate by which `placed` differs from `points` moved by `by`, which is
-/// computed in twice the precision of double. Infinite where a number is not finite.
+/// Largest difference of a coordinate between `placed` and `points` moved by `by`; computed in
+/// twice the precision of double. Infinite when a number is not finite.
 ///
-/// \pre as many points
+/// \pre `points` and `placed` have the same size
 [[nodiscard]] TREEFORM_API double max_displacement(points_view points, const transform<3>& by,
                                                    points_view placed);
 
+/// What rounding has broken.
 struct rounding_defects {
-    std::uint64_t collapsed = 0;  ///< faces that have no area, and had one
-    /// Pairs of faces that meet, and did not: all kinds but touching and degenerate ones.
+    std::uint64_t collapsed = 0;  ///< faces that have lost their area
+    /// Pairs of faces that meet now, and did not before: all kinds except touching and degenerate.
     std::uint64_t meeting = 0;
-    bool cancelled = false;  ///< `progress` said stop; the rest means nothing
+    bool cancelled = false;  ///< `progress` asked to stop; the rest means nothing
 };
 
-/// Compares `mesh` with its faces at the points `placed`. It may have been moved and turned: no
-/// distance is looked at, only what faces do to each other. Exact on both.
+/// What breaks when the points of `mesh` become `placed`, exactly. The mesh may have been moved and
+/// turned, too: distances are not compared, only how faces lie to each other.
 ///
 /// \throws std::invalid_argument as `self_intersections` for either, or for another number of
 ///         points
@@ -47,28 +47,30 @@ struct rounding_defects {
 [[nodiscard]] TREEFORM_API rounding_defects
 find_rounding_defects(mesh_view mesh, points_view placed, const progress_callback& progress = {});
 
+/// Which rounding to look at.
 struct rounding_options {
-    precision before = precision::float64;  ///< of the points that were moved
+    precision before = precision::float64;  ///< of the points before the move
     precision after = precision::float64;   ///< of what is written
     progress_callback progress{};
 };
 
+/// How far rounding moved points, and what it has broken.
 struct rounding_effects {
-    double max_displacement = 0.0;  ///< largest change of a coordinate beside that of the move
+    double max_displacement = 0.0;  ///< largest change of a coordinate, apart from the move
     double step = 0.0;  ///< between neighboring numbers, at the largest coordinate written
-    /// Where doubles have become float32, or a change is more than a millionth of the size.
+    /// Doubles have become float32, or a change is more than a millionth of the size.
     bool noticeable = false;
-    bool compared = false;        ///< the faces were looked at, since steps are coarser than before
-    std::uint64_t collapsed = 0;  ///< faces that have no area any more
-    std::uint64_t meeting = 0;    ///< pairs of faces that meet, and did not
+    bool compared = false;        ///< faces were compared, because coordinates are coarser now
+    std::uint64_t collapsed = 0;  ///< faces that have lost their area
+    std::uint64_t meeting = 0;    ///< pairs of faces that meet now, and did not before
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
 
-    /// Of both together.
+    /// Adds the effects on another mesh.
     TREEFORM_API rounding_effects& operator+=(const rounding_effects& other);
 };
 
-/// Compares `placed` with the points of `moving` moved by `by`, and its faces there with those
-/// before where coordinates are coarser.
+/// Compares `placed` with the points of `moving` moved by `by`. Where coordinates are coarser than
+/// before, it also compares the faces (`find_rounding_defects`).
 ///
 /// \throws std::invalid_argument for another number of points
 /// \cost   O(V); where coordinates are coarser, two `self_intersections` at most

@@ -16,7 +16,8 @@
 
 namespace treeform {
 
-/// How two faces meet beyond the corners they share by number. Each pair has exactly one kind.
+/// How two faces meet. Each pair has exactly one kind. A shared corner is one that both faces have;
+/// see `vertex_identity`.
 enum class pair_kind : std::uint8_t {
     crossing,   ///< no shared corner; the interiors pass through each other
     overlap,    ///< at most one shared corner; coplanar, with a common area
@@ -24,7 +25,7 @@ enum class pair_kind : std::uint8_t {
     duplicate,  ///< the same three corners, in either orientation
     pierce,     ///< one shared corner; the interiors pass through each other
     touching,   ///< contact without crossing: a point or a segment on the rim of one of them
-    degenerate  ///< any of these, but a face of the pair is a segment or a point
+    degenerate  ///< they meet, and one of them has no area
 };
 inline constexpr std::size_t pair_kind_count = 7;
 
@@ -59,6 +60,7 @@ class pair_kinds {
 };
 inline constexpr pair_kinds pair_kinds::all = pair_kinds::of((1U << pair_kind_count) - 1);
 
+/// Two faces that meet.
 struct face_pair {
     std::uint32_t a = 0;  ///< the lower face number
     std::uint32_t b = 0;
@@ -67,17 +69,17 @@ struct face_pair {
 };
 
 struct self_intersection_options {
-    /// Which corners are shared: those with equal coordinates, or those with the same number.
+    /// Which corners two faces share: those with equal coordinates, or with the same number.
     vertex_identity vertices = vertex_identity::by_coordinates;
-    /// Stop at the first pair found. Which one that is does not depend on the thread count.
+    /// Stop at the first pair found: the same pair on any number of threads.
     bool first_only = false;
     /// Kinds to look for; the others are neither counted nor listed.
     pair_kinds kinds = pair_kinds::all;
-    /// Where not empty, [F]: component of each face; see `between` and `within`.
+    /// [F] component of each face, for `between` and `within`; or empty.
     std::span<const std::uint32_t> component_of_face{};
     bool between = false;  ///< only pairs of faces of different components
     bool within = false;   ///< only pairs of faces of one component
-    /// At most this many pairs are listed, those of the lowest face numbers; all are counted.
+    /// List at most this many pairs, those of the lowest face numbers. All are counted.
     std::size_t limit = static_cast<std::size_t>(-1);
     progress_callback progress{};
 };
@@ -86,19 +88,19 @@ struct self_intersection_result {
     std::vector<face_pair> pairs;                         ///< ascending by (a, b)
     std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
     std::uint64_t box_pairs = 0;                          ///< pairs of faces whose boxes overlap
-    std::uint64_t exact_pairs = 0;                        ///< of these, left open by the filter
+    std::uint64_t exact_pairs = 0;                        ///< of these, undecided by the filter
     predicate_counters predicates{};                      ///< what the undecided pairs cost
     double tree_seconds = 0.0;                            ///< time to build the tree
     double pair_seconds = 0.0;                            ///< time to find and decide pairs
-    bool cancelled = false;                               ///< `progress` said stop
+    bool cancelled = false;                               ///< `progress` asked to stop
 };
 
-/// All pairs of faces that have a common point on none of their shared corners and not on their
-/// shared edge. A mesh that repeats its vertices, as an STL does, gives the same pairs as one that
-/// numbers them once (`self_intersection_options::vertices`).
+/// All pairs of faces that meet where they should not: in a point that is neither a shared corner
+/// nor on a shared edge. A mesh that repeats its vertices, as an STL does, gives the same pairs as
+/// one that does not (`self_intersection_options::vertices`).
 ///
-/// Exact on the coordinates as given. Degenerate faces (collinear corners) take part as the
-/// segment or point they are and are told apart by their kind.
+/// Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
+/// segment or point that it is; its pairs have a kind of their own.
 ///
 /// \pre    every corner is less than `mesh.points.size()`, every coordinate is finite
 /// \throws std::invalid_argument naming the face or point that breaks this, when
@@ -111,6 +113,7 @@ self_intersections(mesh_view mesh, const self_intersection_options& options = {}
 [[nodiscard]] TREEFORM_API self_intersection_result
 self_intersections(const prepared_mesh& mesh, const self_intersection_options& options = {});
 
+/// Faces that meet, in one place of the mesh.
 struct intersection_region {
     std::vector<std::uint32_t> faces;  ///< ascending
     point3 min;                        ///< box of these faces
@@ -119,14 +122,15 @@ struct intersection_region {
     friend bool operator==(const intersection_region&, const intersection_region&) = default;
 };
 
+/// All regions, and the region of each pair.
 struct intersection_regions {
     std::vector<intersection_region> regions;   ///< in the order of their lowest face
     std::vector<std::uint32_t> region_of_pair;  ///< [pairs]
     friend bool operator==(const intersection_regions&, const intersection_regions&) = default;
 };
 
-/// Groups the faces that meet in `pairs`: two are in one region when a pair or a shared corner
-/// links them, at once or through others. Faces in no pair link nothing. No pairs, no regions.
+/// Groups the faces in `pairs` into regions. Two of these faces are in one region when a pair or a
+/// shared corner links them, directly or through other such faces.
 ///
 /// \pre    coordinates of the faces in `pairs` are finite
 /// \throws std::invalid_argument naming a pair with a face out of range, or the lowest face with a

@@ -14,16 +14,16 @@ namespace treeform {
 /// A solid bounded by a mesh, or made of others by `+` (union), `*` (intersection), `-`
 /// (difference) and `^` (exclusive or).
 ///
-/// A cheap handle: copies share what they hold. Operators collect the formula; all of it is
-/// arranged at once, exactly, when the result is first asked for, and kept. Const functions may be
-/// called from any threads.
+/// Cheap to copy: copies share what they hold. Operators only collect the formula. The first call
+/// of `result` or `mesh` computes all of it at once, exactly, and keeps the result. Const functions
+/// may be called from any threads.
 class TREEFORM_API solid {
   public:
-    /// The mesh bounds a solid as an operand of `boolean` has to.
-    /// \throws not_certified_error naming where the mesh is open; std::invalid_argument as `boolean`
+    /// \throws not_certified_error saying where the mesh is open, if it does not bound a solid as
+    ///         an operand of `boolean` has to; std::invalid_argument as `boolean`
     /// \cost   as `check_solid`
     explicit solid(treeform::mesh&& owned);
-    /// The same of a mesh that others ask about, too.
+    /// The same for a mesh that is shared with other code.
     explicit solid(std::shared_ptr<const prepared_mesh> shared);
 
     friend TREEFORM_API solid operator+(const solid& a, const solid& b);
@@ -31,9 +31,9 @@ class TREEFORM_API solid {
     friend TREEFORM_API solid operator-(const solid& a, const solid& b);
     friend TREEFORM_API solid operator^(const solid& a, const solid& b);
 
-    /// The result of `boolean` for the formula, whatever its certificate says; of a mesh alone, what
-    /// it winds around. Sources name the meshes of the formula from left to right; one that stands
-    /// in it several times counts once.
+    /// The result of `boolean` for the formula, certified or not. For a single mesh, the solid that
+    /// it winds around. Sources number the meshes of the formula from left to right; a mesh that
+    /// occurs several times has one number.
     /// \cost   as `boolean` of all meshes in the formula, once
     [[nodiscard]] const boolean_result& result() const;
     /// The surface.

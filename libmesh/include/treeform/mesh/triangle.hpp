@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Closed triangles, exactly: what two of them have in common, where a ray meets one, when one in
-/// straight motion first meets another.
+/// Triangles, exactly: what two of them have in common, where a ray hits one, and when a
+/// triangle in straight motion first meets another. Triangles include their edges.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -49,10 +49,10 @@ struct triangle_contact {
 ///
 /// Exact on the coordinates as given: no verdict depends on a tolerance, on the order of the
 /// corners or on which triangle comes first (features are renamed accordingly; the order of `ends`
-/// may differ). Corners with equal coordinates are met like any other point, so neighbors in a
-/// mesh report at least what they share. A degenerate triangle is the segment or the point that
-/// its corners span, and never has an interior; a point on it is named by its lowest-numbered
-/// corner there, else by the lowest-numbered edge that holds it.
+/// may differ). Equal corners are a common point like any other, so neighbors in a mesh report at
+/// least what they share. A degenerate triangle is the segment or the point that its corners span,
+/// and never has an interior. A point on it is named by the lowest-numbered corner there, else by
+/// the lowest-numbered edge that contains it.
 ///
 /// \pre    every coordinate is finite
 /// \cost   O(1), no allocation; at most 10 `orient3d` unless the triangles are coplanar or one is
@@ -70,28 +70,28 @@ using ray3 = ray<double, 3>;
 struct ray_contact {
     /// Part of the triangle that the first common point lies on: `interior`, an edge or a corner.
     feature at = feature::interior;
-    /// The ray runs in the plane of the triangle, or the triangle has no area; otherwise there is
-    /// just one common point.
+    /// The ray runs in the plane of the triangle, or the triangle has no area. Otherwise there is
+    /// exactly one common point.
     bool coplanar = false;
     /// Parameter of that point, with a relative error below 2^-40; within [t_min, t_max].
     double t = 0.0;
-    /// Of the last common point, likewise; equal to t where there is one only.
+    /// Parameter of the last common point, with the same error; equal to t when there is only one.
     double t_end = 0.0;
-    /// Where coplanar: t is t_min, and the line of the ray is in the triangle just before and just
-    /// after it. `entry` says nothing then.
+    /// Only when coplanar: t is t_min, and the line of the ray is in the triangle just before and
+    /// just after it. Then `entry` is not set.
     bool from_start = false;
-    /// A plane that meets the ray in that point alone: t as an exact number, for `compare`.
+    /// A plane that meets the ray in that point only: t as an exact number, for `compare`.
     cutting_plane entry{};
 };
 
 /// The first point of the ray in the closed triangle; none when they miss each other.
 ///
-/// Exact on the coordinates as given, and watertight: whether a line passes to the left or to the
-/// right of an edge is decided by the edge alone, so a ray that meets two triangles' common edge or
-/// corner meets both, named for what it is, and one that enters a closed surface does not slip
-/// through. A triangle without area is the segment or point that its corners span, named as by the
-/// `intersect` of triangles. Neither the order of the corners nor the length of the direction
-/// matters (features are renamed, t scaled accordingly).
+/// Exact on the coordinates as given, and watertight: a ray that hits the common edge or corner of
+/// two triangles hits both, and names the edge or corner, because the edge alone decides on which
+/// side of it a line passes. So no ray slips into a closed surface. A triangle without area is the
+/// segment or point that its corners span, named as by the `intersect` of triangles. Neither the
+/// order of the corners nor the length of the direction matters (features are renamed, t is scaled
+/// accordingly).
 ///
 /// \pre    every coordinate is finite, the direction is not zero, no parameter is NaN
 /// \cost   O(1), no allocation; 3 `direction_side` for a miss, at most, and a `cut_parameter` for a
@@ -102,16 +102,17 @@ struct ray_contact {
     const ray3& ray, const triangle3& triangle, predicate_counters* counters = nullptr);
 
 /// Sign of the difference of the exact parameters of two contacts of one ray: -1 when the ray gets
-/// to `a` first, 0 when they are one point.
-/// \pre both are what `intersect` gave for `ray`
+/// to `a` first, 0 when both are the same point.
+/// \pre both were returned by `intersect` for `ray`
 [[nodiscard]] TREEFORM_API int compare(const ray3& ray, const ray_contact& a, const ray_contact& b,
                                        predicate_counters* counters = nullptr);
 
 /// The first time at which two triangles have a common point.
 struct sweep_contact {
-    /// A point of each that meet then, among others: a corner and any feature, or two edges.
+    /// Features that meet at that time: a corner and any feature, or two edges. There may be
+    /// others.
     contact at{feature::v0, feature::v0};
-    /// With a relative error below 2^-40; 0 exactly when it is 0.
+    /// With a relative error below 2^-40; 0 if and only if the exact time is 0.
     double time = 0.0;
     /// The time as an exact number, for `compare`: when the point `from` of the moving triangle,
     /// carried along, gets to the plane `until`.
@@ -140,7 +141,7 @@ struct sweep_contact {
     predicate_counters* counters = nullptr);
 
 /// Sign of the difference of the exact times of two contacts under one motion d.
-/// \pre both are what `first_contact` gave for d
+/// \pre both were returned by `first_contact` for d
 [[nodiscard]] TREEFORM_API int compare(const point3& d, const sweep_contact& a,
                                        const sweep_contact& b,
                                        predicate_counters* counters = nullptr);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points within a distance of each other become one: in clouds, in meshes, in whole files.
+/// Merges points that are within a distance of each other: in clouds, meshes and whole files.
 ///
 ///     auto w = tf::weld(mesh, {.tolerance = 0.01});   // w.mesh, w.groups.group_of_point
 
@@ -18,9 +18,9 @@
 
 namespace treeform {
 
-/// Which points become one.
+/// Which points become one: each group of points.
 struct point_groups {
-    std::vector<std::uint32_t> group_of_point{};  ///< [V] groups are numbered by their first points
+    std::vector<std::uint32_t> group_of_point{};  ///< [V] groups in the order of their first points
     std::vector<std::uint32_t>
         first_of_group{};                  ///< [G] the lowest-numbered point of each, ascending
     treeform::status status = status::ok;  ///< or cancelled; then the rest is empty
@@ -28,82 +28,89 @@ struct point_groups {
 
 /// What welding has done to points and faces.
 struct weld_statistics {
-    std::uint64_t groups = 0;      ///< of two points or more
+    std::uint64_t groups = 0;      ///< groups of two points or more
     std::uint64_t non_finite = 0;  ///< points with a NaN or infinite coordinate, left as they are
-    std::uint64_t collapsed = 0;   ///< faces that repeat a corner, but did not before
+    std::uint64_t collapsed = 0;   ///< faces that repeat a corner now, but did not before
     std::uint64_t degenerate = 0;  ///< faces that repeated a corner before
-    /// Greatest distance of a point from where it ended up: the least double that is no less.
+    /// The furthest that a point moved, rounded up to a double.
     double max_displacement = 0.0;
     std::uint64_t nonmanifold_before = 0;  ///< edges of more than two faces
     std::uint64_t nonmanifold_after = 0;
     std::uint64_t flipped = 0;     ///< kept faces whose normal turned by more than a right angle
-    std::uint64_t left_alone = 0;  ///< groups that `keep_manifold` did not join whole
+    std::uint64_t left_alone = 0;  ///< groups that `keep_manifold` did not merge whole
 };
 
+/// The welded mesh.
 struct weld_result {
     treeform::mesh mesh{};
     treeform::attributes
-        attributes{};       ///< rows of "vertex", "face" and corners follow points and faces
-    point_groups groups{};  ///< of the points given; group numbers are points of `mesh`
-    std::vector<std::uint32_t> point_of_group{};  ///< [G] the point that gave its properties
-    std::vector<std::uint32_t> face_of_new{};     ///< [F'] the face given that each face was
+        attributes{};       ///< rows of "vertex", "face" and corners match points and faces
+    point_groups groups{};  ///< of the input points; group numbers are points of `mesh`
+    std::vector<std::uint32_t> point_of_group{};  ///< [G] input point that gave its properties
+    std::vector<std::uint32_t> face_of_new{};     ///< [F'] input face that each face was
     weld_statistics statistics{};
     treeform::status status = status::ok;  ///< or cancelled; then the rest is empty
 };
 
+/// The welded cloud.
 struct cloud_weld_result {
     std::vector<point3> points{};                 ///< [G]
-    treeform::attributes attributes{};            ///< rows of "vertex" follow the points
-    point_groups groups{};                        ///< of the points given
-    std::vector<std::uint32_t> point_of_group{};  ///< [G] the point that gave its properties
-    weld_statistics statistics{};                 ///< of faces there are none
+    treeform::attributes attributes{};            ///< rows of "vertex" match the points
+    point_groups groups{};                        ///< of the input points
+    std::vector<std::uint32_t> point_of_group{};  ///< [G] input point that gave its properties
+    weld_statistics statistics{};                 ///< counts of faces are 0
     treeform::status status = status::ok;         ///< or cancelled; then the rest is empty
 };
 
+/// The welded file.
 struct file_weld_result {
-    mesh_file file{};       ///< as the one given, with the points and faces that are kept
-    point_groups groups{};  ///< of the points given; group numbers are points of `file`
-    std::vector<std::uint32_t> point_of_group{};  ///< [G] the point that gave its properties
-    std::vector<std::uint32_t> face_of_new{};  ///< [F'] the triangle given that each triangle was
-    weld_statistics statistics{};              ///< of triangles
-    treeform::status status = status::ok;      ///< or cancelled; then the rest is empty
+    mesh_file file{};       ///< like the input, with the points and faces that are kept
+    point_groups groups{};  ///< of the input points; group numbers are points of `file`
+    std::vector<std::uint32_t> point_of_group{};  ///< [G] input point that gave its properties
+    std::vector<std::uint32_t> face_of_new{};     ///< [F'] input triangle that each triangle was
+    weld_statistics statistics{};                 ///< of triangles
+    treeform::status status = status::ok;         ///< or cancelled; then the rest is empty
 };
 
-/// `mesh` with the points within the tolerance of each other joined. Points keep the order of the
-/// groups' first points, faces theirs. With tolerance 0 and `weld_keep::first` the result has the
-/// coordinates given, bit for bit, and so has it with any tolerance for points that are kept.
-/// Whether two points are within the tolerance is decided exactly on the coordinates as given, and
-/// so is which of two is nearer. Points with a NaN or infinite coordinate stay alone, also from
-/// their like.
+/// `mesh` with the points merged that are within the tolerance of each other.
 ///
-/// Faces that repeat a corner are dropped unless `keep_degenerate` is set, the `collapsed` ones and
-/// the `degenerate` alike: without it, faces given = faces of the result + collapsed + degenerate.
-/// Faces that have become equal to others stay. Edges are counted over faces with three corners.
+/// Whether two points are within the tolerance is decided exactly on the coordinates as given, and
+/// so is which of two points is nearer. Points are in the order of the first points of their
+/// groups; faces keep their order. With `weld_keep::first`, points that are kept keep their
+/// coordinates bit for bit. A point with a NaN or infinite coordinate is merged with no other, not
+/// even with a copy of itself.
+///
+/// Faces that repeat a corner are dropped unless `keep_degenerate` is set, whether they repeated it
+/// before (`degenerate`) or not (`collapsed`). So input faces = faces of the result + collapsed +
+/// degenerate. Faces that have become equal to others stay. Edges are counted over faces with three
+/// different corners.
 ///
 /// With `keep` other than `first`, kept points may be within the tolerance of each other again, and
 /// with the rule `first` a point may move by twice the tolerance.
-/// Means are sums of differences from the first point's value in the order of points, rounded at
-/// each step (for n values that differ by at most d, off by no more than n d 2^-52 and a last
-/// place), and lie between the least and the greatest value; float32 columns round once more.
-/// Averaged normals are not made unit vectors again. A property with a NaN or an
-/// infinity among several is NaN.
 ///
-/// `keep_manifold` joins points of a group only along edges: those of two faces that the groups
-/// make one edge of at most two faces, and edges that shrink to a point. What hangs together so
-/// becomes one point; others of the group are points of their own, each part with its own first,
-/// last or mean, and points that no face uses go with the lowest part that has faces. So the seams
-/// of a surface cut open close as one, and solids that meet in an edge or a corner come apart.
-/// Where a group would still do harm, because points were not manifold before or faces shrink, it
-/// is left as single points; this is done to points with equal coordinates first, and then to what
-/// they became, so that coinciding corners stay joined where the rest of a group does not. Every
-/// edge of more than two faces in the result was one before, every point of several fans has such a
-/// point in it. Points of one group may thus stay within the tolerance of each other, and with the
-/// rule `first` a point may move by twice the tolerance.
+/// A mean is the first point's value plus the differences of the others from it, added in the order
+/// of points and rounded at each step. For n values that differ by at most d, it is wrong by at
+/// most n d 2^-52 and one unit in the last place. It lies between the least and the greatest value;
+/// float32 columns round once more. Averaged normals are not scaled to length 1. A mean over a NaN
+/// or an infinity is NaN.
 ///
-/// \throws std::invalid_argument for a tolerance that is negative or not finite, labels that are
-///         not one a point, more than 2^32 - 2 points, a corner out of range, a property that
-///         is not there or is a list (`weld_property_error`), or more than 2^32 / 3 faces with
-///         `keep_manifold`; all name the lowest element of the arrays given
+/// `keep_manifold` merges points of a group only along edges: two edges that would become one edge
+/// with at most two faces, or an edge that shrinks to a point. Points of a group that are linked in
+/// this way become one point; the other points of the group stay separate. Each such part has its
+/// own first, last or mean; points that no face uses join the lowest part that has faces. So a
+/// surface that was cut open closes along its seams, while solids that meet in an edge or a corner
+/// stay apart. Where merging a group would still make an edge or a point non-manifold, because
+/// points were not manifold before or faces shrink, the group is left as single points. This is
+/// tried first for points with equal coordinates, and then for what they became; so corners that
+/// coincide stay merged where the rest of a group does not. In the result, every edge of more than
+/// two faces was one before, and every point with several fans contains a point that had several
+/// before. Points of one group may stay within the tolerance of each other, and with the rule
+/// `first` a point may move by twice the tolerance.
+///
+/// \throws std::invalid_argument for a tolerance that is negative or not finite, when there is not
+///         one label for each point, for more than 2^32 - 2 points, a corner out of range, a
+///         property that is missing or is a list (`weld_property_error`), or more than 2^32 / 3
+///         faces with `keep_manifold`; all name the lowest element of the arrays given
 /// \cost   O(V log V + F log F) for any tolerance and any number of equal points, as long as
 ///         `may_merge` is empty or nearly always true; parallel, except for rule `first` where most
 ///         points have several others within the tolerance. Groups take up to 36 bytes a point (50
@@ -114,45 +121,51 @@ struct file_weld_result {
 [[nodiscard]] TREEFORM_API weld_result weld(const prepared_mesh& mesh,
                                             const weld_options& options = {});
 
-/// The same, and `properties` follow. Corners keep the texture coordinates and normals of their
-/// own, also where their points become one. The rows of other elements are kept; those of integer
-/// columns named vertex1, vertex2, vertex_index and vertex_indices that number a point are
-/// renumbered. Parts keep their faces, also when none is left.
+/// The same, and `properties` follow their points and faces. Corners keep their own texture
+/// coordinates and normals, even where their points become one. Rows of other elements are kept;
+/// point numbers in integer columns named vertex1, vertex2, vertex_index and vertex_indices are
+/// updated. Parts stay, even those without a face left.
 ///
-/// \throws std::invalid_argument also for rows that are not one a point and one a face, and columns
-///         and corners that do not fit
+/// \throws std::invalid_argument also when there is not one row for each point and each face, or
+///         when columns or corners do not fit
 [[nodiscard]] TREEFORM_API weld_result weld(mesh_view mesh, const attributes& properties,
                                             const weld_options& options);
 
-/// `points` with those within the tolerance of each other joined; in all else as a mesh without
+/// `points` with those merged that are within the tolerance of each other, as for a mesh without
 /// faces.
 [[nodiscard]] TREEFORM_API cloud_weld_result weld(points_view points,
                                                   const weld_options& options = {});
 [[nodiscard]] TREEFORM_API cloud_weld_result weld(points_view points, const attributes& properties,
                                                   const weld_options& options);
 
-/// `file` welded, with all that belongs to it. Corners of a format that does not number its
-/// vertices (STL) are joined where they are equal before anything else is asked, unless
-/// `keep_manifold` is set or vertices have properties. Polygons are welded as triangles, and are
-/// polygons again where their triangles are still one fan.
+/// `file` welded, with its attributes, parts and names. In a format that does not number its
+/// vertices (STL), equal corners are merged first, unless `keep_manifold` is set or vertices have
+/// properties. Polygons are welded as triangles; they are polygons again where their triangles are
+/// still one fan.
 [[nodiscard]] TREEFORM_API file_weld_result weld(const mesh_file& file,
                                                  const weld_options& options = {});
 
-/// How many points of `welded`, which `weld` has made with `options`, would become one with another
-/// if it were written with coordinates of `written_as`, read, and welded again: those that rounding
-/// or the choice of what is kept has brought together. None where points within the tolerance are
-/// left apart on purpose (`only_borders`, `keep_manifold`), or where progress said stop.
+/// How many points of `welded` would be merged if it were written with precision `written_as`, read
+/// and welded again. Rounding, or `options.keep`, can bring points together again. `welded` is what
+/// `weld` made with `options`. None when points within the tolerance stay apart on purpose
+/// (`only_borders`, `keep_manifold`), or when progress asked to stop.
 [[nodiscard]] TREEFORM_API std::optional<std::uint64_t> count_still_within(
     const mesh_file& welded, const weld_options& options, precision written_as);
 
-/// The groups alone, for callers with arrays of their own. Of `options` those matter that say which
-/// points become one: tolerance, rule, search, label, may_merge and progress.
+/// Only the groups, for callers who merge their own arrays. Of `options`, it uses tolerance, rule,
+/// search, label, may_merge and progress.
 ///
 /// \throws std::invalid_argument as `weld`
 /// \cost   as `weld`
 /// \same   as `weld`
 [[nodiscard]] TREEFORM_API point_groups group_points(points_view points,
                                                      const weld_options& options = {});
+
+/// How many points would not be there any more if points within `distance` of each other were
+/// joined, beyond those that are equal to another.
+///
+/// \cost as `group_points`
+[[nodiscard]] TREEFORM_API std::uint64_t count_nearly_equal(points_view points, double distance);
 
 /// `mesh` with the points of each group joined: the groups' first points in order and unmoved,
 /// faces in order, also those that now repeat a corner. Nothing else is dropped.

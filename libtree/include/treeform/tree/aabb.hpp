@@ -9,8 +9,8 @@
 
 namespace treeform {
 
-/// A closed box [min, max] of D dimensions; empty as constructed (min = +inf, max = -inf), so that
-/// the union with it changes nothing and it overlaps nothing.
+/// A closed box [min, max] of D dimensions. A new one is empty (min = +inf, max = -inf): it
+/// overlaps nothing, and including it changes nothing.
 template <std::floating_point T, std::size_t D>
 struct aabb {
     using scalar = T;
@@ -19,19 +19,21 @@ struct aabb {
     std::array<T, D> min = filled(std::numeric_limits<T>::infinity());
     std::array<T, D> max = filled(-std::numeric_limits<T>::infinity());
 
-    /// Grows to hold `point`, anything with [], its coordinates rounded to T: a box of float around
-    /// points of double may miss them by a rounding. A coordinate that is NaN makes the box one
-    /// that holds nothing and that `build` refuses, whatever else is included.
+    /// Grows to hold `point`, anything with []. Coordinates are rounded to T, so a box of float may
+    /// miss a point of double by a rounding. A NaN coordinate makes the box empty for good; `build`
+    /// refuses such a box.
     template <class Point>
     constexpr void include(const Point& point) {
         for (std::size_t i = 0; i < D; ++i)
             widen(i, static_cast<T>(point[i]), static_cast<T>(point[i]));
     }
 
+    /// Grows to hold `other`.
     constexpr void include(const aabb& other) {
         for (std::size_t i = 0; i < D; ++i) widen(i, other.min[i], other.max[i]);
     }
 
+    /// Whether the box holds no point.
     [[nodiscard]] constexpr bool empty() const {
         for (std::size_t i = 0; i < D; ++i)
             if (!(min[i] <= max[i])) return true;
@@ -55,7 +57,7 @@ struct aabb {
     }
 };
 
-/// Whether two closed boxes have a common point; touching counts, empty boxes have none.
+/// Whether two closed boxes have a common point. Touching counts; an empty box has no points.
 template <class T, std::size_t D>
 [[nodiscard]] constexpr bool overlaps(const aabb<T, D>& a, const aabb<T, D>& b) {
     for (std::size_t i = 0; i < D; ++i)
@@ -63,7 +65,7 @@ template <class T, std::size_t D>
     return true;
 }
 
-/// The box of the points that two boxes have in common; empty when there are none.
+/// The intersection of two boxes; empty when they have no common point.
 template <class T, std::size_t D>
 [[nodiscard]] constexpr aabb<T, D> common_box(const aabb<T, D>& a, const aabb<T, D>& b) {
     if (!overlaps(a, b)) return {};

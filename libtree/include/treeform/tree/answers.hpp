@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What searches hand out: candidate pairs, neighbors, and what they count.
+/// What searches return: candidate pairs, neighbors, and counts of their work.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,17 +11,18 @@
 
 namespace treeform {
 
-/// A block of candidate pairs: primitives `first[i]` and `second[i]` as places in leaf order, so
-/// that neighbors in a block are neighbors in memory for data kept in that order;
-/// `tree.ids()[place]` is the primitive. In a search of two trees, `first` are places of the first
-/// and `second` of the second; in a search of a tree by itself `first[i] < second[i]`.
+/// A block of candidate pairs: `first[i]` and `second[i]`, as places in leaf order.
+///
+/// `tree.ids()[place]` is the primitive. Places that are near each other in a block are near each
+/// other in memory, if you keep your data in leaf order. In a search of two trees, `first` are
+/// places of the first and `second` of the second. In a search of one tree, `first[i] < second[i]`.
 struct candidate_block {
     std::span<const std::uint32_t> first;   ///< [up to `max_candidates`]
     std::span<const std::uint32_t> second;  ///< [same]
 };
 inline constexpr std::size_t max_candidates = 1024;
 
-/// Two primitives, by their places in the ranges the trees were built over.
+/// Two primitives, by their positions in the ranges that the trees were built over.
 using id_pair = std::pair<std::uint32_t, std::uint32_t>;
 
 /// What a search looked at; the rest of the trees it skipped. Sums over the chunks of a search do
@@ -40,7 +41,8 @@ struct search_statistics {
     friend bool operator==(const search_statistics&, const search_statistics&) = default;
 };
 
-/// The squared distance that an answer stands for: itself when it is a number, else its member.
+/// The squared distance of an answer: the answer itself when it is a number, else its member
+/// `squared_distance`.
 template <class Answer>
 [[nodiscard]] constexpr double squared_distance_of(const Answer& answer) {
     if constexpr (std::is_arithmetic_v<Answer>)
@@ -49,7 +51,7 @@ template <class Answer>
         return static_cast<double>(answer.squared_distance);
 }
 
-/// A primitive near a query, and what the caller's function said about it.
+/// A primitive near a query, and what the caller's function returned for it.
 template <class Answer = double>
 struct neighbor {
     std::uint32_t id;
@@ -59,7 +61,7 @@ struct neighbor {
     friend bool operator==(const neighbor&, const neighbor&) = default;
 };
 
-/// The order of answers: by distance, then by number.
+/// Whether `a` comes before `b` in answers: by distance, then by id.
 template <class Neighbor>
 [[nodiscard]] constexpr bool nearer(const Neighbor& a, const Neighbor& b) {
     const double of_a = a.squared_distance();
@@ -67,7 +69,7 @@ template <class Neighbor>
     return of_a != of_b ? of_a < of_b : a.id < b.id;
 }
 
-/// A list of answers for each of Q queries, in one array.
+/// A list of answers for each of Q queries, all in one array.
 template <class Neighbor>
 struct neighbor_lists {
     std::vector<std::size_t> begin;  ///< [Q + 1] where each list starts, and the end

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Building a tree over any range of anything that has a box.
+/// Builds a tree over any range of anything that has a box.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/build_records.hpp>
@@ -22,8 +22,8 @@
 
 namespace treeform {
 
-/// A selection algorithm that `build` can use: `partition(first, nth, last, less)` reorders
-/// [first, last) so that nothing before `nth` is greater than anything behind it.
+/// A selection algorithm for `build`: `partition(first, nth, last, less)` reorders [first, last) so
+/// that no element before `nth` is greater than one behind it.
 template <class S>
 concept partition_strategy = requires(int* first, int* nth, int* last,
                                       bool (*less)(const int&, const int&)) {
@@ -37,12 +37,13 @@ concept box_maker = requires(const F& make_aabb, Element element) {
     { make_aabb(element).min.size() } -> std::convertible_to<std::size_t>;
 };
 
-/// Builds trees and keeps the memory between builds, 24 bytes an element of the largest. Not for
-/// two threads at once. A build that throws leaves `tree` to be rebuilt, not to be searched.
+/// Builds trees and keeps its memory between builds: 24 bytes an element of the largest. Not for
+/// use by two threads at once. After a build that throws, `tree` must be rebuilt before it is
+/// searched.
 template <std::size_t D>
 class builder {
   public:
-    /// Makes `tree` the tree over `range`; what it held is gone. See `build`.
+    /// Replaces `tree` by the tree over `range`. See `build`.
     template <class Strategy = strategy::bracketed_select, std::ranges::input_range Range,
               class MakeBox>
     void rebuild(tree<D>& tree, Range&& range, const MakeBox& make_aabb);
@@ -60,19 +61,19 @@ class builder {
 
 /// The tree over the boxes that `make_aabb` gives for the elements of `range`.
 ///
-/// The boxes are rounded outward to float in a frame chosen from the data (`tree_frame`): a box of
-/// the tree decides nothing but what may be skipped. Elements are halved along the axis on which
-/// their centers spread most, at any number of equal ones.
+/// The tree keeps boxes rounded outward to float, in a frame chosen from the data (`tree_frame`).
+/// They only decide what a search may skip. Elements are halved along the axis on which their
+/// centers spread most, however many of them are equal.
 ///
 /// `Strategy` is the selection algorithm: the default, or any `partition_strategy`.
 ///
-/// \throws std::invalid_argument naming the element whose box is not finite or is empty, or when
+/// \throws std::invalid_argument naming an element whose box is not finite or is empty, or when
 ///         the range holds more than `tree<D>::max_size` elements
 /// \cost   O(N log N) expected time; in space about 56 bytes an element at the peak, of which the
 ///         tree keeps 32, and the boxes of a range without random access
-/// \same   on any number of threads; a random-access range of known size is read in parallel,
-///         `make_aabb` being called up to twice an element and by several threads at once; any
-///         other is read once, in order
+/// \same   on any number of threads. A random-access range of known size is read in parallel:
+///         `make_aabb` is called up to twice for each element, by several threads at once. Any
+///         other range is read once, in order
 /// \source Sajovic, Knez and Korez, tf::tree, Algorithm 1; the selection after Floyd and Rivest
 template <class Strategy = strategy::bracketed_select, std::ranges::input_range Range,
           class MakeBox>

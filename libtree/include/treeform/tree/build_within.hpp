@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Trees over what can matter only: the primitives that reach into a box.
+/// Trees over only those primitives that reach into a box.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/build.hpp>
@@ -27,7 +27,7 @@ namespace treeform {
 /// A tree over some of the elements of a range.
 template <std::size_t D>
 struct partial_tree {
-    tree<D> boxes;           ///< its `ids()` are places in the whole range, of those within only
+    tree<D> boxes;           ///< its `ids()` are positions in the whole range
     std::size_t considered;  ///< elements of the range
     [[nodiscard]] std::size_t skipped() const { return considered - boxes.size(); }
 };
@@ -176,14 +176,14 @@ requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
                                                                             range, make_aabb);
 }
 
-/// The tree over the elements of `range` whose boxes meet `within`, touching included, and how many
-/// were left out. Searches of it by anything within that box find what they find in a whole tree.
+/// The tree over the elements of `range` whose boxes meet `within` (touching counts), and how many
+/// were left out. A search for anything inside that box finds the same as in a tree over all.
 ///
-/// An empty box keeps nothing, an infinite one everything.
+/// An empty box keeps nothing, an infinite box everything.
 ///
 /// \throws std::invalid_argument as `build`, also for elements that are left out, or when `within`
 ///         has a coordinate that is NaN
-/// \cost   O(N) for all, parallel, one call of `make_aabb` each; a build of those kept
+/// \cost   O(N), parallel, with one call of `make_aabb` an element; and a build of those kept
 /// \same   on any number of threads
 template <std::ranges::random_access_range Range, class MakeBox, std::floating_point T,
           std::size_t D>
@@ -200,9 +200,9 @@ requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
     return detail::tree_over<D>(kept.ids, range, make_aabb);
 }
 
-/// Two trees for a search of pairs: those elements of `b` whose boxes meet the box of all of `a`,
-/// and those of `a` that meet the box of these. The pairs found are those that whole trees give;
-/// both trees are empty when the boxes of all are disjoint.
+/// Two trees for a search of pairs: over the elements of `b` whose boxes meet the box around all of
+/// `a`, and over those of `a` that meet the box around these. A search finds the same pairs as with
+/// trees over all. Both trees are empty when the boxes around `a` and `b` are disjoint.
 ///
 /// \throws std::invalid_argument as `build_within`
 /// \cost   two linear passes over `a` and one over `b`, and the builds of those kept

@@ -1,12 +1,11 @@
 #pragma once
 /// \file
-/// Boxes that come, go and move, searched as if a tree had just been built over them. The searches
-/// are in dynamic_search.hpp, dynamic_nearness.hpp and dynamic_ray.hpp.
+/// Boxes that come, go and move, searched as if a tree had just been built over them: a
+/// `tree_of_trees`, which the searches of search.hpp, nearness.hpp, ray.hpp, ... take.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/detail/export.hpp>
-#include <treeform/tree/detail/node_bounds.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/tree.hpp>
 
@@ -27,7 +26,7 @@ struct update_statistics {
 };
 
 /// A tree over a set of primitives that changes: batches of them are inserted, removed and moved.
-/// Every search answers as on a tree built over what there is.
+/// Every search answers as on a tree built over what there is; none may run during an update.
 ///
 /// A primitive is known by its id, which it keeps as long as it is there; ids of removed ones are
 /// given out again, the last removed first. The tree keeps a copy of the boxes.
@@ -102,9 +101,9 @@ class TREEFORM_API dynamic_tree {
     /// \pre contains(id)
     [[nodiscard]] const box_type& box(std::uint32_t id) const { return boxes_[id]; }
 
-    /// The trees it is made of, for searches that are not offered here: `tree.ids()` are ids, or
-    /// 0xFFFFFFFF for a slot that is empty. An update invalidates what refers to them.
-    [[nodiscard]] std::vector<const tree<D>*> trees() const;
+    /// The trees it is made of, as `tree_of_trees` says. An update invalidates what refers to them.
+    [[nodiscard]] const tree<D>& top() const { return top_; }
+    [[nodiscard]] const tree<D>& part(std::uint32_t number) const { return parts_[number].boxes; }
     [[nodiscard]] const update_statistics& statistics() const { return statistics_; }
 
   private:
@@ -112,7 +111,7 @@ class TREEFORM_API dynamic_tree {
         std::uint32_t part;
         std::uint32_t place;
     };
-    struct part {
+    struct packed {
         tree<D> boxes;
         std::size_t live = 0;          ///< slots that are not empty
         std::vector<box_type> limits;  ///< of the neighborhoods, as far as their primitives may go
@@ -130,14 +129,16 @@ class TREEFORM_API dynamic_tree {
     void vacate(std::uint32_t id);
     void settle(std::vector<std::uint32_t> pending,
                 const std::vector<std::vector<std::uint32_t>>& touched);
-    void dissolve(part& from, std::vector<std::uint32_t>& to);
+    void dissolve(packed& from, std::vector<std::uint32_t>& to);
     void build_part(const std::vector<std::uint32_t>& ids);
+    void cover_parts();
 
     std::size_t id_end_ = 0;
     detail::buffer<box_type> boxes_;   ///< by id, with room for more
     detail::buffer<location> where_;   ///< by id, with room for more
     std::vector<std::uint32_t> free_;  ///< ids that are not in use
-    std::vector<part> parts_;          ///< those not in use have no slots
+    std::vector<packed> parts_;        ///< those not in use have no slots
+    tree<D> top_;                      ///< over the boxes of those in use
     update_statistics statistics_;
 };
 
@@ -162,5 +163,6 @@ auto dynamic_tree<D>::boxes_of(const Range& range, const MakeBox& make_aabb)
 
 extern template class TREEFORM_API dynamic_tree<2>;
 extern template class TREEFORM_API dynamic_tree<3>;
+static_assert(tree_of_trees<dynamic_tree<3>>);
 
 }  // namespace treeform

@@ -6,10 +6,9 @@
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/build_within.hpp>
-#include <treeform/tree/nearness.hpp>
+#include <treeform/tree/detail/box_in_space.hpp>
+#include <treeform/tree/detail/trees_side.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/ray.hpp>
-#include <treeform/tree/search.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>
@@ -17,31 +16,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <ranges>
+#include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace treeform {
-
-namespace detail {
-
-/// A box of space around the boxes of a tree, which is not empty.
-template <std::size_t D>
-[[nodiscard]] aabb<double, D> box_of_root(const tree<D>& tree) {
-    aabb<double, D> box;
-    for (std::size_t slot = 0; slot < tree.children(0, 0); ++slot)
-        box.include(box_in_space(tree.frame(), tree.level(0)[0], slot));
-    return box;
-}
-
-}  // namespace detail
 
 /// A tree over blocks of `block_size` elements that follow each other in a range, each of which
 /// becomes a tree of its own when a search first comes into its box. Answers are those of a tree
@@ -53,8 +36,9 @@ template <std::size_t D>
 /// out to be as wide as the whole, as of elements in random order, all is built at once instead.
 /// For searches that see most of it, as all pairs, and for many of them, `build` is better.
 ///
-/// Searches are const and may run on any threads at once: a block is split once, those who want it
-/// meanwhile wait.
+/// A `tree_of_trees`, which the searches of search.hpp, nearness.hpp, ray.hpp, ... take. They may
+/// run on any threads at once: a block is split once, those who want it meanwhile wait. Which
+/// blocks are split may depend on the threads, the answers do not.
 template <std::size_t D>
 class lazy_tree {
   public:
@@ -84,23 +68,24 @@ class lazy_tree {
                                         " elements are too many");
         const bool at_once = is_loose(range, make_aabb);
         if (at_once) per_block_ = size_;
-        parts_ = std::make_unique<part[]>(chunk_count(size_, per_block_));
+        parts_ = std::make_unique<block[]>(chunk_count(size_, per_block_));
         if (at_once) {
-            (void)block(0);  // not in a search: no thread may wait for a build on all of them
-            top_ = over({detail::box_of_root(parts_[0].boxes)});
+            (void)part(0);  // not in a search: no thread may wait for a build on all of them
+            const box all = detail::box_of_root(parts_[0].boxes);
+            top_ = detail::tree_in_order(std::span(&all, 1));
         } else {
-            top_ = over(detail::for_boxes<box>(
+            const std::vector<box> boxes = detail::for_boxes<box>(
                 "treeform::lazy_tree", range, make_aabb,
-                [](box& mine, std::size_t, const box& one) { mine.include(one); }, block_size));
+                [](box& mine, std::size_t, const box& one) { mine.include(one); }, block_size);
+            top_ = build(boxes, [](const box& one) { return one; });
         }
     }
 
     [[nodiscard]] std::size_t size() const { return size_; }
-    /// Over the blocks: `top().ids()` are numbers of blocks.
+    /// The tree over the blocks, and that of a block, which is split if it was not.
     [[nodiscard]] const tree<D>& top() const { return top_; }
-    /// The tree of a block, which is split if it was not: its `ids()` are places in the range.
-    [[nodiscard]] const tree<D>& block(std::uint32_t number) const {
-        part& one = parts_[number];
+    [[nodiscard]] const tree<D>& part(std::uint32_t number) const {
+        block& one = parts_[number];
         one.split.call([&] {
             one.boxes =
                 split_block_(number * per_block_, std::min(size_, (number + 1) * per_block_));
@@ -115,7 +100,7 @@ class lazy_tree {
 
   private:
     using box = aabb<double, D>;
-    struct part {
+    struct block {
         once split;
         tree<D> boxes;
     };
@@ -149,101 +134,17 @@ class lazy_tree {
         return 2.0 * sum > extent(all);
     }
 
-    static tree<D> over(const std::vector<box>& boxes) {
-        return build(boxes, [](const box& one) { return one; });
-    }
-
     std::size_t size_;
     std::size_t per_block_ = block_size;
     std::function<tree<D>(std::size_t begin, std::size_t end)> split_block_;
     tree<D> top_;
-    std::unique_ptr<part[]> parts_;
+    std::unique_ptr<block[]> parts_;
     std::unique_ptr<std::atomic<std::size_t>> split_ = std::make_unique<std::atomic<std::size_t>>();
 };
 
 template <std::ranges::random_access_range Range, class MakeBox>
 lazy_tree(const Range&, const MakeBox&) -> lazy_tree<detail::box_made<Range, MakeBox>::dimensions>;
 
-/// As the searches of a `tree` of the same name, block by block; with this one come `search_any`
-/// and `search_all`.
-template <std::size_t D, tree_query<D> Query, class Apply>
-search_statistics search(const lazy_tree<D>& tree, const Query& query, const Apply& apply) {
-    search_statistics below;
-    bool stopped = false;
-    search_statistics seen = search(tree.top(), query, [&](std::uint32_t block) {
-        below += search(tree.block(block), query, [&](std::uint32_t id) {
-            return stopped = detail::asks_to_stop(apply, id);
-        });
-        return stopped;
-    });
-    seen.candidates = 0;  // blocks
-    return seen += below;
-}
-
-/// Whether `accept(a, b)` is true for some pair of elements whose boxes overlap; it is called from
-/// several threads, and no more once one is known. Which blocks are split depends on the threads,
-/// the answer does not.
-template <std::size_t D, class Accept>
-[[nodiscard]] bool search_any(const lazy_tree<D>& a, const lazy_tree<D>& b, const Accept& accept) {
-    const std::vector<id_pair> blocks = search_all(a.top(), b.top());
-    if (blocks.size() == 1)
-        return search_any(a.block(blocks[0].first), b.block(blocks[0].second), accept);
-    std::atomic<bool> found{false};
-    for_chunks(blocks.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-        if (found.load(std::memory_order_relaxed)) return;
-        const tree<D>& in_a = a.block(blocks[i].first);
-        const tree<D>& in_b = b.block(blocks[i].second);
-        pair_search<D>::visit_all(in_a, in_b, [&](const candidate_block& block) {
-            for (std::size_t j = 0; j < block.first.size(); ++j)
-                if (accept(in_a.ids()[block.first[j]], in_b.ids()[block.second[j]]))
-                    found.store(true, std::memory_order_relaxed);
-            return !found.load(std::memory_order_relaxed);
-        });
-    });
-    return found.load();
-}
-
-template <std::floating_point T, std::size_t D, class HitOf>
-[[nodiscard]] auto first_hit(const lazy_tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
-    std::optional<ray_hit<detail::hit_type<HitOf>>> best;
-    auto rest = detail::in_double(ray);
-    visit_along(tree.top(), rest, [&](std::uint32_t block) {
-        auto hit = first_hit(tree.block(block), rest, hit_of);
-        if (hit) {
-            const double t = detail::parameter_of(hit->hit);
-            if (!best || t < rest.t_max || hit->id < best->id) best = std::move(hit);
-            rest.t_max = t;
-        }
-        return rest.t_max;
-    });
-    return best;
-}
-
-template <std::floating_point T, std::size_t D, class HitOf>
-[[nodiscard]] bool any_hit(const lazy_tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
-    bool found = false;
-    visit_along(tree.top(), ray, [&](std::uint32_t block) {
-        found = any_hit(tree.block(block), ray, hit_of);
-        return found ? -std::numeric_limits<double>::infinity() : static_cast<double>(ray.t_max);
-    });
-    return found;
-}
-
-template <std::size_t D, nearness_query<D> Query, class DistanceOf>
-[[nodiscard]] auto nearest(const lazy_tree<D>& tree, const Query& query,
-                           const DistanceOf& distance_of, const nearness_options& options = {}) {
-    using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
-    detail::nearest_one<answer> one(detail::squared_radius("treeform::nearest", options.radius));
-    const aabb<double, D> box = detail::box_of_query<D>(query);
-    const auto visit = [&](std::uint32_t id) {
-        one.offer(id, distance_of);
-        return one.bound();
-    };
-    detail::approach<D>(tree.top(), box, one.bound(), options.strategy, [&](std::uint32_t block) {
-        detail::approach<D>(tree.block(block), box, one.bound(), options.strategy, visit);
-        return one.bound();
-    });
-    return one.best;
-}
+static_assert(tree_of_trees<lazy_tree<3>>);
 
 }  // namespace treeform

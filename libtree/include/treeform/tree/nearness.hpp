@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What of a tree is near a point, a box, or anything that has a box: the nearest primitive, the k
-/// nearest, all within a radius.
+/// What of a tree of any kind is near a point, a box, or anything that has a box: the nearest
+/// primitive, the k nearest, all within a radius.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/answers.hpp>
@@ -55,6 +55,18 @@ TREEFORM_API void approach(const tree<D>& tree, const aabb<double, D>& query, do
                            const nearness_strategy& strategy,
                            function_ref<double(std::uint32_t)> visit);
 
+template <tree_of_trees Trees, class Visit>
+void approach(const Trees& trees, const aabb<double, Trees::dimensions>& query, double squared,
+              const nearness_strategy& strategy, const Visit& visit) {
+    approach(trees.top(), query, squared, strategy, [&](std::uint32_t part) {
+        approach(trees.part(part), query, squared, strategy, [&](std::uint32_t id) {
+            if (id != no_primitive) squared = visit(id);
+            return squared;
+        });
+        return squared;
+    });
+}
+
 template <std::size_t D, nearness_query<D> Query>
 [[nodiscard]] aabb<double, D> box_of_query(const Query& query) {
     aabb<double, D> box;
@@ -106,13 +118,13 @@ class nearest_one {
 /// \same   the primitives visited depend on the strategy and the processor, those within the bound
 ///         are always among them
 /// \source Sajovic, Knez and Korez, tf::tree, section III-D; eight boxes at a time
-template <std::size_t D, nearness_query<D> Query, class Visit>
+template <any_tree Tree, nearness_query<Tree::dimensions> Query, class Visit>
 requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
-void visit_near(const tree<D>& tree, const Query& query, const Visit& visit,
+void visit_near(const Tree& tree, const Query& query, const Visit& visit,
                 const nearness_options& options = {}) {
-    detail::approach<D>(tree, detail::box_of_query<D>(query),
-                        detail::squared_radius("treeform::visit_near", options.radius),
-                        options.strategy, visit);
+    detail::approach(tree, detail::box_of_query<Tree::dimensions>(query),
+                     detail::squared_radius("treeform::visit_near", options.radius),
+                     options.strategy, visit);
 }
 
 /// The nearest primitive, of equally near ones that of the lowest number; none when the tree is
@@ -126,16 +138,16 @@ void visit_near(const tree<D>& tree, const Query& query, const Visit& visit,
 /// \throws std::invalid_argument as `visit_near`
 /// \cost   as `visit_near`
 /// \same   as a loop over all primitives, whatever the strategy
-template <std::size_t D, nearness_query<D> Query, class DistanceOf>
-[[nodiscard]] auto nearest(const tree<D>& tree, const Query& query, const DistanceOf& distance_of,
+template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
+[[nodiscard]] auto nearest(const Tree& tree, const Query& query, const DistanceOf& distance_of,
                            const nearness_options& options = {}) {
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
     detail::nearest_one<answer> one(detail::squared_radius("treeform::nearest", options.radius));
-    detail::approach<D>(tree, detail::box_of_query<D>(query), one.bound(), options.strategy,
-                        [&](std::uint32_t id) {
-                            one.offer(id, distance_of);
-                            return one.bound();
-                        });
+    detail::approach(tree, detail::box_of_query<Tree::dimensions>(query), one.bound(),
+                     options.strategy, [&](std::uint32_t id) {
+                         one.offer(id, distance_of);
+                         return one.bound();
+                     });
     return one.best;
 }
 
@@ -145,17 +157,17 @@ template <std::size_t D, nearness_query<D> Query, class DistanceOf>
 /// \throws std::invalid_argument as `visit_near`
 /// \cost   as `visit_near`, O(log k) more for each primitive that is among the k nearest so far
 /// \same   as sorting all primitives, whatever the strategy
-template <std::size_t D, nearness_query<D> Query, class DistanceOf>
-[[nodiscard]] auto k_nearest(const tree<D>& tree, const Query& query, std::size_t k,
+template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
+[[nodiscard]] auto k_nearest(const Tree& tree, const Query& query, std::size_t k,
                              const DistanceOf& distance_of, const nearness_options& options = {}) {
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
     detail::nearest_k<neighbor<answer>> found(
         std::min(k, tree.size()), detail::squared_radius("treeform::k_nearest", options.radius));
-    detail::approach<D>(tree, detail::box_of_query<D>(query), found.bound(), options.strategy,
-                        [&](std::uint32_t id) {
-                            found.offer({id, distance_of(id)});
-                            return found.bound();
-                        });
+    detail::approach(tree, detail::box_of_query<Tree::dimensions>(query), found.bound(),
+                     options.strategy, [&](std::uint32_t id) {
+                         found.offer({id, distance_of(id)});
+                         return found.bound();
+                     });
     return std::move(found.sorted());
 }
 
@@ -165,19 +177,19 @@ template <std::size_t D, nearness_query<D> Query, class DistanceOf>
 /// \throws std::invalid_argument as `visit_near`
 /// \cost   as `visit_near`, and O(A log A) for A answers
 /// \same   as a loop over all primitives, whatever the strategy
-template <std::size_t D, nearness_query<D> Query, class DistanceOf>
-[[nodiscard]] auto all_within(const tree<D>& tree, const Query& query, double radius,
+template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
+[[nodiscard]] auto all_within(const Tree& tree, const Query& query, double radius,
                               const DistanceOf& distance_of,
                               const nearness_strategy& strategy = {}) {
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
     const double bound = detail::squared_radius("treeform::all_within", radius);
     std::vector<neighbor<answer>> found;
-    detail::approach<D>(tree, detail::box_of_query<D>(query), bound, strategy,
-                        [&](std::uint32_t id) {
-                            neighbor<answer> one{id, distance_of(id)};
-                            if (one.squared_distance() <= bound) found.push_back(std::move(one));
-                            return bound;
-                        });
+    detail::approach(tree, detail::box_of_query<Tree::dimensions>(query), bound, strategy,
+                     [&](std::uint32_t id) {
+                         neighbor<answer> one{id, distance_of(id)};
+                         if (one.squared_distance() <= bound) found.push_back(std::move(one));
+                         return bound;
+                     });
     std::sort(found.begin(), found.end(),
               [](const auto& a, const auto& b) { return nearer(a, b); });
     return found;

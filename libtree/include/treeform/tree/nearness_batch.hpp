@@ -74,14 +74,14 @@ template <std::size_t D, class Queries, class Search>
 /// \cost   O(Q) beyond the searches, which run in parallel and in the order of space, so that each
 ///         finds in the cache what the one before has read, and is bounded by its answer
 /// \same   on any number of threads: as calling `nearest` for each
-template <std::size_t D, std::ranges::random_access_range Queries, class DistanceOf>
-[[nodiscard]] auto nearest_batch(const tree<D>& tree, const Queries& queries,
+template <any_tree Tree, std::ranges::random_access_range Queries, class DistanceOf>
+[[nodiscard]] auto nearest_batch(const Tree& tree, const Queries& queries,
                                  const DistanceOf& distance_of,
                                  const nearness_options& options = {}) {
     using answer =
         std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::size_t, std::uint32_t>>;
     const double squared = detail::squared_radius("treeform::nearest_batch", options.radius);
-    const std::vector<std::uint32_t> order = detail::order_of_queries<D>(queries);
+    const std::vector<std::uint32_t> order = detail::order_of_queries<Tree::dimensions>(queries);
     std::vector<std::optional<neighbor<answer>>> found(order.size());
     const auto search = [&](std::size_t begin, std::size_t end, std::size_t) {
         std::optional<std::uint32_t> before;
@@ -90,11 +90,12 @@ template <std::size_t D, std::ranges::random_access_range Queries, class Distanc
             const auto from_query = [&](std::uint32_t id) { return distance_of(query, id); };
             detail::nearest_one<answer> one(squared);
             if (before) one.offer(*before, from_query);
-            detail::approach<D>(tree, detail::box_of_query<D>(detail::element(queries, query)),
-                                one.bound(), options.strategy, [&](std::uint32_t id) {
-                                    if (id != before) one.offer(id, from_query);
-                                    return one.bound();
-                                });
+            detail::approach(
+                tree, detail::box_of_query<Tree::dimensions>(detail::element(queries, query)),
+                one.bound(), options.strategy, [&](std::uint32_t id) {
+                    if (id != before) one.offer(id, from_query);
+                    return one.bound();
+                });
             if (one.best) before = one.best->id;
             found[query] = std::move(one.best);
         }
@@ -108,11 +109,11 @@ template <std::size_t D, std::ranges::random_access_range Queries, class Distanc
 /// \throws std::invalid_argument as `nearest`
 /// \cost   as `nearest_batch`
 /// \same   on any number of threads: as calling `k_nearest` for each
-template <std::size_t D, std::ranges::random_access_range Queries, class DistanceOf>
-[[nodiscard]] auto k_nearest_batch(const tree<D>& tree, const Queries& queries, std::size_t k,
+template <any_tree Tree, std::ranges::random_access_range Queries, class DistanceOf>
+[[nodiscard]] auto k_nearest_batch(const Tree& tree, const Queries& queries, std::size_t k,
                                    const DistanceOf& distance_of,
                                    const nearness_options& options = {}) {
-    return detail::lists_of<D>(queries, [&](std::size_t query) {
+    return detail::lists_of<Tree::dimensions>(queries, [&](std::size_t query) {
         return k_nearest(
             tree, detail::element(queries, query), k,
             [&](std::uint32_t id) { return distance_of(query, id); }, options);
@@ -124,10 +125,10 @@ template <std::size_t D, std::ranges::random_access_range Queries, class Distanc
 /// \throws std::invalid_argument as `all_within`
 /// \cost   as `nearest_batch`
 /// \same   on any number of threads: as calling `all_within` for each
-template <std::size_t D, std::ranges::random_access_range Queries, class DistanceOf>
-[[nodiscard]] auto all_within_batch(const tree<D>& tree, const Queries& queries, double radius,
+template <any_tree Tree, std::ranges::random_access_range Queries, class DistanceOf>
+[[nodiscard]] auto all_within_batch(const Tree& tree, const Queries& queries, double radius,
                                     const DistanceOf& distance_of) {
-    return detail::lists_of<D>(queries, [&](std::size_t query) {
+    return detail::lists_of<Tree::dimensions>(queries, [&](std::size_t query) {
         return all_within(tree, detail::element(queries, query), radius,
                           [&](std::uint32_t id) { return distance_of(query, id); });
     });

@@ -1,14 +1,16 @@
 #pragma once
 /// \file
-/// Two trees: the nearest pair of primitives, one of each, and the k nearest.
+/// Two trees of any kind: the nearest pair of primitives, one of each, and the k nearest.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/near_pair_walk.hpp>
 #include <treeform/tree/detail/nearest_k.hpp>
 #include <treeform/tree/detail/squared_radius.hpp>
+#include <treeform/tree/detail/trees_side.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -39,11 +41,72 @@ template <class Answer>
     return x.a != y.a ? x.a < y.a : x.b < y.b;
 }
 
+namespace detail {
+
+/// Adds the nearest pairs of two trees to those `found`.
+template <bool has_empty_slots, std::size_t D, class Kept, class DistanceOf>
+[[nodiscard]] Kept nearest_pairs(const transformed<D>& a, const transformed<D>& b, std::size_t k,
+                                 Kept found, const DistanceOf& distance_of) {
+    const std::uint32_t* const ids_a = a.original().ids().data();
+    const std::uint32_t* const ids_b = b.original().ids().data();
+    const auto visit = [&](const block_pair& blocks, Kept& mine, double limit) {
+        float bound = blocks.bound_of(std::min(limit, mine.bound()));
+        for (std::uint32_t i = 0; i < 8; ++i)
+            for (std::uint32_t j = 0; j < 8; ++j) {
+                if (!blocks.within(i, j, bound)) continue;
+                const std::uint32_t of_a = ids_a[blocks.a * 8 + i];
+                const std::uint32_t of_b = ids_b[blocks.b * 8 + j];
+                if constexpr (has_empty_slots)
+                    if (of_a == no_primitive || of_b == no_primitive) continue;
+                mine.offer({of_a, of_b, distance_of(of_a, of_b)});
+                if (mine.done()) return;
+                bound = blocks.bound_of(std::min(limit, mine.bound()));
+            }
+    };
+    if (a.original().empty() || b.original().empty()) return found;
+    pair_walk<D> walk(a, b, 1.0);
+    return walk_pairs(
+        walk, std::move(found), visit, [&](const Kept& all) { return Kept(k, all.bound()); },
+        [](Kept& all, Kept& part) {
+            for (auto& one : part.sorted()) all.offer(std::move(one));
+        });
+}
+
+/// The same by parts of two trees of trees: the nearest first, one pair of them after the other, so
+/// that what is kept depends on no timing.
+template <std::size_t D, class A, class B, class Kept, class DistanceOf>
+[[nodiscard]] Kept nearest_pairs_of_parts(const transformed<D, A>& first,
+                                          const transformed<D, B>& second, std::size_t k,
+                                          Kept found, const DistanceOf& distance_of) {
+    const trees_side<D, A> a(first);
+    const trees_side<D, B> b(second);
+    const transformed<D> top_a = a.top(), top_b = b.top();
+    const auto visit = [&](const block_pair& blocks) {
+        for (std::uint32_t i = 0; i < 8; ++i)
+            for (std::uint32_t j = 0; j < 8; ++j) {
+                if (found.done() || !blocks.within(i, j, blocks.bound_of(found.bound()))) continue;
+                const std::uint32_t x = top_a.original().ids()[blocks.a * 8 + i];
+                const std::uint32_t y = top_b.original().ids()[blocks.b * 8 + j];
+                found = nearest_pairs<true>(a.part(x), b.part(y), k, std::move(found), distance_of);
+            }
+        return found.bound();
+    };
+    const auto stop = [&] { return found.done(); };
+    if (top_a.original().empty() || top_b.original().empty()) return found;
+    pair_walk<D> walk(top_a, top_b, 1.0);
+    walk.begin(found.bound(), stop, visit);
+    for (std::size_t chunk = 0; chunk < walk.chunks(); ++chunk)
+        walk.visit(chunk, std::atomic<double>(found.bound()), stop, visit);
+    return found;
+}
+
+}  // namespace detail
+
 /// The k nearest pairs of a primitive of `a` and one of `b`, ascending by distance, then by their
 /// numbers; fewer when there are fewer within `radius` (not squared, inclusive).
 ///
 /// `distance_of(a, b)` is the squared distance of two primitives, as in `nearest`; it is called by
-/// several threads at once, and for no pair twice. Either tree may are treated as transformed
+/// several threads at once, and for no pair twice. Either tree may be treated as transformed
 /// (`treeform::transformed`): then `distance_of` is about the moved primitives.
 ///
 /// Nothing is passed over but pairs whose boxes prove them further than k found ones. Only a
@@ -55,44 +118,28 @@ template <class Answer>
 /// \same   on any number of threads
 /// \source Sajovic, Knez and Korez, tf::tree, section III-D, less its bound from above by the
 ///         boxes, which their contents need not keep; the larger box is opened, eight at a time
-template <placed_tree A, placed_tree B, class DistanceOf>
+template <any_placed_tree A, any_placed_tree B, class DistanceOf>
 [[nodiscard]] auto k_nearest_pairs(const A& first, const B& second, std::size_t k,
                                    const DistanceOf& distance_of,
                                    double radius = std::numeric_limits<double>::infinity()) {
-    constexpr std::size_t D = A::dimensions;
-    const transformed<D> a(first), b(second);
-    const double squared = detail::squared_radius("treeform::k_nearest_pairs", radius);
     using answer =
         std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t, std::uint32_t>>;
-    const std::uint32_t* const ids_a = a.original().ids().data();
-    const std::uint32_t* const ids_b = b.original().ids().data();
-    using kept = detail::nearest_k<near_pair<answer>>;
-    const auto visit = [&](const detail::block_pair& blocks, kept& mine, double limit) {
-        float bound = blocks.bound_of(std::min(limit, mine.bound()));
-        for (std::uint32_t i = 0; i < 8; ++i)
-            for (std::uint32_t j = 0; j < 8; ++j) {
-                if (!blocks.within(i, j, bound)) continue;
-                const std::uint32_t of_a = ids_a[blocks.a * 8 + i];
-                const std::uint32_t of_b = ids_b[blocks.b * 8 + j];
-                mine.offer({of_a, of_b, distance_of(of_a, of_b)});
-                if (mine.done()) return;
-                bound = blocks.bound_of(std::min(limit, mine.bound()));
-            }
-    };
-    if (k == 0 || a.original().empty() || b.original().empty()) return kept(0, 0.0).sorted();
-    detail::pair_walk<D> walk(a, b, 1.0);
-    return detail::walk_pairs(
-               walk, kept(k, squared), visit, [&](const kept& all) { return kept(k, all.bound()); },
-               [](kept& all, kept& part) {
-                   for (auto& one : part.sorted()) all.offer(std::move(one));
-               })
-        .sorted();
+    const transformed a(first);
+    const transformed b(second);
+    detail::nearest_k<near_pair<answer>> found(
+        k, detail::squared_radius("treeform::k_nearest_pairs", radius));
+    if (k == 0) return found.sorted();
+    if constexpr (placed_tree<A> && placed_tree<B>)
+        found = detail::nearest_pairs<false>(a, b, k, std::move(found), distance_of);
+    else
+        found = detail::nearest_pairs_of_parts(a, b, k, std::move(found), distance_of);
+    return std::move(found.sorted());
 }
 
 /// The nearest pair, of equally near ones that of the lowest numbers, but of those at distance zero
 /// any, the same in every run; none when a tree is empty or all are beyond the radius. See
 /// `k_nearest_pairs`.
-template <placed_tree A, placed_tree B, class DistanceOf>
+template <any_placed_tree A, any_placed_tree B, class DistanceOf>
 [[nodiscard]] auto nearest_pair(const A& a, const B& b, const DistanceOf& distance_of,
                                 double radius = std::numeric_limits<double>::infinity()) {
     auto pairs = k_nearest_pairs(a, b, 1, distance_of, radius);

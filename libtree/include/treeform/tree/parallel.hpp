@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parallel loops, work that is done once, and how long work reports progress.
+/// Parallel loops, work that is done once, progress of long work.
 
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -11,15 +11,15 @@
 
 namespace treeform {
 
-/// Called now and then with the share of the work done, in [0, 1] and never decreasing; returning
-/// false asks the operation to stop, which it does after the items under way. May be empty. It is
-/// called from one thread at a time, not always the same one, and must not throw.
+/// Called now and then with the share of the work that is done, in [0, 1] and never decreasing.
+/// Return false to stop the operation; it ends after what it has begun. May be empty. It is called
+/// from one thread at a time, not always the same one, and must not throw.
 using progress_callback = std::function<bool(double done)>;
 
-/// Runs `body(begin, end, chunk)` once for each piece [begin, end) of [0, count) of `grain`
-/// elements (the last may be shorter), in any order, on the threads at hand. `chunk` counts the
-/// pieces from 0. Returns when all are done; an exception of a body is passed on to the caller, one
-/// of them when several throw, and chunks not yet begun may then be left out.
+/// Cuts [0, count) into chunks [begin, end) of `grain` elements (the last may be shorter), and runs
+/// `body(begin, end, chunk)` once for each, in parallel and in any order. Chunks are numbered from
+/// 0. Returns when all are done. When a body throws, the caller gets the exception (one of them,
+/// when several throw), and chunks that have not begun may be skipped.
 ///
 /// \pre  grain > 0
 /// \cost a few microseconds a call beyond the first chunk; loops of one chunk run in place
@@ -32,7 +32,8 @@ TREEFORM_API void for_chunks(
     return count / grain + (count % grain != 0 ? 1 : 0);
 }
 
-/// Work that many threads ask for and one call does, such as an index built on first use.
+/// Work that many threads may ask for, but that is done only once, such as an index that is built
+/// on first use.
 class TREEFORM_API once {
   public:
     once();
@@ -40,10 +41,10 @@ class TREEFORM_API once {
     once(const once&) = delete;
     once& operator=(const once&) = delete;
 
-    /// Runs `work` unless a call of it has returned before; then, or while another thread's is
-    /// running, returns when that one has. `work` may itself run `for_chunks`: threads that wait
-    /// help with its chunks, so that it cannot deadlock inside other loops, as `std::call_once`
-    /// can. When `work` throws, its caller gets the exception, and the next call tries again.
+    /// Runs `work`, unless an earlier call has done it. While another thread is doing it, waits for
+    /// that one. `work` may itself run `for_chunks`: threads that wait help with its chunks, so it
+    /// cannot deadlock inside other loops, as `std::call_once` can. When `work` throws, its caller
+    /// gets the exception, and the next call tries again.
     ///
     /// \pre `work` does not call the same `once`
     void call(detail::function_ref<void()> work);
@@ -53,11 +54,11 @@ class TREEFORM_API once {
     std::unique_ptr<state> state_;
 };
 
-/// Threads a loop may use now.
+/// Number of threads that a loop may use now.
 [[nodiscard]] TREEFORM_API unsigned thread_count();
 
-/// While it lives, loops of the whole process use at most `threads` threads; 0 asks for all.
-/// Nested scopes only lower the number.
+/// As long as it exists, loops of the whole process use at most `threads` threads; 0 means all.
+/// Nested scopes can only lower the number.
 class TREEFORM_API thread_scope {
   public:
     explicit thread_scope(unsigned threads);

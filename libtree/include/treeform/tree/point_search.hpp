@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points that are asked which of them are near: the ready-made search of point clouds.
+/// Nearest points in point clouds: k nearest, and all within a radius.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/build.hpp>
@@ -31,18 +31,17 @@ struct near_point {
     friend bool operator==(const near_point&, const near_point&) = default;
 };
 
-/// A tree over N points with a copy of their coordinates in leaf order.
+/// A tree over N points, with a copy of their coordinates in leaf order.
 ///
-/// Distances are compared and returned as computed in double, each coordinate difference being
-/// rounded once: a squared distance is right to 2^-50 of itself, or to 1e-150 times the larger of
-/// the query and the cloud where that is more. Equally near points are ordered by number. Points
-/// may be equal.
+/// Distances are computed in double. A squared distance is right to 2^-50 of itself, or to 1e-150
+/// times the larger of the query and the cloud where that is more. Equally near points are ordered
+/// by number. Points may be equal.
 ///
-/// Queries are const and may run on any threads. Their coordinates must be finite, `radius` is
-/// inclusive and not squared; what is not so is refused with std::invalid_argument.
+/// Queries are const and may run on any threads. `radius` is inclusive and not squared.
+/// Coordinates of a query that are not finite, or a negative radius, throw std::invalid_argument.
 ///
 /// \cost   56 bytes a point in space, 40 in the plane. A search opens O(log N + k) nodes for most
-///         queries; many when the query is further off than 1e5 times the extent of the cloud
+///         queries; many when the query is further away than 1e5 times the extent of the cloud
 /// \source the tree and its search: nearness.hpp
 template <std::size_t D>
 class TREEFORM_API point_search {
@@ -50,11 +49,12 @@ class TREEFORM_API point_search {
     using point = std::array<double, D>;
     static constexpr double any_distance = std::numeric_limits<double>::infinity();
 
-    /// Nothing is near when there are no points.
+    /// No points: every search finds nothing.
     point_search() = default;
 
-    /// Over any range; copies the coordinates. `position_of` gives the position of an element,
-    /// anything with []: a function or a member, as in `point_search<3>(stars, &star::at)`.
+    /// The points of any range; copies the coordinates. `position_of` gives the position of an
+    /// element, anything with []. It is a function or a member, as in
+    /// `point_search<3>(stars, &star::at)`.
     ///
     /// \throws std::invalid_argument naming the first point that is not finite
     /// \same   on any number of threads
@@ -72,7 +72,7 @@ class TREEFORM_API point_search {
     }
 
     [[nodiscard]] std::size_t size() const { return tree_.size(); }
-    /// The tree over the points, which lives as long as this; its ids are their numbers.
+    /// The tree over the points, valid as long as this. Its ids are the numbers of the points.
     [[nodiscard]] const tree<D>& points_tree() const { return tree_; }
 
     /// The nearest point, none when all are beyond the radius.
@@ -84,8 +84,8 @@ class TREEFORM_API point_search {
     /// All points within `radius`, nearest first.
     [[nodiscard]] std::vector<near_point> all_within(const point& query, double radius) const;
 
-    /// The same for many queries, in parallel and in the order of space. The answers come in the
-    /// order of the queries and are those of the single searches, on any number of threads.
+    /// The same for many queries in parallel; answers in the order of the queries, and the same as
+    /// those of single searches.
     [[nodiscard]] neighbor_lists<near_point> k_nearest(std::span<const point> queries,
                                                        std::size_t k,
                                                        double radius = any_distance) const;

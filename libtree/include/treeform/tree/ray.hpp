@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Rays against a tree: what a ray meets first, everything it meets, and whether it meets anything.
+/// Rays against a tree of any kind: the first hit, all hits, and whether there is any.
 
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -19,9 +19,9 @@
 
 namespace treeform {
 
-/// The points origin + t direction for t_min <= t <= t_max: a ray as it stands, a segment with a
-/// finite t_max, a line with t_min = -inf. The direction need not be of unit length; t counts its
-/// lengths. A zero direction makes it a point, t_min > t_max makes it empty.
+/// The points origin + t direction for t_min <= t <= t_max. By default a ray; with a finite t_max a
+/// segment, with t_min = -inf a line. The direction need not have length 1; t is in its lengths.
+/// With a zero direction it is a point, with t_min > t_max it is empty.
 template <std::floating_point T, std::size_t D>
 struct ray {
     std::array<T, D> origin{};
@@ -30,7 +30,7 @@ struct ray {
     T t_max = std::numeric_limits<T>::infinity();
 };
 
-/// A primitive that a ray meets, and what the caller's `hit_of` said about it.
+/// A primitive that a ray hits, and what the caller's `hit_of` returned for it.
 template <class Hit>
 struct ray_hit {
     std::uint32_t id;
@@ -43,6 +43,17 @@ namespace detail {
 template <std::size_t D>
 TREEFORM_API void trace(const tree<D>& tree, const ray<double, D>& ray,
                         function_ref<double(std::uint32_t)> visit);
+
+template <tree_of_trees Trees, class Visit>
+void trace(const Trees& trees, ray<double, Trees::dimensions> rest, const Visit& visit) {
+    trace(trees.top(), rest, [&](std::uint32_t part) {
+        trace(trees.part(part), rest, [&](std::uint32_t id) {
+            if (id != no_primitive) rest.t_max = visit(id);
+            return rest.t_max;
+        });
+        return rest.t_max;
+    });
+}
 
 /// The parameter of a hit: the hit itself when it is a number, else its member t.
 template <class Hit>
@@ -71,38 +82,40 @@ template <std::floating_point T, std::size_t D>
 
 }  // namespace detail
 
-/// Calls `visit(id)` for every primitive whose box the ray meets (touching counts), and for some
-/// whose boxes it misses by less than the rounding of the tree's float boxes; boxes that it enters
-/// earlier come earlier, as a rule. What `visit` returns is the t_max from there on: boxes that the
-/// ray enters beyond it are skipped, and -inf ends the search.
+/// Calls `visit(id)` for every primitive whose box the ray meets; touching counts. It also visits
+/// some whose boxes the ray misses by less than the rounding of the tree's float boxes. Boxes that
+/// the ray enters earlier usually come earlier. `visit` returns the t_max from there on: boxes that
+/// the ray enters later are skipped, and -inf ends the search.
 ///
 /// No box is missed because of rounding: not for zero, tiny or huge components, not for boxes that
-/// the ray only touches, not for an origin far away. A parameter that `visit` returns may besides
-/// be too small by 2^-40 of itself.
+/// the ray only touches, not for an origin far away. What `visit` returns may be too small by 2^-40
+/// of itself.
 ///
 /// \throws std::invalid_argument for an origin or direction that is not finite, or a NaN parameter
 /// \cost   O(log N + boxes met) for most rays; serial; no allocation
-/// \same   the primitives visited while t_max stays may depend on the processor, those whose boxes
-///         the ray meets are always among them
+/// \same   primitives whose boxes the ray meets are always visited while t_max stays; which others
+///         are visited may depend on the processor
 /// \source the slab test of Kay and Kajiya, SIGGRAPH 1986; bounds as in Ize, Robust BVH Ray
 ///         Traversal, JCGT 2 (2013), derived anew for scaled frames in ray.cpp
-template <std::floating_point T, std::size_t D, class Visit>
+template <any_tree Tree, std::floating_point T, class Visit>
 requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
-void visit_along(const tree<D>& tree, const ray<T, D>& ray, const Visit& visit) {
-    detail::trace<D>(tree, detail::in_double(ray), visit);
+void visit_along(const Tree& tree, const ray<T, Tree::dimensions>& ray, const Visit& visit) {
+    detail::trace(tree, detail::in_double(ray), visit);
 }
 
-/// The hit of least parameter, of equal ones that of the lowest primitive; none when there is none.
+/// The hit with the least t; of equal ones, that of the lowest primitive. None when there is no
+/// hit.
 ///
-/// `hit_of(id)` says whether and where the ray meets a primitive: a `std::optional` of a number t
-/// or of a struct with a member t. Parameters outside [t_min, t_max], and NaN, are no hits. A hit
-/// lies in the primitive's box, its t being wrong by at most 2^-40 of itself.
+/// `hit_of(id)` says whether and where the ray hits a primitive: it returns a `std::optional` of a
+/// number t, or of a struct with a member t. A t outside [t_min, t_max], or NaN, is no hit. A hit
+/// has to lie in the primitive's box, and its t may be wrong by at most 2^-40 of itself.
 ///
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   O(log N + boxes entered before the hit) for most rays
-/// \same   whatever order the tree is in: the answer is that of a loop over all primitives
-template <std::floating_point T, std::size_t D, class HitOf>
-[[nodiscard]] auto first_hit(const tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
+/// \same   as a loop over all primitives, whatever the order of the tree
+template <any_tree Tree, std::floating_point T, class HitOf>
+[[nodiscard]] auto first_hit(const Tree& tree, const ray<T, Tree::dimensions>& ray,
+                             const HitOf& hit_of) {
     const double t_min = static_cast<double>(ray.t_min);
     double t_best = static_cast<double>(ray.t_max);
     std::optional<ray_hit<detail::hit_type<HitOf>>> best;
@@ -119,13 +132,14 @@ template <std::floating_point T, std::size_t D, class HitOf>
     return best;
 }
 
-/// Every hit, ascending by parameter, then by primitive. See `first_hit` for `hit_of`.
+/// All hits, ascending by t, then by primitive. See `first_hit` for `hit_of`.
 ///
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   O(log N + boxes met + H log H) for most rays, H hits
 /// \same   as `first_hit`
-template <std::floating_point T, std::size_t D, class HitOf>
-[[nodiscard]] auto all_hits(const tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
+template <any_tree Tree, std::floating_point T, class HitOf>
+[[nodiscard]] auto all_hits(const Tree& tree, const ray<T, Tree::dimensions>& ray,
+                            const HitOf& hit_of) {
     const double t_min = static_cast<double>(ray.t_min);
     const double t_max = static_cast<double>(ray.t_max);
     std::vector<ray_hit<detail::hit_type<HitOf>>> hits;
@@ -144,15 +158,16 @@ template <std::floating_point T, std::size_t D, class HitOf>
     return hits;
 }
 
-/// Whether there is any hit: `first_hit` that stops at whichever it finds. `hit_of` is asked for
-/// fewer primitives, and may return a bool as well: whether the ray meets it within
-/// [t_min, t_max].
+/// Whether there is any hit. Stops at the first one found, so it calls `hit_of` for fewer
+/// primitives than `first_hit`. Here `hit_of` may also return a bool: whether the ray hits the
+/// primitive within [t_min, t_max].
 ///
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   at most that of `all_hits`
 /// \same   as `first_hit` in its answer; which primitives are asked may depend on the processor
-template <std::floating_point T, std::size_t D, class HitOf>
-[[nodiscard]] bool any_hit(const tree<D>& tree, const ray<T, D>& ray, const HitOf& hit_of) {
+template <any_tree Tree, std::floating_point T, class HitOf>
+[[nodiscard]] bool any_hit(const Tree& tree, const ray<T, Tree::dimensions>& ray,
+                           const HitOf& hit_of) {
     const double t_min = static_cast<double>(ray.t_min);
     const double t_max = static_cast<double>(ray.t_max);
     bool found = false;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// New boxes for a tree whose primitives have moved: the order of its leaves stays.
+/// Updates a tree whose primitives have moved: new boxes, the same order of leaves.
 
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -23,19 +23,19 @@
 
 namespace treeform {
 
-/// [N] where each primitive is in leaf order: the inverse of `tree.ids()`.
+/// [N] the place of each primitive in leaf order: the inverse of `tree.ids()`.
 ///
 /// \pre  the tree is as `build` made it
 /// \same on any number of threads
 template <std::size_t D>
 [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> places_of(const tree<D>& tree);
 
-/// What a tree costs to search: the sum of the extents of all node boxes over those of the whole.
-/// A random plane (in 2D: line) that meets the box of the whole tree opens so many nodes on
-/// average. 1 for a tree that is one node, or whose primitives are all one point.
+/// How expensive a tree is to search: the sum of the extents of all node boxes, divided by those of
+/// the root. That is how many nodes a random plane (in 2D: line) through the root's box opens on
+/// average. 1 for a tree of one node, or when all primitives are one point.
 ///
-/// To bound what refits lose, compare with the figure after the build: searches open more nodes
-/// in about that ratio, and from 1.3 on a rebuild pays within some searches of all primitives.
+/// To see what refits cost, compare with the value after the build. Searches open more nodes in
+/// about that ratio. From 1.3 on, a rebuild pays off within some searches for all primitives.
 ///
 /// \cost O(N / 8)
 /// \same on any number of threads
@@ -168,13 +168,13 @@ template <std::size_t D, class BoxOf>
 }  // namespace detail
 
 /// Gives every primitive of `tree` the box that `make_aabb` now makes for its element of `range`.
-/// The order of the leaves stays, and so does the frame: the tree is right for any boxes, and as
-/// good as before where neighbors stay neighbors (`relative_extent` tells). With the boxes it
-/// was built with, it stays as it is.
+/// The order of the leaves and the frame stay. Searches are right for any boxes, and as fast as
+/// before when neighbors stay neighbors (see `relative_extent`). With the boxes that it was built
+/// with, the tree does not change.
 ///
-/// \throws std::invalid_argument when the range is not of the size of the tree, or naming an
-///         element whose box is not finite or is empty; some of the others then have their new
-///         boxes, and a refit with sound ones mends the tree
+/// \throws std::invalid_argument when the range has not the size of the tree, or naming an element
+///         whose box is not finite or is empty; some of the others then have their new boxes, and
+///         a refit with valid boxes makes the tree valid again
 /// \cost   O(N), about a third of a build
 /// \same   on any number of threads; `make_aabb` is called once an element
 /// \source van den Bergen, Efficient Collision Detection of Complex Deformable Models using AABB
@@ -187,13 +187,13 @@ void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb) {
     if (bad != detail::no_primitive) detail::refuse_refit(bad);
 }
 
-/// The same for the primitives at `places` of the leaf order (`places_of`) only: what is not named
-/// keeps its box. Any order, and a place may come more than once.
+/// The same only for the primitives at `places` of the leaf order (`places_of`); all others keep
+/// their boxes. Places may be in any order, and may repeat.
 ///
 /// \throws std::invalid_argument also for a place that is not in the tree, naming it; nothing has
 ///         changed then
-/// \cost   O(P log N) for P places, none but them and their ancestors being touched; O(N / 8)
-///         bytes are swept where P is above N / 128
+/// \cost   O(P log N) for P places: only they and their ancestors are touched; when P is above
+///         N / 128, also a pass over O(N / 8) bytes
 template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
 void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb,

@@ -1,12 +1,14 @@
 #pragma once
 /// \file
-/// Search of two trees: every pair of a primitive of each whose boxes overlap, once.
+/// Search of two trees of any kind: every pair of a primitive of each whose boxes overlap, once.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/frame_map.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
+#include <treeform/tree/detail/pairs_by_ids.hpp>
 #include <treeform/tree/detail/search_chunks.hpp>
+#include <treeform/tree/detail/trees_side.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>
@@ -86,6 +88,40 @@ class TREEFORM_API pair_search {
     std::vector<detail::node_pair> items_;
 };
 
+namespace detail {
+
+template <std::size_t D>
+[[nodiscard]] auto pairs_of(const transformed<D>& a, const transformed<D>& b) {
+    return pairs_of_tree(pair_search<D>(a, b), a.original().ids().data(),
+                         b.original().ids().data());
+}
+
+/// The parts of two trees, one of each, that may hold pairs, ascending.
+template <class SideA, class SideB>
+[[nodiscard]] std::vector<id_pair> pairs_of_parts_of(const SideA& a, const SideB& b) {
+    return all_pairs<false>(pairs_of(a.top(), b.top()), every_pair);
+}
+
+template <std::size_t D, class A, class B>
+[[nodiscard]] auto pairs_of(const transformed<D, A>& first, const transformed<D, B>& second) {
+    const trees_side<D, A> a(first);
+    const trees_side<D, B> b(second);
+    pairs_of_parts<pair_search<D>> pairs;
+    const auto prepare = [&](std::uint32_t x, std::uint32_t y) {
+        (void)a.part(x);
+        (void)b.part(y);
+    };
+    const auto add = [&](std::uint32_t x, std::uint32_t y) {
+        const transformed<D> in_a = a.part(x), in_b = b.part(y);
+        pairs.add(pair_search<D>(in_a, in_b), in_a.original().ids().data(),
+                  in_b.original().ids().data());
+    };
+    for_parts(pairs_of_parts_of(a, b), prepare, add);
+    return pairs;
+}
+
+}  // namespace detail
+
 /// Calls `apply(state, a, b)` for every pair of a primitive `a` of the first tree and `b` of the
 /// second whose boxes overlap. Returns the states, one a chunk, in an order that depends on the
 /// trees alone: no state is shared between threads, `apply` is called by several. A state is made
@@ -94,22 +130,13 @@ class TREEFORM_API pair_search {
 /// found.
 ///
 /// Either side may be `transformed{tree, map}`.
-template <class State, placed_tree A, placed_tree B, class Apply>
+template <class State, any_placed_tree A, any_placed_tree B, class Apply>
 [[nodiscard]] std::vector<State> search(const A& a, const B& b, const Apply& apply) {
-    const transformed<A::dimensions> first(a), second(b);
-    const auto id_a = first.original().ids();
-    const auto id_b = second.original().ids();
-    return detail::search_states<State>(
-        pair_search<A::dimensions>(first, second), [&](State& state, const candidate_block& block) {
-            for (std::size_t i = 0; i < block.first.size(); ++i)
-                if (detail::asks_to_stop(apply, state, id_a[block.first[i]], id_b[block.second[i]]))
-                    return true;
-            return false;
-        });
+    return detail::pair_states<State>(detail::pairs_of(transformed(a), transformed(b)), apply);
 }
 
-/// The same by blocks of candidates, `apply(state, block)`: for those who test several at once. A
-/// block names places in leaf order, not ids.
+/// The same of two `tree`s by blocks of candidates, `apply(state, block)`: for those who test
+/// several at once. A block names places in leaf order, not ids.
 template <class State, placed_tree A, placed_tree B, class Apply>
 [[nodiscard]] std::vector<State> search_broad(const A& a, const B& b, const Apply& apply) {
     return detail::search_states<State>(pair_search<A::dimensions>(a, b),
@@ -118,8 +145,8 @@ template <class State, placed_tree A, placed_tree B, class Apply>
                                         });
 }
 
-/// Whether `accept(block)` is true for some block of candidates; it is called from several threads,
-/// and no more once one is known.
+/// Whether `accept(block)` is true for some block of candidates of two `tree`s; it is called from
+/// several threads, and no more once one is known.
 ///
 /// A block may be handed out twice. Looks at some thousand candidates on one thread before it cuts
 /// the search for all: a collision that is easy to find costs no more than the way down to it.
@@ -143,35 +170,36 @@ template <placed_tree A, placed_tree B, class Accept>
 
 /// The same by pairs: whether `accept(a, b)` is true for some pair of primitives whose boxes
 /// overlap. `accept` is called from several threads, and may be asked about a pair twice.
-template <placed_tree A, placed_tree B, class Accept>
-[[nodiscard]] bool search_any(const A& a, const B& b, const Accept& accept) {
-    const transformed<A::dimensions> first(a), second(b);
-    const auto id_a = first.original().ids();
-    const auto id_b = second.original().ids();
-    return search_any_broad(first, second, [&](const candidate_block& block) {
-        for (std::size_t i = 0; i < block.first.size(); ++i)
-            if (accept(id_a[block.first[i]], id_b[block.second[i]])) return true;
-        return false;
-    });
+template <any_placed_tree A, any_placed_tree B, class Accept>
+[[nodiscard]] bool search_any(const A& first, const B& second, const Accept& accept) {
+    if constexpr (placed_tree<A> && placed_tree<B>) {
+        const transformed<A::dimensions> a(first), b(second);
+        const std::uint32_t* const ids_a = a.original().ids().data();
+        const std::uint32_t* const ids_b = b.original().ids().data();
+        return search_any_broad(a, b, [&](const candidate_block& block) {
+            return detail::any_of_block<false>(block, ids_a, ids_b, accept);
+        });
+    } else {
+        const detail::trees_side a{transformed(first)};
+        const detail::trees_side b{transformed(second)};
+        return detail::any_of_parts(detail::pairs_of_parts_of(a, b), accept,
+                                    [&](auto x, auto y, const auto& accepted) {
+                                        return search_any(a.part(x), b.part(y), accepted);
+                                    });
+    }
 }
 
 /// The pairs (a, b) of primitives whose boxes overlap and for which `accept(a, b)` is true,
 /// ascending. `accept` is called from several threads.
-template <placed_tree A, placed_tree B, class Accept>
+template <any_placed_tree A, any_placed_tree B, class Accept>
 [[nodiscard]] std::vector<id_pair> search_all(const A& a, const B& b, const Accept& accept) {
-    using pairs = std::vector<id_pair>;
-    pairs all =
-        detail::joined(search<pairs>(a, b, [&](pairs& found, std::uint32_t x, std::uint32_t y) {
-            if (accept(x, y)) found.emplace_back(x, y);
-        }));
-    std::sort(all.begin(), all.end());
-    return all;
+    return detail::all_pairs<false>(detail::pairs_of(transformed(a), transformed(b)), accept);
 }
 
 /// The pairs whose boxes, as the trees hold them, overlap.
-template <placed_tree A, placed_tree B>
+template <any_placed_tree A, any_placed_tree B>
 [[nodiscard]] std::vector<id_pair> search_all(const A& a, const B& b) {
-    return search_all(a, b, [](std::uint32_t, std::uint32_t) { return true; });
+    return search_all(a, b, detail::every_pair);
 }
 
 }  // namespace treeform

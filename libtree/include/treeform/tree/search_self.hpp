@@ -1,11 +1,13 @@
 #pragma once
 /// \file
-/// Search of a tree by itself: every pair of primitives whose boxes overlap, once.
+/// Search of a tree of any kind by itself: every pair of primitives whose boxes overlap, once.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
+#include <treeform/tree/detail/pairs_by_ids.hpp>
 #include <treeform/tree/detail/search_chunks.hpp>
+#include <treeform/tree/search_pair.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>
@@ -45,26 +47,57 @@ class TREEFORM_API self_search {
     std::vector<detail::node_pair> items_;
 };
 
-/// Calls `apply(state, a, b)` for every pair of primitives a, b of the range the tree was built
-/// over whose boxes overlap, a at the earlier place in leaf order. Returns the states, one a chunk,
-/// in an order that depends on the tree alone: no state is shared between threads, `apply` is
-/// called by several. A state is made by `State{}` and moved. Where `apply` returns true (it may
-/// return nothing), the search stops: the state it was given is the last of those returned, and
-/// they hold what one thread would have found.
-template <class State, std::size_t D, class Apply>
-[[nodiscard]] std::vector<State> search_self(const tree<D>& tree, const Apply& apply) {
-    const auto id = tree.ids();
-    return detail::search_states<State>(
-        self_search<D>(tree), [&](State& state, const candidate_block& block) {
-            for (std::size_t i = 0; i < block.first.size(); ++i)
-                if (detail::asks_to_stop(apply, state, id[block.first[i]], id[block.second[i]]))
-                    return true;
-            return false;
-        });
+namespace detail {
+
+template <std::size_t D>
+[[nodiscard]] auto self_pairs(const tree<D>& tree) {
+    const std::uint32_t* const ids = tree.ids().data();
+    return pairs_of_tree(self_search<D>(tree), ids, ids);
 }
 
-/// The same by blocks of candidates, `apply(state, block)`: for those who test several at once. A
-/// block names places in leaf order, not ids.
+/// The parts that may hold pairs, by twos, ascending; each with itself as well.
+template <tree_of_trees Trees>
+[[nodiscard]] std::vector<id_pair> self_pairs_of_parts(const Trees& trees) {
+    auto parts = all_pairs<true>(self_pairs(trees.top()), every_pair);
+    for (const std::uint32_t part : trees.top().ids()) parts.emplace_back(part, part);
+    std::sort(parts.begin(), parts.end());
+    return parts;
+}
+
+template <tree_of_trees Trees>
+[[nodiscard]] auto self_pairs(const Trees& trees) {
+    constexpr std::size_t D = Trees::dimensions;
+    pairs_of_parts<self_search<D>, pair_search<D>> pairs;
+    const auto add = [&](std::uint32_t x, std::uint32_t y) {
+        const tree<D>&a = trees.part(x), &b = trees.part(y);
+        if (x == y)
+            pairs.add(self_search<D>(a), a.ids().data(), a.ids().data());
+        else
+            pairs.add(pair_search<D>(a, b), a.ids().data(), b.ids().data());
+    };
+    const auto prepare = [&](std::uint32_t x, std::uint32_t y) {
+        (void)trees.part(x);
+        (void)trees.part(y);
+    };
+    for_parts(self_pairs_of_parts(trees), prepare, add);
+    return pairs;
+}
+
+}  // namespace detail
+
+/// Calls `apply(state, a, b)` for every pair of primitives a, b of the range the tree was built
+/// over whose boxes overlap; of a `tree`, with a at the earlier place in leaf order. Returns the
+/// states, one a chunk, in an order that depends on the tree alone: no state is shared between
+/// threads, `apply` is called by several. A state is made by `State{}` and moved. Where `apply`
+/// returns true (it may return nothing), the search stops: the state it was given is the last of
+/// those returned, and they hold what one thread would have found.
+template <class State, any_tree Tree, class Apply>
+[[nodiscard]] std::vector<State> search_self(const Tree& tree, const Apply& apply) {
+    return detail::pair_states<State>(detail::self_pairs(tree), apply);
+}
+
+/// The same of a `tree` by blocks of candidates, `apply(state, block)`: for those who test several
+/// at once. A block names places in leaf order, not ids.
 template <class State, std::size_t D, class Apply>
 [[nodiscard]] std::vector<State> search_self_broad(const tree<D>& tree, const Apply& apply) {
     return detail::search_states<State>(self_search<D>(tree),
@@ -75,34 +108,33 @@ template <class State, std::size_t D, class Apply>
 
 /// Whether `accept(a, b)` is true for some pair of primitives whose boxes overlap; it is called
 /// from several threads, and no more once a pair is known.
-template <std::size_t D, class Accept>
-[[nodiscard]] bool search_self_any(const tree<D>& tree, const Accept& accept) {
-    const auto id = tree.ids();
-    return detail::search_for_any(self_search<D>(tree), [&](const candidate_block& block) {
-        for (std::size_t i = 0; i < block.first.size(); ++i)
-            if (accept(id[block.first[i]], id[block.second[i]])) return true;
-        return false;
-    });
+template <any_tree Tree, class Accept>
+[[nodiscard]] bool search_self_any(const Tree& tree, const Accept& accept) {
+    if constexpr (tree_of_trees<Tree>)
+        return detail::any_of_parts(
+            detail::self_pairs_of_parts(tree), accept, [&](auto x, auto y, const auto& accepted) {
+                return x == y ? search_self_any(tree.part(x), accepted)
+                              : search_any(tree.part(x), tree.part(y), accepted);
+            });
+    else
+        return detail::search_for_any(
+            self_search<Tree::dimensions>(tree), [&](const candidate_block& block) {
+                const std::uint32_t* const ids = tree.ids().data();
+                return detail::any_of_block<false>(block, ids, ids, accept);
+            });
 }
 
 /// The pairs (a, b), a < b, of primitives whose boxes overlap and for which `accept(a, b)` is true,
 /// ascending. `accept` is called from several threads.
-template <std::size_t D, class Accept>
-[[nodiscard]] std::vector<id_pair> search_self_all(const tree<D>& tree, const Accept& accept) {
-    using pairs = std::vector<id_pair>;
-    pairs all = detail::joined(
-        search_self<pairs>(tree, [&](pairs& found, std::uint32_t a, std::uint32_t b) {
-            if (b < a) std::swap(a, b);
-            if (accept(a, b)) found.emplace_back(a, b);
-        }));
-    std::sort(all.begin(), all.end());
-    return all;
+template <any_tree Tree, class Accept>
+[[nodiscard]] std::vector<id_pair> search_self_all(const Tree& tree, const Accept& accept) {
+    return detail::all_pairs<true>(detail::self_pairs(tree), accept);
 }
 
 /// The pairs whose boxes, as the tree holds them, overlap.
-template <std::size_t D>
-[[nodiscard]] std::vector<id_pair> search_self_all(const tree<D>& tree) {
-    return search_self_all(tree, [](std::uint32_t, std::uint32_t) { return true; });
+template <any_tree Tree>
+[[nodiscard]] std::vector<id_pair> search_self_all(const Tree& tree) {
+    return search_self_all(tree, detail::every_pair);
 }
 
 }  // namespace treeform

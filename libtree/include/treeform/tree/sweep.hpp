@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Search of two trees while one moves in a straight line: the pairs that meet first.
+/// Searches two trees while one moves in a straight line, for the pairs that meet first.
 
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -26,18 +26,18 @@ TREEFORM_API void sweep(const transformed<D>& a, const transformed<D>& b,
 
 /// Calls `visit(i, j)` for every pair of a primitive i of `a` and j of `b` whose boxes may have a
 /// common point at some time t in [0, latest], when `a` is moved by t times `motion` (anything with
-/// []): those that may meet early first, as a rule. What `visit` returns is the time beyond which
-/// it wants no pair; it only counts where it is less than before. Pairs that may meet just then are
-/// visited.
+/// []). Pairs that may meet early usually come first. `visit` returns the time after which it wants
+/// no more pairs; a later time than before has no effect. Pairs that may meet exactly then are
+/// still visited.
 ///
-/// Either side may be `transformed{tree, map}`. Boxes are swept, not what is in them: `visit` finds
-/// out when, and whether, two primitives meet.
+/// Either side may be `transformed{tree, map}`. Only boxes are swept: `visit` has to find out
+/// whether and when two primitives meet.
 ///
 /// \throws std::invalid_argument for a motion that is zero or not finite, or a time that is
 ///         negative or NaN
-/// \cost   as the nearest pair of the trees in most cases; serial. Of a motion along an axis little
-///         is visited; one across all axes sees the hulls of boxes, which are larger than what they
-///         hold
+/// \cost   in most cases as the nearest pair of the trees; serial. Less for a motion along an axis,
+///         more for one across all axes, since swept boxes are then much larger than what is in
+///         them
 /// \same   order and pairs, on every machine
 /// \source slabs: Kay and Kajiya, Ray Tracing Complex Scenes, SIGGRAPH 1986, for the ray from 0
 ///         along the motion and the box of differences of two boxes

@@ -10,8 +10,9 @@
 
 namespace treeform {
 
-/// The map that takes a point x to M x + t: row k of `rows` is [M[k][0] ... M[k][D-1], t[k]]. The
-/// identity as constructed. M may be anything: a rotation, a mirror, a shear, even singular.
+/// The affine map that takes a point x to M x + t. Row k of `rows` is [M[k][0] ... M[k][D-1],
+/// t[k]]. A new one is the identity. M may be any matrix: a rotation, a mirror, a shear, even
+/// singular.
 template <std::size_t D>
 struct transform {
     static constexpr std::size_t dimensions = D;
@@ -22,8 +23,8 @@ struct transform {
     /// The image of `point`, anything with [] for coordinates to read and to write.
     ///
     /// Coordinate k is ((M[k][0] x[0] + M[k][1] x[1]) + M[k][2] x[2]) + t[k], each product and each
-    /// sum rounded to double, unless the compiler is allowed to fuse them (`-ffp-contract`): within
-    /// the libraries it is not, so that every machine moves a point to the same place.
+    /// sum rounded to double, unless the compiler may fuse them (`-ffp-contract`). Inside the
+    /// libraries it may not, so that every machine moves a point to the same place.
     template <class Point>
     [[nodiscard]] constexpr Point operator()(const Point& point) const {
         Point moved = point;
@@ -53,7 +54,7 @@ struct transform {
     }
 };
 
-/// The map that moves every point by `offset`, anything with [].
+/// The map that adds `offset`, anything with [], to every point.
 template <std::size_t D, class Vector>
 [[nodiscard]] constexpr transform<D> translation(const Vector& offset) {
     transform<D> result;
@@ -107,11 +108,11 @@ requires(D == 2 || D == 3) [[nodiscard]] transform<D> unchecked_inverse(const tr
 
 }  // namespace detail
 
-/// The map that undoes `by`: after(inverse(by), by) is the identity except for rounding. Exactly so
-/// for translations, exchanges of axes and scalings by powers of two.
+/// The map that undoes `by`: after(inverse(by), by) is the identity, except for rounding. It is
+/// exact for translations, exchanges of axes and scalings by powers of two.
 ///
-/// \throws std::invalid_argument when `by` flattens space, as far as its rounded determinant says,
-///         or an entry of the result is not finite
+/// \throws std::invalid_argument when `by` is singular, by its rounded determinant, or when an
+///         entry of the result is not finite
 /// \source Cramer's rule
 template <std::size_t D>
 requires(D == 2 || D == 3) [[nodiscard]] transform<D> inverse(const transform<D>& by) {

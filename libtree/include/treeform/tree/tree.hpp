@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A tree, and a tree as if its primitives had been moved.
+/// The tree, trees that are searched as one, and trees searched as if their primitives had moved.
 
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/transform.hpp>
@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,11 +25,10 @@ struct alignas(64) wide_node {
     float max[D][width];
 };
 
-/// How tree boxes lie in space: a coordinate x of axis k is stored as (x - origin[k]) * scale,
-/// rounded outward to float; a box of a primitive besides grows by up to 2^-13 of half its extent
-/// on each side. Boxes about a local origin stay tight however far the model is from the origin of
-/// its own coordinates, and a power-of-two scale keeps tiny and huge models away from the ends of
-/// the range of float.
+/// How tree boxes are stored: a coordinate x of axis k as (x - origin[k]) * scale, rounded outward
+/// to float. A box of a primitive also grows by up to 2^-13 of half its extent on each side. With a
+/// local origin, boxes stay tight however far the model is from the origin of its own coordinates.
+/// The scale, a power of two, keeps tiny and huge models within the range of float.
 template <std::size_t D>
 struct tree_frame {
     std::array<double, D> origin{};
@@ -36,8 +36,8 @@ struct tree_frame {
     friend bool operator==(const tree_frame&, const tree_frame&) = default;
 };
 
-/// A balanced 8-ary tree of boxes over N primitives, packed: every node is full but the last of its
-/// level.
+/// A balanced 8-ary tree of boxes over N primitives, packed: every node is full, except for the
+/// last of its level.
 ///
 /// The shape follows from N alone, so it is stored nowhere. `ids()` is a permutation of the
 /// primitives; leaf block i holds the boxes of the primitives at its places 8i ... 8i+7, box s that
@@ -56,11 +56,11 @@ class tree {
     static constexpr std::size_t dimensions = D;
     static constexpr std::size_t width = wide_node<D>::width;
 
-    /// A tree over nothing, to be searched (nothing is found) and rebuilt. It has no memory, so no
-    /// nodes to look at before `reset`.
+    /// A tree over nothing. A search finds nothing; it may be rebuilt. It has no memory, and so no
+    /// nodes before `reset`.
     tree() = default;
 
-    /// Takes the shape for `size` primitives; memory is reused, contents are not.
+    /// Takes the shape for `size` primitives. Memory is reused; contents are undefined.
     void reset(std::size_t size) {
         assert(size <= max_size);
         size_ = size;
@@ -123,54 +123,90 @@ class tree {
     tree_frame<D> frame_;
 };
 
-/// A tree whose contents are treated as transformed by an affine map: `search(transformed{tree,
-/// map}, other,
-/// ...)`. Boxes are moved when a search opens their node, and grow by the turning of boxes: not for
-/// a translation or a quarter turn; under another rotation, to at most sqrt(D) times their longest
-/// side in each direction.
+/// Several trees, the parts, that are searched as one. Every search takes them as it takes a
+/// `tree`, with the same answers as on a tree over all their primitives.
 ///
-/// The moved boxes hold the exact images of the primitives, and also the images that
-/// `transform::operator()` rounds to double; so both those who decide on exact images and those
-/// who decide on rounded ones miss no pair.
+/// `top()` is a tree over boxes around the parts; its `ids()` are the numbers of parts. `part(n)`
+/// is the tree of part n. It may be made when a search first asks for it, on several threads at
+/// once. Its `ids()` are primitives of the whole, each in one part, or 0xFFFFFFFF for an empty
+/// slot. The leaf order of the whole is that of the top, then that of the parts.
+template <class T>
+concept tree_of_trees = requires(const T& whole, std::uint32_t number) {
+    { whole.size() } -> std::convertible_to<std::size_t>;  // primitives
+    { whole.top() } -> std::same_as<const tree<T::dimensions>&>;
+    { whole.part(number) } -> std::same_as<const tree<T::dimensions>&>;
+};
+
+namespace detail {
+
+/// Stands in `tree::ids()` for a primitive that has been removed; its slot is empty.
+inline constexpr std::uint32_t no_primitive = 0xFFFFFFFF;
+
+template <class T>
+inline constexpr bool is_tree = false;
+template <std::size_t D>
+inline constexpr bool is_tree<tree<D>> = true;
+
+}  // namespace detail
+
+/// What a search by one query takes: a `tree`, or trees searched as one.
+template <class T>
+concept any_tree = detail::is_tree<T> || tree_of_trees<T>;
+
+/// A tree of any kind that is searched as if an affine map had moved its primitives:
+/// `search(transformed{tree, map}, other, ...)`.
+///
+/// Nothing is rebuilt. Boxes are moved when a search opens their node. A moved box is larger than
+/// the original, except for a translation or a quarter turn: under another rotation up to sqrt(D)
+/// times its longest side in each direction. It holds the exact images of the primitives, and also
+/// those that `transform::operator()` rounds to double. So no pair is missed, whichever of the two
+/// you decide on.
 ///
 /// \source Arvo, Transforming Axis-Aligned Bounding Boxes, Graphics Gems, 1990
-template <std::size_t D>
+template <std::size_t D, class Tree = tree<D>>
 class transformed {
   public:
     static constexpr std::size_t dimensions = D;
 
     /// \pre    `tree` outlives this and every search that takes it
     /// \throws std::invalid_argument when an entry of `by` is NaN or infinite
-    transformed(const tree<D>& tree, const transform<D>& by) : tree_(&tree), by_(by) {
+    transformed(const Tree& tree, const transform<D>& by) : tree_(&tree), by_(by) {
         if (!by.finite())
             throw std::invalid_argument("treeform::transformed: an entry of the map is not finite");
     }
     /// A tree as it is.
-    transformed(const tree<D>& tree) : tree_(&tree) {}  // NOLINT: meant to be implicit
+    transformed(const Tree& tree) : tree_(&tree) {}  // NOLINT: meant to be implicit
 
-    [[nodiscard]] const tree<D>& original() const { return *tree_; }
+    [[nodiscard]] const Tree& original() const { return *tree_; }
     [[nodiscard]] const transform<D>& by() const { return by_; }
     [[nodiscard]] bool moves() const { return by_ != transform<D>{}; }
 
   private:
-    const tree<D>* tree_;
+    const Tree* tree_;
     transform<D> by_;
 };
+
+template <any_tree Tree>
+transformed(const Tree&) -> transformed<Tree::dimensions, Tree>;
+template <any_tree Tree>
+transformed(const Tree&, const transform<Tree::dimensions>&) -> transformed<Tree::dimensions, Tree>;
 
 namespace detail {
 
 template <class T>
-inline constexpr bool is_placed_tree = false;
-template <std::size_t D>
-inline constexpr bool is_placed_tree<tree<D>> = true;
-template <std::size_t D>
-inline constexpr bool is_placed_tree<transformed<D>> = true;
+inline constexpr bool is_transformed = false;
+template <std::size_t D, class Tree>
+inline constexpr bool is_transformed<transformed<D, Tree>> = true;
 
 }  // namespace detail
 
-/// What a search of two trees takes on either side: a tree, or one that is treated as transformed.
+/// What a search of two `tree`s takes on either side: a `tree` or a `transformed` one.
 template <class T>
-concept placed_tree = detail::is_placed_tree<T>;
+concept placed_tree = detail::is_tree<T> || std::same_as<T, transformed<T::dimensions>>;
 static_assert(placed_tree<tree<3>> && placed_tree<transformed<2>>);
+
+/// The same of any kind of tree.
+template <class T>
+concept any_placed_tree = any_tree<T> || detail::is_transformed<T>;
 
 }  // namespace treeform

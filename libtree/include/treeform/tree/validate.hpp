@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The invariants of a tree as a function.
+/// Checks the invariants of a tree.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/frame.hpp>
@@ -48,9 +48,9 @@ template <class T, std::size_t D>
 
 }  // namespace detail
 
-/// What is wrong with `tree` as a tree over `boxes`, or nothing: the ids are a permutation, every
-/// leaf slot holds the box of its primitive, every inner slot the boxes below it, and no other
-/// slot is in use.
+/// What is wrong with `tree` as a tree over `boxes`; none when it is valid: the ids are a
+/// permutation, every leaf slot holds the box of its primitive, every inner slot the boxes below
+/// it, and no other slot is in use.
 template <std::size_t D, class T>
 [[nodiscard]] std::optional<std::string> why_malformed(const tree<D>& tree,
                                                        std::span<const aabb<T, D>> boxes) {

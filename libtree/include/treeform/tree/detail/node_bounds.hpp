@@ -6,13 +6,9 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 
 namespace treeform::detail {
-
-/// Stands in `tree::ids()` for a primitive that has been removed; its slot is empty.
-inline constexpr std::uint32_t no_primitive = 0xFFFFFFFF;
 
 /// The box around the boxes of a node; [+inf, -inf] when it has none.
 template <std::size_t D>

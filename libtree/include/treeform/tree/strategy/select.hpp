@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Selection algorithms for the build: the default and those that are fast in practice.
+/// Selection algorithms for `build`: the default, and others that are fast in practice.
 
 #include <treeform/tree/detail/partition_around.hpp>
 
@@ -16,6 +16,7 @@ namespace treeform::strategy {
 /// scratch array, so unlike the others it has no `partition` over arbitrary iterators.
 struct bracketed_select {};
 
+/// `std::nth_element`.
 struct nth_element {
     /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
     template <class Iterator, class Less>
@@ -24,11 +25,12 @@ struct nth_element {
     }
 };
 
+/// Selection by Floyd and Rivest.
 struct floyd_rivest {
     /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
     ///
-    /// In a large range, a sample about nth is selected in first, so that the element at nth is a
-    /// pivot next to which the wanted one lies in all likelihood.
+    /// In a large range, it first selects in a sample around nth. So the element at nth becomes a
+    /// pivot that is very probably next to the wanted one.
     ///
     /// \cost n + min(k, n - k) + O(sqrt(n)) comparisons expected
     /// \source Floyd and Rivest, Algorithm 489: SELECT, CACM 18 (1975)
@@ -59,6 +61,7 @@ struct floyd_rivest {
     }
 };
 
+/// Selection by a heap.
 struct heap_select {
     /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
     ///
@@ -79,6 +82,7 @@ struct heap_select {
     }
 };
 
+/// Pattern-defeating quickselect.
 struct pdq_select {
     /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
     ///

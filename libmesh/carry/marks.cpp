@@ -1,0 +1,65 @@
+#include <libmesh/attributes/class_colors.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/marks.hpp>
+
+namespace treeform {
+namespace {
+
+/// By `pair_kind`: faces in pairs of several kinds show the gravest.
+constexpr std::array<int, pair_kind_count> gravity{7, 5, 4, 3, 6, 2, 1};
+
+void mark(std::uint8_t& present, pair_kind kind) {
+    const auto index = static_cast<std::size_t>(kind);
+    if (present == 0 || gravity[present - 1U] < gravity[index])
+        present = static_cast<std::uint8_t>(index + 1);
+}
+
+/// A vertex shows the mark of a face at it that is in a pair, of the first one if there are more.
+std::vector<std::uint8_t> marks_of_vertices(const mesh& mesh,
+                                            const std::vector<std::uint8_t>& faces) {
+    std::vector<std::uint8_t> vertices(mesh.points.size(), 0);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (const std::uint32_t corner : mesh.faces[f])
+            if (vertices[corner] == 0) vertices[corner] = faces[f];
+    return vertices;
+}
+
+}  // namespace
+
+face_marks mark_faces(std::size_t face_count, std::span<const face_pair> pairs,
+                      const intersection_regions& regions) {
+    face_marks marks;
+    marks.kind.assign(face_count, 0);
+    marks.region.assign(face_count, -1);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        for (const std::uint32_t f : {pairs[i].a, pairs[i].b}) {
+            mark(marks.kind[f], pairs[i].kind);
+            marks.region[f] = static_cast<std::int32_t>(regions.region_of_pair[i]);
+        }
+    return marks;
+}
+
+void color_marks(mesh_file& file, const usable_mesh& looked_at, const face_marks& marks) {
+    std::vector<std::int32_t> kinds(file.mesh.faces.size(), 0), regions(kinds.size(), -1);
+    std::vector<std::uint8_t> classes(kinds.size(), 0);
+    for (std::uint32_t f = 0; f < marks.kind.size(); ++f) {
+        const std::uint32_t t = looked_at.triangle(f);
+        kinds[t] = classes[t] = marks.kind[f];
+        regions[t] = marks.region[f];
+    }
+    if (!file.stored_face.empty()) split_polygons(file);
+    if (!file.indexed) {  // a soup becomes a mesh; where vertices have numbers they keep them
+        file.mesh = join_equal_points(file.mesh);
+        file.attributes = {};
+        file.indexed = true;
+    }
+    using detail::attribute::set_colors;
+    element& vertices = obtain_element(file.attributes, "vertex", file.mesh.points.size());
+    set_colors(vertices, marks_of_vertices(file.mesh, classes), mark_colors);
+    element& faces = obtain_element(file.attributes, "face", file.mesh.faces.size());
+    set_colors(faces, classes, mark_colors);
+    set_column(faces, make_column<std::int32_t>("tf_class", kinds));
+    set_column(faces, make_column<std::int32_t>("tf_region", regions));
+}
+
+}  // namespace treeform

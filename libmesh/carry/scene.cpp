@@ -1,0 +1,95 @@
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/carry.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+namespace treeform {
+namespace {
+
+/// The parts of a file in a scene, to be known there by the names they have, or by the
+/// file's where it has one part.
+std::vector<part> parts_in_scene(const scene_member& member, std::vector<part> parts) {
+    const bool one = std::all_of(parts.begin(), parts.end(), [&](const part& p) {
+        return p.object == parts[0].object && p.group == parts[0].group;
+    });
+    for (part& p : parts)
+        if (one) p = {.object = member.name, .material = p.material, .first_face = p.first_face};
+    if (parts.empty() || parts[0].first_face > 0)
+        parts.insert(parts.begin(), {.object = member.name});
+    if (one)
+        parts.erase(
+            std::unique(parts.begin(), parts.end(),
+                        [](const part& p, const part& q) { return p.material == q.material; }),
+            parts.end());
+    return parts;
+}
+
+/// What a scene takes of a file, except for points and faces.
+mesh_file described(const mesh_file& file) {
+    mesh_file one{.stored_face = file.stored_face, .stored_faces = file.stored_faces};
+    const attributes& all = file.attributes;
+    one.attributes = {.corners = all.corners,
+                      .parts = all.parts,
+                      .material_files = all.material_files,
+                      .texture_files = all.texture_files};
+    if (const column* numbers = texture_numbers(file))
+        one.attributes.elements = {{"face", one.stored_faces, {*numbers}}};
+    return one;
+}
+
+/// Gives the faces of `scene` that come next, `faces` in number, the numbers of `one`.
+void append_texture_numbers(mesh_file& scene, const mesh_file& one, std::size_t faces) {
+    const column* const more = texture_numbers(one);
+    if (more == nullptr || scene.attributes.texture_files.empty()) return;
+    element& rows = obtain_element(scene.attributes, "face", 0);
+    rows.rows += faces;
+    if (rows.columns.empty()) return rows.columns.push_back(*more);
+    auto& values = rows.columns[0].values;
+    values.insert(values.end(), more->values.begin(), more->values.end());
+}
+
+void append(mesh_file& scene, const scene_member& member, mesh_file one) {
+    const mesh& added = member.file->mesh;
+    split_polygons(one);
+    append_texture_numbers(scene, one, added.faces.size());
+    const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
+    const auto first_face = static_cast<std::uint32_t>(scene.mesh.faces.size());
+    for (part& p : parts_in_scene(member, std::move(one.attributes.parts))) {
+        p.first_face += first_face;
+        scene.attributes.parts.push_back(std::move(p));
+    }
+    append(scene.attributes.corners, first_face, one.attributes.corners, added.faces.size());
+    auto& names = scene.attributes.material_files;
+    for (const std::string& name : one.attributes.material_files)
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    scene.mesh.points.insert(scene.mesh.points.end(), added.points.begin(), added.points.end());
+    for (const face& f : added.faces)
+        scene.mesh.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+}
+
+}  // namespace
+
+mesh_file scene_of(std::span<const scene_member> members) {
+    std::vector<mesh_file> files;
+    std::vector<std::string> labels;
+    for (const scene_member& member : members) {
+        files.push_back(described(*member.file));
+        labels.push_back(member.label);
+    }
+    std::vector<mesh_file*> all;
+    for (mesh_file& one : files) all.push_back(&one);
+    mesh_file scene;
+    scene.warnings = unite_textures(all, labels);
+    scene.format = members[0].file->format;
+    scene.stored_as = members[0].file->stored_as;
+    scene.attributes.texture_files = files[0].attributes.texture_files;
+    for (std::size_t i = 0; i < members.size(); ++i) append(scene, members[i], std::move(files[i]));
+    scene.stored_faces = scene.mesh.faces.size();
+    return scene;
+}
+
+}  // namespace treeform

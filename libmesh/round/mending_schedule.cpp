@@ -1,0 +1,51 @@
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/round/mending_schedule.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace treeform::detail::round {
+namespace {
+
+/// The share 2^-bits of the largest coordinate, rounded up to a power of two.
+double reach_of_bits(points_view points, int bits) {
+    double largest = 0.0;
+    for (const point3& p : points) largest = std::max(largest, base::largest_of(p));
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    return std::max(std::ldexp(1.0, exponent - bits), std::numeric_limits<double>::min());
+}
+
+int bits_of_first_step(precision p) { return p == precision::float32 ? 22 : 48; }
+
+}  // namespace
+
+mending_schedule mending_schedule::of_operands(int steps, treeform::precision precision) {
+    const int of_surface = std::min(steps, 2);
+    return {precision, of_surface, steps - of_surface};
+}
+
+bool mending_schedule::mends_surface(const mending_state& state) const {
+    const bool is_better = state.meeting < state.meeting_before;
+    const int most_steps = state.only_cut ? 12 : 4;
+    if (state.steps >= surface_steps &&
+        !(surface_steps > 0 && state.steps < most_steps && is_better))
+        return false;
+    const bool is_worse = state.steps > 0 && state.meeting > 2 * state.meeting_before + 1000;
+    return !is_worse && state.faces <= 4 * state.faces_given + 1000;
+}
+
+bool mending_schedule::mends_operands(std::uint64_t meeting_before, std::uint64_t meeting) {
+    return meeting <= 4 * meeting_before + 1000;
+}
+
+double mending_schedule::reach_of_surface(points_view points, int step) const {
+    return reach_of_bits(points, bits_of_first_step(precision) - 2 * (step - 1));
+}
+
+double mending_schedule::reach_of_operands(points_view points, int step) const {
+    return reach_of_bits(points, bits_of_first_step(precision) - 4 * (step - 1));
+}
+
+}  // namespace treeform::detail::round

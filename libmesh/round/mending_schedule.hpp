@@ -1,0 +1,52 @@
+#pragma once
+/// \file
+/// What is tried, in which order and for how long, where rounding has broken a surface.
+
+#include <treeform/mesh/mesh.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace treeform::detail::round {
+
+/// What mending has come to so far.
+struct mending_state {
+    int steps = 0;                     ///< taken
+    std::uint64_t meeting = 0;         ///< faces that meet now
+    std::uint64_t meeting_before = 0;  ///< before the last step
+    std::size_t faces = 0;
+    std::size_t faces_given = 0;
+    bool only_cut = false;  ///< nothing is joined any more
+};
+
+/// The schedule of mending. First come steps of the surface: what is next to faces that meet is
+/// joined to them, and the surface is cut along itself. Where that is not enough, and the surface
+/// was made of operands, steps of these follow: their faces next to all places that were broken in
+/// any step are joined, and the surface is made once more, with steps of its own as before.
+///
+/// Next to each other is what is nearer than 2^-48 of the largest coordinate in the first step of
+/// each kind, 2^-22 for float32: four times as far in each further step of the surface, sixteen
+/// times in each of the operands.
+struct mending_schedule {
+    treeform::precision precision = treeform::precision::float64;
+    int surface_steps = 0;  ///< that are taken whether they help or not; none at all for 0
+    int operand_steps = 0;
+
+    /// `steps` in all: up to two of the surface, then those of operands.
+    [[nodiscard]] static mending_schedule of_operands(int steps, treeform::precision precision);
+
+    /// Whether a broken surface gets one more step: one of `surface_steps`, or one that follows,
+    /// to 4, or 12 where nothing is joined, on one that left fewer faces that meet. None where the
+    /// surface only grows by it.
+    [[nodiscard]] bool mends_surface(const mending_state& state) const;
+    /// Whether steps of operands are worth going on with after one that changed the number of faces
+    /// that meet so.
+    [[nodiscard]] static bool mends_operands(std::uint64_t meeting_before, std::uint64_t meeting);
+
+    /// What counts as next to each other in step 1, 2, ...
+    /// \pre coordinates are finite \cost O(V)
+    [[nodiscard]] double reach_of_surface(points_view points, int step) const;
+    [[nodiscard]] double reach_of_operands(points_view points, int step) const;
+};
+
+}  // namespace treeform::detail::round

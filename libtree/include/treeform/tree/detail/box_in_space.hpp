@@ -1,0 +1,74 @@
+#pragma once
+/// \file
+/// Boxes from the frame of a tree to space, and from space into it.
+
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <limits>
+
+namespace treeform::detail {
+
+/// A box of space that holds box `slot` of `node`. Below, the sum with the origin is off by at most
+/// 2^-53 of itself, the subtraction of the margin by as much, and scaling by less than 1e-307.
+template <std::size_t D>
+[[nodiscard]] aabb<double, D> box_in_space(const tree_frame<D>& frame, const wide_node<D>& node,
+                                           std::size_t slot) {
+    constexpr double largest = std::numeric_limits<double>::max();
+    // Where the build had to clamp, a side that faces inward says only that the coordinate is that
+    // far out or differs from the origin by more than the largest double.
+    const auto difference = [&](float side) { return static_cast<double>(side) / frame.scale; };
+    const auto outward = [](double x) { return 0x1p-51 * std::abs(x) + 1e-306; };
+    aabb<double, D> box;
+    for (std::size_t k = 0; k < D; ++k) {
+        const double low = std::min(difference(node.min[k][slot]), largest) + frame.origin[k];
+        const double high = std::max(difference(node.max[k][slot]), -largest) + frame.origin[k];
+        box.min[k] = std::min(low, largest) - outward(std::min(low, largest));
+        box.max[k] = std::max(high, -largest) + outward(std::max(high, -largest));
+    }
+    return box;
+}
+
+/// `box` in a frame, rounded outward: the difference is off by 2^-53 of itself, the float nearest
+/// to it by 2^-24, or below the least normal float by less than 1.2e-38, and 1.2e-7 > 2^-23 covers
+/// both and the rounding of the sum. A coordinate beyond the range of float moves out to infinity;
+/// inward it stays at the end of the range, where the build clamps what lies as far out.
+template <std::size_t D, std::floating_point T>
+[[nodiscard]] aabb<float, D> box_in_frame(const tree_frame<D>& frame, const aabb<T, D>& box) {
+    const auto nearest = [&](double x, std::size_t k) {
+        constexpr double limit = std::numeric_limits<float>::max();
+        return static_cast<float>(std::clamp((x - frame.origin[k]) * frame.scale, -limit, limit));
+    };
+    const auto margin = [](float f) { return std::abs(f) * 1.2e-7F + 1e-37F; };
+    aabb<float, D> rounded;
+    for (std::size_t k = 0; k < D; ++k) {
+        const float low = nearest(static_cast<double>(box.min[k]), k);
+        const float high = nearest(static_cast<double>(box.max[k]), k);
+        rounded.min[k] = low - margin(low);
+        rounded.max[k] = high + margin(high);
+    }
+    return rounded;
+}
+
+/// A box of space, all of it finite, that holds what is in `tree`; empty when nothing is.
+template <std::size_t D>
+[[nodiscard]] aabb<double, D> box_of_root(const tree<D>& tree) {
+    constexpr double largest = std::numeric_limits<double>::max();
+    aabb<double, D> box;
+    if (tree.empty()) return box;
+    const wide_node<D>& root = tree.level(0)[0];
+    for (std::size_t slot = 0; slot < tree.children(0, 0); ++slot)
+        if (root.min[0][slot] <= root.max[0][slot])  // else all below has been removed
+            box.include(box_in_space(tree.frame(), root, slot));
+    for (std::size_t k = 0; k < D && !box.empty(); ++k) {
+        box.min[k] = std::max(box.min[k], -largest);
+        box.max[k] = std::min(box.max[k], largest);
+    }
+    return box;
+}
+
+}  // namespace treeform::detail

@@ -1,0 +1,53 @@
+#pragma once
+/// \file
+/// A side of a search for pairs, of any kind of tree: its parts and a tree over them.
+
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/detail/box_in_space.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace treeform::detail {
+
+/// A tree over finite boxes with the leaves in their order; `ids()` are the places of those that
+/// are not empty. For few boxes: the top of a tree of trees.
+template <std::size_t D>
+[[nodiscard]] TREEFORM_API tree<D> tree_in_order(std::span<const aabb<double, D>> boxes);
+
+/// A tree of trees where it is, whether it is moved or not.
+template <std::size_t D, class Trees>
+class trees_side {
+  public:
+    explicit trees_side(const transformed<D, Trees>& at) : at_(at) {}
+
+    [[nodiscard]] transformed<D> top() const { return {at_.original().top(), at_.by()}; }
+    [[nodiscard]] transformed<D> part(std::uint32_t number) const {
+        return {at_.original().part(number), at_.by()};
+    }
+
+  private:
+    transformed<D, Trees> at_;
+};
+
+/// A tree as a tree of trees: its only part is number 0.
+template <std::size_t D>
+class trees_side<D, tree<D>> {
+  public:
+    explicit trees_side(const transformed<D>& at) : at_(at) {
+        const aabb<double, D> box = box_of_root(at.original());
+        top_ = tree_in_order(std::span(&box, 1));
+    }
+
+    [[nodiscard]] transformed<D> top() const { return {top_, at_.by()}; }
+    [[nodiscard]] transformed<D> part(std::uint32_t) const { return at_; }
+
+  private:
+    transformed<D> at_;
+    tree<D> top_;
+};
+
+}  // namespace treeform::detail

@@ -1,0 +1,42 @@
+#include "tools/common/entries.hpp"
+
+#include "tools/common/console.hpp"
+#include <treeform/tf.hpp>
+
+namespace tools {
+
+std::string in_words(const tf::point3& p) {
+    return std::string("(").append(shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z)) +
+           ")";
+}
+
+const char* name_of(tf::precision precision) {
+    return precision == tf::precision::float32 ? "float" : "double";
+}
+
+const char* numbers_of(tf::precision precision) {
+    return precision == tf::precision::float32 ? "float32" : "double";
+}
+
+json open_entry(const tf::certificate& known, const face_numbers& stored_face) {
+    json list = json::array();
+    for (const tf::open_edge& edge : known.open)
+        list.push_back(
+            {{"face", stored_face(edge.face.index)}, {"from", edge.ends[0]}, {"to", edge.ends[1]}});
+    return {{"count", known.open_count}, {"list", list}};
+}
+
+json meeting_entry(const tf::certificate& known) {
+    json list = json::array();
+    for (std::size_t i = 0; i < known.meeting_at.size(); ++i)
+        list.push_back({{"faces", known.meeting[i]}, {"near", known.meeting_at[i]}});
+    return list;
+}
+
+std::string message_of(tf::certificate known, const face_numbers& stored_face) {
+    for (tf::open_edge& edge : known.open)
+        edge.face = {tf::operand_element::none, stored_face(edge.face.index)};
+    return known.message();
+}
+
+}  // namespace tools

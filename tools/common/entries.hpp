@@ -1,0 +1,67 @@
+#pragma once
+/// \file
+/// What the library returns, in reports and in sentences.
+
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+/// Points are lists of three numbers, boxes have two of them, what is not there is null.
+template <>
+struct nlohmann::adl_serializer<treeform::point3> {
+    template <class Json>
+    static void to_json(Json& to, const treeform::point3& p) {
+        to = {p.x, p.y, p.z};
+    }
+};
+template <>
+struct nlohmann::adl_serializer<treeform::box3> {
+    template <class Json>
+    static void to_json(Json& to, const treeform::box3& box) {
+        to = {{"min", box.min}, {"max", box.max}};
+    }
+};
+template <class T>
+struct nlohmann::adl_serializer<std::optional<T>> {
+    template <class Json>
+    static void to_json(Json& to, const std::optional<T>& value) {
+        to = value ? Json(*value) : Json(nullptr);
+    }
+};
+
+namespace tools {
+
+using json = nlohmann::ordered_json;
+
+/// `value`, or null where there is nothing to say.
+template <class T>
+[[nodiscard]] json or_null(bool given, const T& value) {
+    return given ? json(value) : json(nullptr);
+}
+
+/// "(0, 0, 1.5)"
+[[nodiscard]] std::string in_words(const tf::point3& p);
+
+/// "float" or "double", as in reports and options.
+[[nodiscard]] const char* name_of(tf::precision precision);
+/// "float32" or "double", for sentences.
+[[nodiscard]] const char* numbers_of(tf::precision precision);
+
+/// The number in the file of a face that was computed with.
+using face_numbers = std::function<std::uint32_t(std::uint32_t)>;
+
+/// Where the surface ends.
+[[nodiscard]] json open_entry(const tf::certificate& known, const face_numbers& stored_face);
+/// The faces that meet.
+[[nodiscard]] json meeting_entry(const tf::certificate& known);
+/// Its message, with the face by its number in the file.
+[[nodiscard]] std::string message_of(tf::certificate known, const face_numbers& stored_face);
+
+}  // namespace tools
