@@ -86,9 +86,10 @@ TEST_CASE("mesh distance: the nearest faces are those of a loop over all pairs")
         REQUIRE(found);
         REQUIRE(found->distance == expected.distance);
         if (expected.distance > 0.0) REQUIRE(*found == expected);
-        CHECK(tf::closest_points(a, b, expected.distance).has_value());
+        CHECK(tf::closest_points(a, b, {.radius = expected.distance}).has_value());
         if (expected.distance > 0.0)
-            CHECK(!tf::closest_points(a, b, std::nextafter(expected.distance * 0.999999, 0.0)));
+            CHECK(!tf::closest_points(
+                a, b, {.radius = std::nextafter(expected.distance * 0.999999, 0.0)}));
     }
 }
 
