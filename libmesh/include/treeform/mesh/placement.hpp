@@ -91,8 +91,8 @@ struct placement {
     standing at_place = standing::separate;
     std::optional<nearest_fixed> nearest{};  ///< at the place; none too far away to matter
     std::vector<placement_contact> contacts{};
-    std::uint64_t contact_count = 0;  ///< of all, listed or not
-    std::optional<double> max_travel{};  ///< that was allowed
+    std::uint64_t contact_count = 0;                               ///< of all, listed or not
+    std::optional<double> max_travel{};                            ///< that was allowed
     treeform::precision precision = treeform::precision::float64;  ///< of the points
     placement_statistics statistics{};
 
