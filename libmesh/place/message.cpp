@@ -1,3 +1,5 @@
+#include <treeform/mesh/align.hpp>
+#include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/placement.hpp>
 
 #include <charconv>
@@ -57,6 +59,23 @@ std::string placement::message(std::span<const std::string> names) const {
         default:
             return status == treeform::status::ok ? "" : "there is no such place";
     }
+}
+
+placement laid_flat::as_placement() const {
+    placement at{.status = status,
+                 .end = placement_end::bed,
+                 .points = points,
+                 .matrix = matrix,
+                 .bed = bed,
+                 .on_bed = true,
+                 .at_place = standing::touching};
+    if (contact) at.contacts = {*contact};
+    at.contact_count = at.contacts.size();
+    return at;
+}
+
+placement align_result::as_placement() const {
+    return {.status = status, .points = points, .matrix = matrix};
 }
 
 }  // namespace treeform

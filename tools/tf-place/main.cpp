@@ -6,8 +6,7 @@
 #include "tools/common/matrix_file.hpp"
 #include "tools/common/mesh_output.hpp"
 #include "tools/common/run.hpp"
-#include "tools/tf-place/move.hpp"
-#include "tools/tf-place/outputs.hpp"
+#include "tools/tf-place/outcome.hpp"
 #include "tools/tf-place/settings.hpp"
 #include <treeform/tf.hpp>
 
@@ -99,6 +98,6 @@ int main(int argc, char** argv) {
         [&] { tools::check_settings(line, s, options); },
         [&](tools::job& work) {
             return s.mode == tools::place_mode::arrange ? tools::arrange_all(work, s)
-                                                 : look_at(work, s, fixed);
+                                                        : look_at(work, s, fixed);
         });
 }

@@ -1,6 +1,5 @@
-#include "tools/tf-place/move.hpp"
-
 #include "tools/common/console.hpp"
+#include "tools/tf-place/outcome.hpp"
 #include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>
 
@@ -63,16 +62,7 @@ void lay(outcome& found, const body_set& moving, const place_settings& s,
         found.reason = "has no side: all its points are on a line";
         return;
     }
-    found.at = {.status = found.laid->status,
-                .end = tf::placement_end::bed,
-                .points = found.laid->points,
-                .matrix = found.laid->matrix,
-                .bed = found.laid->bed,
-                .on_bed = true,
-                .at_place = tf::standing::touching,
-                .precision = options.precision};
-    if (found.laid->contact) found.at.contacts = {*found.laid->contact};
-    found.at.contact_count = found.at.contacts.size();
+    found.at = found.laid->as_placement();
 }
 
 void fit(outcome& found, const body_set& moving, const body_set& fixed, const place_settings& s,
@@ -83,9 +73,7 @@ void fit(outcome& found, const body_set& moving, const body_set& fixed, const pl
     options.precision = found.at.precision;
     options.progress = progress;
     found.aligned = tf::align(moving.shapes[0], fixed.shapes[0], options);
-    found.at.status = found.aligned->status;
-    found.at.points = found.aligned->points;
-    found.at.matrix = found.aligned->matrix;
+    found.at = found.aligned->as_placement();
 }
 
 /// What else may be done.
@@ -123,11 +111,10 @@ outcome place(job& work, const body_set& moving, const body_set& fixed, const pl
         else
             found.at = place_by_verb(moving, fixed, s, precision, progress);
     } catch (const std::overflow_error&) {
-        found.at = {.status = tf::status::out_of_range,
-                    .end = tf::placement_end::out_of_range,
-                    .precision = precision};
+        found.at = {.status = tf::status::out_of_range, .end = tf::placement_end::out_of_range};
     }
     work.call_ended();
+    found.at.precision = precision;  // also of what was only measured
     if (!found.at && found.reason.empty())
         found.reason = found.at.message(fixed.labels()) + remedy_for(found.at);
     return found;

@@ -1,18 +1,14 @@
-#include "tools/tf-place/outputs.hpp"
-
 #include "tools/common/console.hpp"
 #include "tools/common/material_words.hpp"
 #include "tools/common/mesh_output.hpp"
 #include "tools/common/output_file.hpp"
+#include "tools/tf-place/outcome.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
-
-#include <algorithm>
-#include <array>
 
 namespace tools {
 namespace {
@@ -24,30 +20,6 @@ std::vector<tf::contact_class> classes_of(const body& moving, const body_set& fi
     for (std::size_t i = 0; i < fixed.bodies.size() && scene; ++i)
         bodies.push_back({fixed.bodies[i].file.get(), &fixed.bodies[i].is, found.fixed[i]});
     return tf::classes_in_files(bodies);
-}
-
-/// The files of `bodies`, each once, as a scene.
-tf::mesh_file scene_of(job& work, std::span<const body* const> bodies, const std::string& format) {
-    std::vector<tf::scene_member> members;
-    std::vector<const tf::mesh_file*> files;
-    for (const body* b : bodies) {
-        if (!files.empty() && files.back() == b->file.get()) continue;
-        files.push_back(b->file.get());
-        members.push_back({b->file.get(), stem_of(b->path), name_of_input(b->path)});
-    }
-    tf::mesh_file scene = tf::scene_of(members);
-    work.warn(scene.warnings);
-    if (format == "obj") warn_of_ambiguous_materials(work, files);
-    return scene;
-}
-
-/// Writes `file` and says so in the report.
-void write(job& work, const tf::mesh_file& file, const std::filesystem::path& path,
-           const written_form& form, tf::precision precision, bool scene) {
-    const auto written = write_mesh(
-        work, file, {.format = form.format, .ascii = form.ascii, .precision = precision}, path);
-    work.entry["output"]["scene"] = scene;
-    warn_of_rounding(work, written.max_displacement);  // of measure, and of what is fixed
 }
 
 }  // namespace
@@ -64,23 +36,22 @@ void write_matrix(const job& work, const place_settings& settings, const std::st
                [&](output_file& file) { file.write(text); });
 }
 
-tf::rounding_effects look_at_rounding(job& work, const body_set& moving, std::size_t i,
-                                      const tf::transform<3>& matrix, tf::points_view placed,
-                                      tf::precision precision) {
-    const auto timing = work.time("settle");
-    const bool was_single = is_single(*moving.bodies[i].file);
-    const auto found = tf::effects_of_rounding(
-        moving.shapes[i], matrix, placed,
-        {.before = was_single ? tf::precision::float32 : tf::precision::float64,
-         .after = precision,
-         .progress = work.progress("rounding")});
-    work.call_ended();
-    return found;
-}
-
-void enter_rounding(job& work, std::span<const tf::rounding_effects> all, tf::precision precision) {
+void enter_rounding(job& work, const body_set& moving, std::span<const placed_body> placed,
+                    tf::precision precision) {
+    if (placed.empty()) return;
     tf::rounding_effects sum;
-    for (const tf::rounding_effects& one : all) sum += one;
+    {
+        const auto timing = work.time("settle");
+        for (const placed_body& at : placed) {
+            const bool was_single = is_single(*moving.bodies[at.number].file);
+            sum += tf::effects_of_rounding(
+                moving.shapes[at.number], at.matrix, at.points,
+                {.before = was_single ? tf::precision::float32 : tf::precision::float64,
+                 .after = precision,
+                 .progress = work.progress("rounding")});
+            work.call_ended();
+        }
+    }
     work.entry["rounding"] = {{"max_move", sum.max_displacement},
                               {"step", sum.step},
                               {"collapsed_faces", or_null(sum.compared, sum.collapsed)},
@@ -93,12 +64,34 @@ void enter_rounding(job& work, std::span<const tf::rounding_effects> all, tf::pr
         warn_of_folds(work, {.collapsed = sum.collapsed, .meeting = sum.meeting}, precision);
 }
 
-void put_back(body_set& moving, std::size_t i, tf::points_view placed,
-              const tf::transform<3>& matrix, const tf::transform<3>& all_moves,
-              tf::precision precision) {
-    tf::mesh_file& file = *moving.bodies[i].file;
-    tf::put_back(file, moving.bodies[i].is, moving.shapes[i], placed, matrix, precision);
-    tf::transform_normals(file, all_moves);
+void put_back(body_set& moving, std::span<const placed_body> placed, tf::precision precision) {
+    for (const placed_body& at : placed) {
+        const body& b = moving.bodies[at.number];
+        tf::put_back(*b.file, b.is, moving.shapes[at.number], at.points, at.matrix, precision);
+        tf::transform_normals(*b.file, at.all_moves);
+    }
+}
+
+tf::mesh_file scene_of(job& work, std::span<const body* const> bodies, const std::string& format) {
+    std::vector<tf::scene_member> members;
+    std::vector<const tf::mesh_file*> files;
+    for (const body* b : bodies) {
+        if (!files.empty() && files.back() == b->file.get()) continue;
+        files.push_back(b->file.get());
+        members.push_back({b->file.get(), stem_of(b->path), name_of_input(b->path)});
+    }
+    tf::mesh_file scene = tf::scene_of(members);
+    work.warn(scene.warnings);
+    if (format == "obj") warn_of_ambiguous_materials(work, files);
+    return scene;
+}
+
+void write(job& work, const tf::mesh_file& file, const written_form& form,
+           const std::filesystem::path& path, tf::precision precision, bool scene) {
+    const auto written = write_mesh(
+        work, file, {.format = form.format, .ascii = form.ascii, .precision = precision}, path);
+    work.entry["output"]["scene"] = scene;
+    warn_of_rounding(work, written.max_displacement);  // of measure, and of what is fixed
 }
 
 void write_result(job& work, body_set& moving, const outcome& found, const body_set& fixed,
@@ -107,12 +100,9 @@ void write_result(job& work, body_set& moving, const outcome& found, const body_
     if (!path) return;
     const body& one = moving.bodies[0];
     const tf::placement& p = found.at;
+    const placed_body placed{0, p.points, p.matrix, all_moves};
     const bool picture = settings.mode == place_mode::measure;
-    if (!picture)
-        enter_rounding(
-            work,
-            std::array{look_at_rounding(work, moving, 0, p.matrix, p.points, p.precision)},
-            p.precision);
+    if (!picture) enter_rounding(work, moving, {&placed, 1}, p.precision);
     if (work.options.dry_run) return;
     const written_form form = form_of(work, *one.file, *path);
     // `fit` looks at no faces, and without fixed meshes there is nothing to meet.
@@ -120,7 +110,7 @@ void write_result(job& work, body_set& moving, const outcome& found, const body_
                         (form.format == "ply" || form.format == "glb");
     tf::contact_classes met;
     if (colors) met = tf::classify_contacts(moving.shapes[0], fixed.shapes, p);
-    put_back(moving, 0, p.points, p.matrix, all_moves, p.precision);
+    put_back(moving, {&placed, 1}, p.precision);
     std::vector<const body*> all{&one};
     for (const body& part : fixed.bodies) all.push_back(&part);
     tf::mesh_file file = settings.scene ? scene_of(work, all, form.format) : *one.file;
@@ -129,19 +119,7 @@ void write_result(job& work, body_set& moving, const outcome& found, const body_
     if (colors)
         tf::color_contacts(file, classes_of(one, fixed, met, settings.scene),
                            {.split_polygons = picture && !settings.scene, .keep_colors = as_it_is});
-    write(work, file, *path, form, p.precision, settings.scene);
-}
-
-void write_plate(job& work, const body_set& parts, const std::vector<bool>& placed,
-                 tf::precision precision) {
-    const auto path = mesh_output(work.options, work.path);
-    if (!path || work.options.dry_run) return;
-    std::vector<const body*> there;
-    for (std::size_t i = 0; i < parts.bodies.size(); ++i)
-        if (placed[i]) there.push_back(&parts.bodies[i]);
-    if (there.empty()) return;
-    const written_form form = form_of(work, *there[0]->file, *path);
-    write(work, scene_of(work, there, form.format), *path, form, precision, true);
+    write(work, file, form, *path, p.precision, settings.scene);
 }
 
 }  // namespace tools

@@ -1,8 +1,7 @@
-#include "tools/tf-place/outputs.hpp"
-
 #include "tools/common/console.hpp"
 #include "tools/common/matrix_file.hpp"
 #include "tools/common/mesh_output.hpp"
+#include "tools/tf-place/outcome.hpp"
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -17,8 +16,7 @@ body_set read_all(job& work, const tf::transform<3>& start) {
     for (const std::string& path : work.options.inputs) {
         json about = read_body(work, path, start, parts);
         const body& one = parts.bodies.back();
-        if (one.cloud)
-            refuse(one.label() + ": is a cloud of points; arrange takes meshes only");
+        if (one.cloud) refuse(one.label() + ": is a cloud of points; arrange takes meshes only");
         about["faces"] = one.file->stored_faces;
         non_finite += one.non_finite;
         work.entry["parts"].push_back(std::move(about));
@@ -71,31 +69,34 @@ exit_status arrange_all(job& work, const place_settings& settings) {
     const tf::packing found = find_places(work, parts, settings, precision);
 
     std::vector<tf::transform<3>> matrices;
-    std::vector<bool> placed;
-    std::vector<tf::rounding_effects> roundings;
+    std::vector<placed_body> placed;
+    std::vector<const body*> there;
     std::string matrix_lines;
     for (std::size_t i = 0; i < parts.bodies.size(); ++i) {
         const tf::packed_part& at = found.parts[i];
         matrices.push_back(tf::after(at.matrix, start));
-        placed.push_back(at.placed);
         matrix_lines += matrix_text(matrices[i]);
         if (!at.placed) continue;
-        if (wants_mesh(work.options))
-            roundings.push_back(look_at_rounding(work, parts, i, at.matrix, at.points, precision));
-        put_back(parts, i, at.points, at.matrix, matrices[i], precision);
+        placed.push_back({i, at.points, at.matrix, matrices[i]});
+        there.push_back(&parts.bodies[i]);
     }
     enter_places(work, parts, found, matrices);
     work.entry["bed"] = {
         {"given", settings.bed.value_or(0.0)}, {"used", found.bed}, {"reached", true}};
-    std::string words = std::to_string(parts.bodies.size() - found.not_placed.size()) + " of " +
+    std::string words = std::to_string(there.size()) + " of " +
                         counted(parts.bodies.size(), "part", "parts") + " placed";
     for (const std::uint32_t i : found.not_placed)
         words += "; no place for " + parts.bodies[i].label();
     work.out.result(work.name + ": " + words);
-    if (!roundings.empty()) enter_rounding(work, roundings, precision);
+    const auto path = mesh_output(work.options, work.path);
+    if (path) enter_rounding(work, parts, placed, precision);
     const auto timing = work.time("write");
     write_matrix(work, settings, matrix_lines);
-    write_plate(work, parts, placed, precision);
+    if (path && !work.options.dry_run && !there.empty()) {
+        put_back(parts, placed, precision);
+        const written_form form = form_of(work, *there[0]->file, *path);
+        write(work, scene_of(work, there, form.format), form, *path, precision, true);
+    }
     return found.not_placed.empty() ? done : tools::found;
 }
 

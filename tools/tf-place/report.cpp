@@ -1,4 +1,4 @@
-#include "tools/tf-place/outputs.hpp"
+#include "tools/tf-place/outcome.hpp"
 #include <treeform/tf.hpp>
 
 #include <array>
@@ -6,6 +6,20 @@
 
 namespace tools {
 namespace {
+
+constexpr const char* blank_report = R"({
+    "format": null, "sha256": null, "precision_in": null, "faces": null, "triangles": null,
+    "box": null, "mode": null, "fixed": [],
+    "skipped": {"non_finite": null, "parts_not_loaded": 0, "parts_not_indexed": null,
+        "primitives_not_indexed": null, "pairs_culled_by_box": null,
+        "face_pairs_in_motion": null, "filter_calls": null, "exact_calls": null},
+    "clearance": {"given": null, "used": null}, "max_travel": null, "bed": null, "placed": null,
+    "reason": null, "status_at_start": null, "status": null, "inside": null, "distance": null,
+    "surface_distance": null, "closest": null, "direction": null, "travel": null,
+    "backed_off": null, "matrix": null, "contacts": [], "contact_count": null, "sides": [],
+    "chosen": null, "corrected": null, "fit": null, "fits": null,
+    "tolerance": {"given": null, "used": null}, "parts": [], "not_placed": [], "rounding": null,
+    "matrix_file": null, "output": null})";
 
 void extend(std::optional<tf::box3>& box, const std::optional<tf::box3>& more) {
     if (box && more)
@@ -17,14 +31,14 @@ void extend(std::optional<tf::box3>& box, const std::optional<tf::box3>& more) {
 json side_entry(const body& b, const tf::surface_point& at) {
     json entry{{"point", at.point}};
     const json triangle = b.is.triangle(at.face);
-    entry["face"] = b.cloud ? json(nullptr) : json(b.stored_face(at.face));
-    entry["triangle"] = b.cloud ? json(nullptr) : triangle;
-    entry["barycentric"] = b.cloud ? json(nullptr) : json(at.barycentric);
-    entry["vertex"] = b.cloud ? triangle : json(nullptr);
+    entry["face"] = or_null(!b.cloud, b.stored_face(at.face));
+    entry["triangle"] = or_null(!b.cloud, triangle);
+    entry["barycentric"] = or_null(!b.cloud, at.barycentric);
+    entry["vertex"] = or_null(b.cloud, triangle);
     return entry;
 }
 
-json name_entry(const body& b) { return b.is.name.empty() ? json(nullptr) : json(b.is.name); }
+json name_entry(const body& b) { return or_null(!b.is.name.empty(), b.is.name); }
 
 /// How MOVING lies to what is nearest to it.
 void enter_nearest(json& entry, const body& moving, const tf::nearest_fixed& near,
@@ -59,21 +73,16 @@ json contacts_entry(const body& moving, const tf::placement& p, const body_set& 
 void enter_fit(json& entry, const tf::align_result& fit) {
     for (const char* key : {"status", "status_at_start", "contact_count", "travel", "backed_off"})
         entry[key] = nullptr;
-    entry["fit"] = {{"rms", fit.rms},
-                    {"rms_at_start", fit.rms_at_start},
-                    {"overlap", fit.overlap},
-                    {"scale", fit.scale},
-                    {"converged", fit.converged},
-                    {"iterations", fit.iterations},
-                    {"pivot", fit.pivot},
-                    {"pivot_moved", fit.pivot_moved}};
+    entry["fit"] = {
+        {"rms", fit.rms},     {"rms_at_start", fit.rms_at_start}, {"overlap", fit.overlap},
+        {"scale", fit.scale}, {"converged", fit.converged},       {"iterations", fit.iterations},
+        {"pivot", fit.pivot}, {"pivot_moved", fit.pivot_moved}};
 }
 
 void enter_lay(json& entry, const outcome& found) {
     for (const tf::hull_side& side : found.laid->sides)
-        entry["sides"].push_back({{"normal", side.normal},
-                                  {"area", side.area},
-                                  {"center", side.center}});
+        entry["sides"].push_back(
+            {{"normal", side.normal}, {"area", side.area}, {"center", side.center}});
     entry["chosen"] = found.laid->chosen;
     entry["tolerance"]["used"] = found.flatness;
     entry["corrected"] = found.laid->corrected;
@@ -120,32 +129,12 @@ json rows_of(const tf::transform<3>& matrix) {
 
 void enter_blank_report(job& work, const place_settings& settings) {
     json& entry = work.entry;
-    for (const char* key : {"format", "sha256", "precision_in", "faces", "triangles", "box"})
-        entry[key] = nullptr;
+    entry.update(json::parse(blank_report));
     entry["mode"] = name_of(settings.mode);
-    entry["fixed"] = json::array();
-    entry["skipped"] = {{"non_finite", nullptr},          {"parts_not_loaded", 0},
-                        {"parts_not_indexed", nullptr},   {"primitives_not_indexed", nullptr},
-                        {"pairs_culled_by_box", nullptr}, {"face_pairs_in_motion", nullptr},
-                        {"filter_calls", nullptr},        {"exact_calls", nullptr}};
-    entry["clearance"] = {{"given", settings.clearance.given}, {"used", nullptr}};
-    entry["max_travel"] = settings.max_travel ? json(settings.max_travel->given) : json(nullptr);
-    for (const char* key :
-         {"bed", "placed", "reason", "status_at_start", "status", "inside", "distance",
-          "surface_distance", "closest", "direction", "travel", "backed_off", "matrix"})
-        entry[key] = nullptr;
-    entry["contacts"] = json::array();
-    entry["contact_count"] = nullptr;
-    entry["sides"] = json::array();
-    for (const char* key : {"chosen", "corrected", "fit", "fits"}) entry[key] = nullptr;
-    entry["tolerance"] = {
-        {"given", settings.mode == place_mode::lay ? json(settings.flatness.given) : json(nullptr)},
-        {"used", nullptr}};
-    entry["parts"] = json::array();
-    entry["not_placed"] = json::array();
-    entry["rounding"] = nullptr;
-    entry["matrix_file"] = settings.matrix.empty() ? json(nullptr) : json(settings.matrix.string());
-    entry["output"] = nullptr;
+    entry["clearance"]["given"] = settings.clearance.given;
+    if (settings.max_travel) entry["max_travel"] = settings.max_travel->given;
+    if (settings.mode == place_mode::lay) entry["tolerance"]["given"] = settings.flatness.given;
+    if (!settings.matrix.empty()) entry["matrix_file"] = settings.matrix.string();
 }
 
 void enter_bodies(job& work, const body& moving, const body_set& fixed) {
@@ -186,7 +175,7 @@ void enter_report(job& work, const body& moving, const outcome& found, const bod
         entry["not_placed"].push_back(work.entry["input"]);
         return;
     }
-    entry["direction"] = p.travel > 0.0 ? p.direction : json(nullptr);
+    entry["direction"] = or_null(p.travel > 0.0, p.direction);
     entry["travel"] = p.travel;
     entry["backed_off"] = p.statistics.backed_off;
     entry["matrix"] = rows_of(matrix);

@@ -1,5 +1,5 @@
 #include "tools/common/console.hpp"
-#include "tools/tf-place/move.hpp"
+#include "tools/tf-place/outcome.hpp"
 #include <treeform/tf.hpp>
 
 #include <array>

@@ -7,8 +7,6 @@
 #include "tools/common/mesh_output.hpp"
 #include "tools/common/run.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
-#include "tools/tf-selfintersect/repairing.hpp"
-#include "tools/tf-selfintersect/search.hpp"
 #include <treeform/tf.hpp>
 
 #include <array>
@@ -31,9 +29,8 @@ struct request {
 tf::box3 parse_box(std::string_view text) {
     const auto v = tools::parse_numbers("--box", text, 6);
     const tf::box3 box{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (box.min[axis] > box.max[axis])
-            tools::refuse("--box " + std::string(text) + ": the first corner must be the low one");
+    if (v[0] > v[3] || v[1] > v[4] || v[2] > v[5])
+        tools::refuse("--box " + std::string(text) + ": the first corner must be the low one");
     return box;
 }
 
@@ -173,10 +170,9 @@ exit_status look_at(tools::job& work, const request& r) {
         tools::write_curves(work, r.curves, result);
         tools::write_page(work, result, r.search);
     }
-    if (r.repairs) {
-        const bool repaired = tools::repair_and_write(work, file, result, r.repair, output);
-        return repaired ? tools::done : tools::found;
-    }
+    if (r.repairs)
+        return tools::repair_and_write(work, file, result, r.repair, output) ? tools::done
+                                                                             : tools::found;
     if (output && !o.dry_run) tools::write_marked(work, file, result, *output);
     return found ? tools::found : tools::done;
 }

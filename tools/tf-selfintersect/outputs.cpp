@@ -27,7 +27,7 @@ json region_entry(const findings& result, std::size_t id) {
             {"faces", region.faces.size()},
             {"pairs", region.pairs},
             {"box", tf::box3{region.min, region.max}},
-            {"center", center(region)},
+            {"center", region.center()},
             {"components", result.components_of(region)}};
 }
 
@@ -35,8 +35,8 @@ json list_entry(const findings& result, std::size_t count) {
     json list = json::array();
     for (std::size_t i = 0; i < count; ++i) {
         const tf::face_pair& pair = result.found.pairs[i];
-        list.push_back({result.stored_face(pair.a), result.stored_face(pair.b), name_of(pair.kind),
-                        result.regions.region_of_pair[i]});
+        list.push_back({result.part.face_in_file(pair.a), result.part.face_in_file(pair.b),
+                        name_of(pair.kind), result.regions.region_of_pair[i]});
     }
     return list;
 }
@@ -77,9 +77,9 @@ void write_pairs(const job& work, const std::filesystem::path& path, const findi
         std::string text = "face,face,kind,region\n";
         for (std::size_t i = 0; i < result.found.pairs.size(); ++i) {
             const tf::face_pair& pair = result.found.pairs[i];
-            text += std::to_string(result.stored_face(pair.a)) + "," +
-                    std::to_string(result.stored_face(pair.b)) + "," + name_of(pair.kind) + "," +
-                    std::to_string(result.regions.region_of_pair[i]) + "\n";
+            text += std::to_string(result.part.face_in_file(pair.a)) + "," +
+                    std::to_string(result.part.face_in_file(pair.b)) + "," + name_of(pair.kind) +
+                    "," + std::to_string(result.regions.region_of_pair[i]) + "\n";
             file.write_full_pieces(text);
         }
         file.write(text);

@@ -3,8 +3,10 @@
 /// What tf-selfintersect says and writes.
 
 #include "tools/tf-selfintersect/search.hpp"
+#include <treeform/mesh/resolve.hpp>
 #include <treeform/tf.hpp>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -19,9 +21,6 @@ namespace tools {
 
 /// What -v and -vv add to the verdict.
 void say_details(job& work, const findings& result);
-
-/// The point half-way between the corners of the box of a region.
-[[nodiscard]] tf::point3 center(const tf::intersection_region& region);
 
 /// Enters the findings in `work.entry`; at most `limit` pairs are listed.
 void enter_report(job& work, const findings& result, const search_settings& settings,
@@ -40,5 +39,24 @@ void write_marked(job& work, tf::mesh_file& file, const findings& result,
 
 /// The findings as an HTML page, where one was asked for.
 void write_page(const job& work, const findings& result, const search_settings& settings);
+
+/// By `resolve_mode`.
+inline constexpr std::array<const char*, 3> repair_modes{"split", "outer", "remove"};
+
+struct repair_settings {
+    tf::resolve_mode mode = tf::resolve_mode::outer;
+    distance max_move{.given = "0.1%", .value = 1e-3, .relative = true};  ///< of any point
+    bool keep_components = false;
+    bool touching = false;  ///< faces that only touch are to be resolved, too
+};
+
+/// Repairs the mesh that was searched, enters "repair" and "output" in the report, says the verdict
+/// and writes the result to `output`, if there is one and the result is as it has to be. `input` is
+/// used up.
+///
+/// Whether it is. \throws failure
+[[nodiscard]] bool repair_and_write(job& work, tf::mesh_file& input, const findings& result,
+                                    const repair_settings& settings,
+                                    const std::optional<std::filesystem::path>& output);
 
 }  // namespace tools

@@ -26,22 +26,18 @@ std::vector<face_kind> kinds_of(const findings& result) {
 }
 
 packed_scene scene_of(const findings& result) {
-    std::vector<std::uint32_t> regions, numbers;
-    for (const std::int32_t region : result.marks.region)
-        regions.push_back(static_cast<std::uint32_t>(std::max(region, 0)));
-    for (std::uint32_t f = 0; f < regions.size(); ++f) numbers.push_back(result.stored_face(f));
+    std::vector<std::uint32_t> numbers(result.part.mesh.faces.size());
+    for (std::uint32_t f = 0; f < numbers.size(); ++f) numbers[f] = result.part.face_in_file(f);
     const auto curves = tf::intersection_curves(result.part.mesh, result.found.pairs);
     return pack({.mesh = result.part.mesh,
                  .kind = result.marks.kind,
-                 .region = regions,
+                 .region = result.marks.region,
                  .number = std::move(numbers),
                  .curves = curves});
 }
 
-std::string joined(const std::set<std::string>& words) {
-    std::string text;
-    for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-    return text;
+void append(std::string& list, const std::string& word) {
+    list += (list.empty() ? "" : ", ") + word;
 }
 
 std::vector<place_row> rows_of(const findings& result) {
@@ -53,16 +49,17 @@ std::vector<place_row> rows_of(const findings& result) {
     std::vector<place_row> rows;
     for (std::size_t id = 0; id < count; ++id) {
         const tf::intersection_region& region = result.regions.regions[id];
-        std::set<std::string> components;
+        std::string kinds_text, components;
+        for (const std::string& kind : kinds[id]) append(kinds_text, kind);
         for (const std::uint32_t c : result.components_of(region))
-            components.insert(std::to_string(c));
+            append(components, std::to_string(c));
         rows.push_back({.cells = {{std::to_string(id), true},
-                                  {joined(kinds[id])},
+                                  {kinds_text},
                                   {grouped(region.pairs), true},
                                   {grouped(region.faces.size()), true},
-                                  {in_brief(center(region))},
+                                  {in_brief(region.center())},
                                   {in_brief(region.min) + " to " + in_brief(region.max)},
-                                  {joined(components)}},
+                                  {components}},
                         .low = region.min,
                         .high = region.max});
     }

@@ -1,8 +1,7 @@
-#include "tools/tf-selfintersect/repairing.hpp"
-
 #include "tools/common/arrangeable.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/mesh_output.hpp"
+#include "tools/tf-selfintersect/outputs.hpp"
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -21,18 +20,17 @@ tf::resolve_result compute(job& work, const findings& result, const repair_setti
                            tf::precision precision) {
     check_arrangeable(work.name, result.part.mesh);
     const auto timing = work.time("repair");
-    tf::resolve_options options;
-    options.touching = settings.touching;
-    options.precision = precision;
-    options.progress = work.progress("repair");
     tf::resolve_result repaired =
-        tf::resolve_self_intersections(result.part.mesh, settings.mode, options);
+        tf::resolve_self_intersections(result.part.mesh, settings.mode,
+                                       {.precision = precision,
+                                        .touching = settings.touching,
+                                        .progress = work.progress("repair")});
     work.call_ended(repaired.certificate.status == tf::status::cancelled);
     return repaired;
 }
 
 face_numbers numbers_in_file(const findings& result) {
-    return [&result](std::uint32_t f) { return result.stored_face(f); };
+    return [&result](std::uint32_t f) { return result.part.face_in_file(f); };
 }
 
 void enter_repair(job& work, const findings& result, const repair_settings& settings,
@@ -41,7 +39,7 @@ void enter_repair(job& work, const findings& result, const repair_settings& sett
     const tf::certificate& known = repaired.certificate;
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
     work.entry["repair"] = {
-        {"mode", name_of(settings.mode)},
+        {"mode", repair_modes[std::size_t(settings.mode)]},
         {"certified", static_cast<bool>(known)},
         {"self_intersections",
          {{"before", result.found.pairs.size()}, {"after", known.meeting_count}}},
@@ -70,19 +68,18 @@ void enter_repair(job& work, const findings& result, const repair_settings& sett
 
 /// What helps against what the certificate says.
 std::string remedy_for(const tf::certificate& known, tf::resolve_mode mode) {
+    using enum tf::resolve_mode;
     const bool floats = known.precision == tf::precision::float32;
     if (known.status == tf::status::open_input)
         return "; --repair=split or --repair=remove do without";
-    if (known.status == tf::status::vanished && known.vanished_faces > 0)
-        return floats ? "; --precision double may do" : "";
+    if (known.vanished_faces > 0) return floats ? "; --precision double may do" : "";
     if (known.status == tf::status::vanished)
-        return std::string(mode == tf::resolve_mode::outer
-                               ? ": the faces cancel each other out and bound nothing"
-                               : "") +
-               "; --repair=split keeps one of each";
-    return known.meeting_count > 0 && floats && mode != tf::resolve_mode::remove
-               ? "; --precision double, in a format that has it, may do"
-               : "";
+        return mode == outer
+                   ? ": the faces cancel each other out and bound nothing; --repair=split "
+                     "keeps one of each"
+                   : "; --repair=split keeps one of each";
+    const bool by_rounding = known.meeting_count > 0 && mode != remove;
+    return floats && by_rounding ? "; --precision double, in a format that has it, may do" : "";
 }
 
 /// Why the result cannot be taken; empty when it can.
@@ -103,7 +100,7 @@ std::string objection(const findings& result, const repair_settings& settings,
 
 void say_result(job& work, const repair_settings& settings, const tf::resolve_result& repaired) {
     const tf::resolve_statistics& did = repaired.statistics;
-    std::string text = work.name + ": repaired (" + name_of(settings.mode) +
+    std::string text = work.name + ": repaired (" + repair_modes[std::size_t(settings.mode)] +
                        "): " + counted(repaired.mesh.faces.size(), "face", "faces") +
                        ", no self-intersections";
     if (did.removed > 0) text += ", " + counted(did.removed, "face", "faces") + " removed";
@@ -130,10 +127,11 @@ void add_source_faces(tf::mesh_file& file, const findings& result,
     std::vector<std::int32_t> sources;
     sources.reserve(face_of.size());
     for (const std::uint32_t f : face_of)
-        sources.push_back(
-            f == tf::resolve_result::none ? -1 : static_cast<std::int32_t>(result.stored_face(f)));
-    tf::element& rows = tf::obtain_element(file.attributes, "face", file.mesh.faces.size());
-    tf::set_column(rows, tf::make_column<std::int32_t>("source_face", sources));
+        sources.push_back(f == tf::resolve_result::none
+                              ? -1
+                              : static_cast<std::int32_t>(result.part.face_in_file(f)));
+    tf::set_column(tf::obtain_element(file.attributes, "face", file.mesh.faces.size()),
+                   tf::make_column<std::int32_t>("source_face", sources));
 }
 
 /// Gives `file` what the input has. What points have is left out where these were joined, for they
@@ -153,8 +151,6 @@ void carry(job& work, tf::mesh_file& file, tf::mesh_file& input, const findings&
 }
 
 }  // namespace
-
-const char* name_of(tf::resolve_mode mode) { return repair_modes[static_cast<std::size_t>(mode)]; }
 
 bool repair_and_write(job& work, tf::mesh_file& input, const findings& result,
                       const repair_settings& settings,

@@ -84,9 +84,9 @@ findings search(job& work, tf::mesh_file& file, const search_settings& settings,
     work.call_ended();
     work.seconds["tree"] += result.found.tree_seconds;
     work.seconds["pairs"] += result.found.pair_seconds;
-    const tf::pair_kinds counted = settings.counted();
-    std::erase_if(result.found.pairs,
-                  [&](const tf::face_pair& pair) { return !counted.contains(pair.kind); });
+    std::erase_if(result.found.pairs, [&](const tf::face_pair& pair) {
+        return !settings.counted().contains(pair.kind);
+    });
     const job::timer timing = work.time("regions");
     result.regions = tf::group_pairs(mesh, result.found.pairs);
     result.marks = tf::mark_faces(mesh.faces.size(), result.found.pairs, result.regions);
@@ -99,11 +99,11 @@ void hint_at_near_points(job& work, const findings& result) {
     if (!result.box || result.tolerance_used > 0.0 || points.size() > most) return;
     const double within = 1e-6 * tf::diagonal(*result.box);
     const std::uint64_t near = tf::count_nearly_equal(points, within);
-    if (near == 0) return;
-    work.warn("near-corners", counted(near, "vertex lies", "vertices lie") + " within " +
-                                  shortest(within) +
-                                  " of another without being equal to it; -t 0.0001% would join "
-                                  "them");
+    if (near > 0)
+        work.warn("near-corners",
+                  counted(near, "vertex lies", "vertices lie") + " within " + shortest(within) +
+                      " of another without being equal to it; -t 0.0001% would join "
+                      "them");
 }
 
 }  // namespace tools

@@ -43,10 +43,6 @@ struct findings {
     std::uint64_t points_stored = 0;
     double tolerance_used = 0.0;
 
-    /// The number in the file.
-    [[nodiscard]] std::uint32_t stored_face(std::uint32_t face) const {
-        return part.face_in_file(face);
-    }
     /// Faces in at least one pair.
     [[nodiscard]] std::uint64_t faces_hit() const;
     /// Empty where none were asked for.

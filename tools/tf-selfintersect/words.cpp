@@ -17,14 +17,14 @@ std::string verdict(const findings& result, const search_settings& settings) {
     const std::uint64_t pairs = result.found.pairs.size();
     if (settings.first && pairs > 0) {
         const tf::face_pair& pair = result.found.pairs.front();
-        return "self-intersecting: faces " + std::to_string(result.stored_face(pair.a)) + " and " +
-               std::to_string(result.stored_face(pair.b)) + " (" + name_of(pair.kind) +
-               "); stopped at the first";
+        return "self-intersecting: faces " + std::to_string(result.part.face_in_file(pair.a)) +
+               " and " + std::to_string(result.part.face_in_file(pair.b)) + " (" +
+               name_of(pair.kind) + "); stopped at the first";
     }
-    std::string text =
-        pairs == 0 ? "no self-intersections in " + counted(result.faces_stored, "face", "faces")
-                   : counted(pairs, "self-intersecting pair", "self-intersecting pairs") + " of " +
-                         counted(result.faces_stored, "face", "faces");
+    std::string text = "no self-intersections in ";
+    if (pairs > 0)
+        text = counted(pairs, "self-intersecting pair", "self-intersecting pairs") + " of ";
+    text += counted(result.faces_stored, "face", "faces");
     const char* separator = ": ";
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k) {
         const auto kind = static_cast<tf::pair_kind>(k);
@@ -53,7 +53,7 @@ void say_details(job& work, const findings& result) {
         out.info(work.name + ": region " + std::to_string(id) + ": " +
                  counted(region.pairs, "pair", "pairs") + ", " +
                  counted(region.faces.size(), "face", "faces") + ", center " +
-                 in_words(center(region)) + ", box " + in_words(region.min) + " to " +
+                 in_words(region.center()) + ", box " + in_words(region.min) + " to " +
                  in_words(region.max));
     }
     const tf::predicate_counters& predicates = result.found.predicates;
@@ -61,13 +61,6 @@ void say_details(job& work, const findings& result) {
               grouped(result.found.exact_pairs) + " left to the exact stage; " +
               grouped(predicates.calls) + " predicates, " + grouped(predicates.undecided) +
               " not settled by their filter");
-}
-
-tf::point3 center(const tf::intersection_region& region) {
-    tf::point3 middle;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        middle[axis] = 0.5 * region.min[axis] + 0.5 * region.max[axis];
-    return middle;
 }
 
 }  // namespace tools

@@ -1,4 +1,6 @@
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/marks.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 
@@ -52,4 +54,44 @@ TEST_CASE("as_mesh: of nothing nothing, and a corner that is no vertex is refuse
     CHECK_THROWS_WITH_AS(static_cast<void>(tf::as_mesh(file_of({{{0, 0, 0}}, {{0, 0, 1}}}))),
                          "treeform::as_mesh: face 0 has a corner out of range",
                          std::invalid_argument);
+}
+
+TEST_CASE("usable_part: a box cuts the search down, and faces keep the way back to the file") {
+    tf::mesh_file file = file_of(
+        {{{NAN, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}, {9, 8, 9}, {8, 9, 9}, {1, 0, 0}},
+         {{0, 1, 2}, {4, 5, 6}, {1, 7, 3}}});
+    const tf::box3 box{{-1, -1, -1}, {2, 2, 2}};
+    const tf::usable_mesh part =
+        tf::usable_part(file.mesh, {0, 4, 7}, {.box = box, .details = true});
+    CHECK(part.mesh.faces.size() == 1);
+    CHECK(part.triangle(0) == 2);
+    CHECK(part.face_in_file(0) == 7);
+    CHECK(part.dropped == 1);
+    CHECK(part.component == std::vector<std::uint32_t>{1});
+    CHECK(tf::usable_part(file.mesh, {}, {.tolerance = 0.0}).mesh.faces.size() == 2);
+}
+
+TEST_CASE("join_meshes: equal points of several meshes are one, faces tell whose they are") {
+    const tf::mesh a{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    const tf::mesh b{{{0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {NAN, 0, 0}}, {{0, 1, 2}}};
+    const std::vector<tf::mesh_view> both{a, b};
+    const tf::joined_meshes all = tf::join_meshes(both);
+    CHECK(all.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {2, 1, 3}});
+    CHECK(all.mesh_of_face == std::vector<std::uint32_t>{0, 1});
+}
+
+TEST_CASE("marks: a face shows the gravest of its pairs, faces that were left out none") {
+    tf::mesh_file file =
+        file_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}},
+                 {{0, 1, 2}, {3, 4, 5}, {0, 2, 1}}});
+    const std::vector<tf::face_pair> pairs{{0, 2, tf::pair_kind::duplicate}};
+    const auto regions = tf::group_pairs(file.mesh, pairs);
+    const tf::face_marks marks = tf::mark_faces(3, pairs, regions);
+    CHECK(marks.kind == std::vector<std::uint8_t>{4, 0, 4});
+    CHECK(marks.region == std::vector<std::int32_t>{0, -1, 0});
+    tf::color_marks(file, tf::as_mesh(file), marks);
+    const tf::element* const faces = tf::find_element(file.attributes, "face");
+    REQUIRE(faces != nullptr);
+    CHECK(tf::number_at(*tf::find_column(*faces, "tf_class"), 2) == 4.0);
+    CHECK(tf::number_at(*tf::find_column(*faces, "red"), 1) == 0xb4);
 }

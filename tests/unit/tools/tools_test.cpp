@@ -111,7 +111,7 @@ TEST_CASE("scene: thins out plain faces and keeps marked ones") {
         for (std::uint32_t i = 0; i < n; ++i)
             mesh.faces.push_back({j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i});
     std::vector<std::uint8_t> kind(mesh.faces.size(), 0);
-    std::vector<std::uint32_t> region(mesh.faces.size(), 0);
+    std::vector<std::int32_t> region(mesh.faces.size(), 0);
     std::vector<std::uint32_t> number(mesh.faces.size());
     for (std::uint32_t f = 0; f < 10; ++f) kind[7 * f] = 1;
     const tools::scene_input input{mesh, kind, region, number, {}};
@@ -134,11 +134,12 @@ TEST_CASE("scene: thins out plain faces and keeps marked ones") {
 
 TEST_CASE("scene: one point, coordinates at the ends of the range") {
     const std::vector<std::uint8_t> kind(1, 0);
-    const std::vector<std::uint32_t> zero(1, 0);
+    const std::vector<std::int32_t> region(1, 0);
+    const std::vector<std::uint32_t> number(1, 0);
     const tf::mesh point{{{1, 2, 3}}, {{0, 0, 0}}};
-    CHECK(tools::pack({point, kind, zero, zero, {}}).steps == 1);
+    CHECK(tools::pack({point, kind, region, number, {}}).steps == 1);
     const tf::mesh large{{{-1.7e308, 0, 0}, {1.7e308, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
-    CHECK(tools::pack({large, kind, zero, zero, {}}).size[0] == 1U << 22);
+    CHECK(tools::pack({large, kind, region, number, {}}).size[0] == 1U << 22);
 }
 
 TEST_CASE("pages: texts cannot break out of their place") {

@@ -148,7 +148,7 @@ void put_faces(number_stream& stream, const scene_input& input,
         stream.put(std::int64_t{input.number[f]} - last_number);
         last_number = input.number[f];
         stream.put(input.kind[f]);
-        if (input.kind[f] != 0) stream.put(input.region[f]);
+        if (input.kind[f] != 0) stream.put(static_cast<std::uint32_t>(input.region[f]));
     }
 }
 

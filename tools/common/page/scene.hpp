@@ -17,10 +17,10 @@
 namespace tools {
 
 struct scene_input {
-    tf::mesh_view mesh{};                     ///< all coordinates finite
-    std::span<const std::uint8_t> kind{};     ///< [F] 0: plain; others get a color of their own
-    std::span<const std::uint32_t> region{};  ///< [F] of the faces that are not plain
-    std::vector<std::uint32_t> number{};      ///< [F] shown when a face is clicked
+    tf::mesh_view mesh{};                    ///< all coordinates finite
+    std::span<const std::uint8_t> kind{};    ///< [F] 0: plain; others get a color of their own
+    std::span<const std::int32_t> region{};  ///< [F] of the faces that are not plain
+    std::vector<std::uint32_t> number{};     ///< [F] shown when a face is clicked
     std::span<const tf::curve_segment> curves{};
 };
 

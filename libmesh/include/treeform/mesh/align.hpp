@@ -4,6 +4,7 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -65,6 +66,9 @@ struct align_result {
     bool converged = false;
     unsigned iterations = 0;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
+
+    /// The same in the terms of all placements; faces were not looked at.
+    [[nodiscard]] TREEFORM_API placement as_placement() const;
 };
 
 /// The rigid motion, with a uniform scale if asked for, that brings the moving points near the

@@ -58,6 +58,9 @@ struct laid_flat {
     /// units in the last place; with a tolerance, about as much as that.
     double corrected = 0.0;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is empty
+
+    /// The same in the terms of all placements; nothing fixed was looked at.
+    [[nodiscard]] TREEFORM_API placement as_placement() const;
 };
 
 /// Turns `mesh` so that a flat side of its convex hull is on the bed. The center of its box keeps x

@@ -119,6 +119,11 @@ struct intersection_region {
     point3 min;                        ///< box of these faces
     point3 max;
     std::uint64_t pairs = 0;  ///< pairs in this region
+
+    /// The point half-way between the corners of the box.
+    [[nodiscard]] point3 center() const {
+        return {0.5 * min.x + 0.5 * max.x, 0.5 * min.y + 0.5 * max.y, 0.5 * min.z + 0.5 * max.z};
+    }
     friend bool operator==(const intersection_region&, const intersection_region&) = default;
 };
 
