@@ -10,6 +10,10 @@
 namespace treeform::detail::round {
 namespace {
 
+using base::cross;
+using base::dot;
+using base::minus;
+
 /// Whether two faces at edge `e` lie in one plane except for what is near, facing the same way.
 bool flat(const patch_inputs& in, std::uint32_t f, std::uint32_t g, const edge_name& e) {
     if (in.source[in.face_of[f]] == in.source[in.face_of[g]]) return true;
