@@ -238,6 +238,7 @@ void dynamic_tree<D>::settle(std::vector<std::uint32_t> pending,
         if (boxes.empty() || touched[i].empty()) continue;
         const std::vector<detail::leaf_slots> slots = detail::slots_at(touched[i], boxes.size());
         (void)detail::refit_slots<D>(boxes, slots, boxes_by_id<D>{boxes_.data()});
+        parts_[i].changed = true;
     }
     if (!pending.empty()) {
         sort(pending, id_end_);  // a build reads the boxes in this order
@@ -272,14 +273,22 @@ void dynamic_tree<D>::build_part(const std::vector<std::uint32_t>& ids) {
     });
     unused->live = ids.size();
     unused->set_limits();
+    unused->changed = true;
     statistics_.built += ids.size();
 }
 
+/// Builds the top anew, unless the parts that have changed reach as far as they did.
 template <std::size_t D>
 void dynamic_tree<D>::cover_parts() {
-    std::vector<box_type> boxes;
-    for (const packed& one : parts_) boxes.push_back(detail::box_of_root(one.boxes));
-    top_ = detail::tree_in_order(std::span<const box_type>(boxes));
+    roots_.resize(parts_.size());
+    bool reach_the_same = true;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        if (!std::exchange(parts_[i].changed, false)) continue;
+        const box_type root = detail::box_of_root(parts_[i].boxes);
+        reach_the_same = reach_the_same && root == roots_[i];
+        roots_[i] = root;
+    }
+    if (!reach_the_same) top_ = detail::tree_in_order(std::span<const box_type>(roots_));
 }
 
 template class dynamic_tree<2>;

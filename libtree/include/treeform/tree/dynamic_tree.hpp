@@ -115,6 +115,7 @@ class TREEFORM_API dynamic_tree {
         tree<D> boxes;
         std::size_t live = 0;          ///< slots that are not empty
         std::vector<box_type> limits;  ///< of the neighborhoods, as far as their primitives may go
+        bool changed = true;           ///< since the top was last right
 
         [[nodiscard]] unsigned neighborhood_level() const;
         void set_limits();
@@ -138,7 +139,8 @@ class TREEFORM_API dynamic_tree {
     detail::buffer<location> where_;   ///< by id, with room for more
     std::vector<std::uint32_t> free_;  ///< ids that are not in use
     std::vector<packed> parts_;        ///< those not in use have no slots
-    tree<D> top_;                      ///< over the boxes of those in use
+    std::vector<box_type> roots_;      ///< around each part; empty of those not in use
+    tree<D> top_;                      ///< over these
     update_statistics statistics_;
 };
 
