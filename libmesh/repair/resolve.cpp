@@ -1,5 +1,5 @@
-#include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/certify.hpp>
+#include <libmesh/base/check_faces.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/repair/remove_faces.hpp>
 #include <treeform/mesh/properties.hpp>
