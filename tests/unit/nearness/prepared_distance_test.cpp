@@ -1,5 +1,7 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/nearness/bounding_cylinders.hpp>
 #include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/triangle_blocks.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tf.hpp>
