@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces next to each other that lie in one plane, but for what is near it.
+/// Faces next to each other that lie in one plane, except for what is near it.
 
 #include <libmesh/round/joint_geometry.hpp>
 #include <treeform/mesh/mesh.hpp>

@@ -58,7 +58,7 @@ struct cloud_survey {
     std::size_t tiles = 0;
     std::size_t finished_tiles = 0;  ///< by an earlier run
     bool continued = false;          ///< this run goes on from what an earlier one has left
-    bool started_anew = false;       ///< something was left, but for another job or incomplete
+    bool started_anew = false;       ///< what was left is of another job, or incomplete
     std::vector<std::filesystem::path> damaged{};  ///< files left by it that have changed since
     std::uint64_t disk_bytes = 0;  ///< about what the tiles will take; 0 when they are there
     std::optional<std::uint64_t> disk_bytes_free{};
