@@ -152,13 +152,10 @@ double unit_for(double scale, double largest) {
     return at < largest_exponent ? scale : std::ldexp(1.0, largest_exponent - 1 - exponent);
 }
 
-point3 scaled(const point3& p, double unit) { return {p.x * unit, p.y * unit, p.z * unit}; }
+using base::largest_of;
+using base::scaled;
 
-double largest_of(const point3& p) {
-    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
-
-double largest_of(mesh_view mesh) {
+double largest_in(mesh_view mesh) {
     constexpr std::size_t grain = std::size_t{1} << 14;
     std::vector<double> largest(chunk_count(mesh.faces.size(), grain));
     for_chunks(
@@ -227,7 +224,7 @@ closest_point_query::closest_point_query(mesh_view mesh, const char* function) {
     tree_ = build_face_tree(mesh, function);
     const std::size_t blocks = chunk_count(tree_.size(), 8);
     triangles_.resize(blocks * rows * 8);
-    largest_ = largest_of(mesh);
+    largest_ = largest_in(mesh);
     unit_ = unit_for(tree_.frame().scale, largest_);
     for_chunks(blocks, 512, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t place = begin * 8; place < end * 8; ++place) {

@@ -29,11 +29,7 @@ bool shape::closed() const {
 void check_operand(const std::string& function, const std::string& operand, mesh_view mesh) {
     const std::string name = function + ": " + operand;
     base::check_faces(name.c_str(), mesh.points.size(), mesh.faces);
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-        for (const std::uint32_t corner : mesh.faces[f])
-            if (!base::is_finite(mesh.points[corner]))
-                throw std::invalid_argument("treeform::" + name + ": face " + std::to_string(f) +
-                                            " has a corner that is not finite");
+    base::check_finite_faces(name.c_str(), mesh);
 }
 
 void check_motion(const std::string& function, const point3& motion) {
