@@ -33,7 +33,6 @@ using detail::intersect::meeting;
 using detail::intersect::mesh_meetings;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t grain = std::size_t{1} << 14;
 /// Beyond this, differences and the frames of clusters might overflow.
 constexpr double largest_coordinate = 0x1p1000;
 
@@ -59,18 +58,19 @@ struct unfit_faces {
 
 unfit_faces find_unfit(mesh_view mesh) {
     unfit_faces result;
-    result.corner.resize(chunk_count(mesh.faces.size(), grain), none);
+    result.corner.resize(chunk_count(mesh.faces.size(), light_grain), none);
     result.degenerate.resize(result.corner.size());
-    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        std::uint32_t unfit = none;
-        for (std::size_t f = begin; f < end && unfit == none; ++f) {
-            for (const std::uint32_t corner : mesh.faces[f])
-                if (unfit == none && !can_be_used(mesh.points[corner])) unfit = corner;
-            if (unfit == none && is_degenerate(mesh, mesh.faces[f]))
-                result.degenerate[c].push_back(static_cast<std::uint32_t>(f));
-        }
-        result.corner[c] = unfit;
-    });
+    for_chunks(mesh.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t c) {
+                   std::uint32_t unfit = none;
+                   for (std::size_t f = begin; f < end && unfit == none; ++f) {
+                       for (const std::uint32_t corner : mesh.faces[f])
+                           if (unfit == none && !can_be_used(mesh.points[corner])) unfit = corner;
+                       if (unfit == none && is_degenerate(mesh, mesh.faces[f]))
+                           result.degenerate[c].push_back(static_cast<std::uint32_t>(f));
+                   }
+                   result.corner[c] = unfit;
+               });
     return result;
 }
 
@@ -224,7 +224,7 @@ class emitter {
           cuts_(cuts),
           numbers_(numbers),
           pieces_(pieces_of(cuts)),
-          begin_(chunk_count(mesh.faces.size(), grain) + 1) {
+          begin_(chunk_count(mesh.faces.size(), light_grain) + 1) {
         place_chunks();
     }
 
@@ -233,7 +233,7 @@ class emitter {
         detail::base::parallel_invoke(
             [&] { out.faces.resize(faces); }, [&] { out.cover_begin.resize(faces + 1); },
             [&] { out.covers.resize(covers); }, [&] { out.whole.resize(faces); });
-        for_chunks(mesh_.faces.size(), grain,
+        for_chunks(mesh_.faces.size(), light_grain,
                    [&](std::size_t begin, std::size_t end, std::size_t c) {
                        write(begin, end, begin_[c], out);
                    });
@@ -255,7 +255,7 @@ class emitter {
     }
 
     void place_chunks() {
-        for_chunks(mesh_.faces.size(), grain,
+        for_chunks(mesh_.faces.size(), light_grain,
                    [&](std::size_t begin, std::size_t end, std::size_t c) {
                        place size;
                        for (std::size_t f = begin; f < end; ++f)

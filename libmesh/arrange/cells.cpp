@@ -24,8 +24,6 @@ using detail::arrange::numbered_sets;
 using detail::arrange::surface_patches;
 using detail::base::first_bad;
 
-constexpr std::size_t grain = std::size_t{1} << 14;
-
 [[noreturn]] void refuse(const std::string& why) {
     throw std::invalid_argument("treeform::find_cells: " + why);
 }
@@ -266,7 +264,7 @@ arrangement_cells detail::arrange::cells_of(mesh_view mesh, const mesh_arrangeme
     const numbered_sets cells = joined.number();
     result.winding = winding_flood(patches, cells, labels, operand_count).run();
     result.cell_of_side.resize(cut.faces.size());
-    for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(cut.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
             const std::size_t p = patches.patch[f];
             result.cell_of_side[f] = {cells[2 * p + 1], cells[2 * p + 2]};

@@ -17,7 +17,6 @@
 namespace treeform::detail::arrange {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 14;
 constexpr auto no_point = std::numeric_limits<std::uint32_t>::max();
 
 /// Raises `top` to `p` if that is greater.
@@ -31,8 +30,8 @@ void raise(const mesh_arrangement& cut, std::uint32_t& top, std::uint32_t p) {
 
 std::uint32_t greatest_given_point(const mesh_arrangement& cut) {
     const std::vector<point3>& points = cut.given_points;
-    std::vector<std::uint32_t> tops(chunk_count(points.size(), grain), no_point);
-    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    std::vector<std::uint32_t> tops(chunk_count(points.size(), light_grain), no_point);
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         std::uint32_t top = no_point;
         for (std::size_t p = begin; p < end; ++p)
             if ((top == no_point || points[p].x >= points[top].x) &&
@@ -48,14 +47,15 @@ std::uint32_t greatest_given_point(const mesh_arrangement& cut) {
 /// The extent of all faces as one part; none where their greatest point is not that of all points.
 std::optional<part_extent> extent_of_all(const mesh_arrangement& cut) {
     const std::uint32_t top = greatest_given_point(cut);
-    std::vector<std::vector<std::uint32_t>> at_top(chunk_count(cut.faces.size(), grain));
-    for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t f = begin; f < end; ++f) {
-            const auto& [p, q, r] = cut.faces[f];
-            if (p == top || q == top || r == top)
-                at_top[c].push_back(static_cast<std::uint32_t>(f));
-        }
-    });
+    std::vector<std::vector<std::uint32_t>> at_top(chunk_count(cut.faces.size(), light_grain));
+    for_chunks(cut.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t c) {
+                   for (std::size_t f = begin; f < end; ++f) {
+                       const auto& [p, q, r] = cut.faces[f];
+                       if (p == top || q == top || r == top)
+                           at_top[c].push_back(static_cast<std::uint32_t>(f));
+                   }
+               });
     part_extent all{top, {}};
     for (const auto& chunk : at_top)
         all.faces_at_top.insert(all.faces_at_top.end(), chunk.begin(), chunk.end());
@@ -166,23 +166,24 @@ std::vector<part_extent> find_extents(const mesh_arrangement& cut, const surface
         aabb<double, 3> box;
     };
     const std::size_t given = cut.given_points.size();
-    std::vector<std::vector<extent>> runs(chunk_count(cut.faces.size(), grain));
-    for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        extent run{parts[patches.patch[begin]], begin, no_point, {}};
-        for (std::size_t f = begin; f < end; ++f) {
-            const std::uint32_t part = parts[patches.patch[f]];
-            if (run.part != part) {
-                runs[c].push_back(run);
-                run = {part, f, no_point, {}};
-            }
-            for (const std::uint32_t p : cut.faces[f]) {
-                if (p >= given) continue;
-                raise(cut, run.top, p);
-                run.box.include(cut.given_points[p]);
-            }
-        }
-        runs[c].push_back(run);
-    });
+    std::vector<std::vector<extent>> runs(chunk_count(cut.faces.size(), light_grain));
+    for_chunks(cut.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t c) {
+                   extent run{parts[patches.patch[begin]], begin, no_point, {}};
+                   for (std::size_t f = begin; f < end; ++f) {
+                       const std::uint32_t part = parts[patches.patch[f]];
+                       if (run.part != part) {
+                           runs[c].push_back(run);
+                           run = {part, f, no_point, {}};
+                       }
+                       for (const std::uint32_t p : cut.faces[f]) {
+                           if (p >= given) continue;
+                           raise(cut, run.top, p);
+                           run.box.include(cut.given_points[p]);
+                       }
+                   }
+                   runs[c].push_back(run);
+               });
     std::vector<part_extent> result(parts.count(), part_extent{no_point, {}});
     for (const auto& chunk : runs)
         for (const extent& run : chunk) {
@@ -191,7 +192,7 @@ std::vector<part_extent> find_extents(const mesh_arrangement& cut, const surface
         }
 
     std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> at_top(runs.size());
-    for_chunks(cut.faces.size(), grain, [&](std::size_t, std::size_t end, std::size_t c) {
+    for_chunks(cut.faces.size(), light_grain, [&](std::size_t, std::size_t end, std::size_t c) {
         for (std::size_t i = 0; i < runs[c].size(); ++i) {
             const auto& [part, first, top, box] = runs[c][i];
             if (top != result[part].top) continue;  // nearly all

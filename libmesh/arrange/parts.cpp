@@ -17,17 +17,17 @@
 namespace treeform::detail::arrange {
 namespace {
 
-constexpr std::size_t grain = 64;  // parts a chunk
+constexpr std::size_t part_grain = 64;  // parts a chunk
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 using box3 = aabb<double, 3>;
 
-ray<double, 3> along_x(const point3& p) { return {{p.x, p.y, p.z}, {1, 0, 0}}; }
+ray<double, 3> ray_along_x(const point3& p) { return {{p.x, p.y, p.z}, {1, 0, 0}}; }
 
 std::vector<outer_edge> find_outer_edges(mesh_view mesh, const mesh_arrangement& cut,
                                          const std::vector<part_extent>& extents) {
     std::vector<outer_edge> edges(extents.size());
-    for_chunks(extents.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(extents.size(), part_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         radial_order radial(mesh, cut);
         for (std::size_t i = begin; i < end; ++i)
             edges[i] = find_outer_edge(mesh, cut, extents[i], radial);
@@ -40,9 +40,9 @@ std::vector<std::uint32_t> parts_behind_others(const std::vector<part_extent>& e
                                                const std::vector<outer_edge>& edges) {
     const auto boxes = build(extents, [](const part_extent& e) { return e.box; });
     std::vector<unsigned char> behind(extents.size());
-    for_chunks(extents.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(extents.size(), part_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
-            behind[i] = any_hit(boxes, along_x(edges[i].from),
+            behind[i] = any_hit(boxes, ray_along_x(edges[i].from),
                                 [&](std::uint32_t other) { return other != i; });
     });
     std::vector<std::uint32_t> found;
@@ -90,7 +90,7 @@ class ray_follower {
         std::optional<crossing> first;
         std::uint32_t first_face = 0;
         double distance = infinite;
-        visit_along(tree_, along_x(edge.from), [&](std::uint32_t id) {
+        visit_along(tree_, ray_along_x(edge.from), [&](std::uint32_t id) {
             const std::uint32_t g = ids_[id];
             const auto met = ray.meet(corners(g));
             if (!met) return distance;
@@ -157,7 +157,7 @@ std::vector<part_place> place_parts(mesh_view mesh, const mesh_arrangement& cut,
     for (const std::uint32_t i : asking) reach.include(edges[i].from);
     reach.max[0] = infinite;
     const ray_follower follower(mesh, cut, reach);
-    for_chunks(asking.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(asking.size(), part_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
             places[asking[i]].beyond = follower.follow(edges[asking[i]]);
     });

@@ -21,7 +21,7 @@ namespace treeform::detail::base {
 class union_find {
   public:
     explicit union_find(std::size_t size) : parent_(size) {
-        for_chunks(size, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for_chunks(size, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) parent_[i] = static_cast<std::uint32_t>(i);
         });
     }
@@ -61,7 +61,7 @@ class union_find {
 
     /// The root of each number. \post nothing can be asked any more
     [[nodiscard]] buffer<std::uint32_t> take_roots() {
-        for_chunks(size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for_chunks(size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
                 const auto number = static_cast<std::uint32_t>(i);
                 at(number).store(root(number), std::memory_order_relaxed);
@@ -76,8 +76,6 @@ class union_find {
     [[nodiscard]] std::size_t size() const { return parent_.size(); }
 
   private:
-    static constexpr std::size_t grain = std::size_t{1} << 14;
-
     /// Relaxed: a parent is a number, and publishes nothing else.
     [[nodiscard]] std::atomic_ref<std::uint32_t> at(std::uint32_t i) {
         return std::atomic_ref<std::uint32_t>(parent_[i]);

@@ -7,9 +7,8 @@
 namespace treeform::detail::base {
 
 std::vector<std::uint32_t> used_points(std::size_t point_count, std::span<const face> faces) {
-    constexpr std::size_t grain = std::size_t{1} << 14;
     std::vector<std::uint8_t> used(point_count, 0);
-    for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
             for (const std::uint32_t corner : faces[f])
                 std::atomic_ref(used[corner]).store(1, std::memory_order_relaxed);

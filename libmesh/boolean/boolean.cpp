@@ -38,8 +38,6 @@ using detail::base::part_of;
 using detail::boolean::joined_operands;
 using detail::boolean::unmended_result;
 
-constexpr std::size_t grain = std::size_t{1} << 14;
-
 /// Operands, joined, and their arrangement, which has taken their points; their faces stay.
 struct arranged_operands {
     joined_operands joined;
@@ -121,7 +119,7 @@ void finish(unmended_result& made, mesh_arrangement& cut, std::vector<face> exac
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(exact_faces), std::vector<std::uint8_t>(face_of.size())};
     const auto source_of = [&](std::size_t f) { return cut.covers_of(face_of[f]).front().face; };
-    for_chunks(face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
             const std::uint32_t source = source_of(f);
             exact.sound[f] = cut.whole[face_of[f]] != 0 &&
@@ -152,14 +150,16 @@ void finish(unmended_result& made, mesh_arrangement& cut, std::vector<face> exac
     result.vanished_at = std::move(r.vanished_at);
     detail::base::parallel_invoke([&] { result.face_source.resize(r.face_of.size()); },
                                   [&] { result.vertex_source.resize(r.point_of.size()); });
-    for_chunks(r.face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(r.face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
             result.face_source[f] = joined.face_source(face_of[r.face_of[f]]);
     });
-    for_chunks(r.point_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t p = begin; p < end; ++p)
-            if (r.point_of[p] < given) result.vertex_source[p] = joined.point_source(r.point_of[p]);
-    });
+    for_chunks(r.point_of.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t p = begin; p < end; ++p)
+                       if (r.point_of[p] < given)
+                           result.vertex_source[p] = joined.point_source(r.point_of[p]);
+               });
     if (!options.simplify) return;
     for (const std::uint32_t p : r.point_of)
         result.face_of_cut_vertex.push_back(

@@ -31,10 +31,8 @@ void require_nameable(const char* function, std::size_t count, const char* what)
                                     " or more");
 }
 
-constexpr std::size_t grain = std::size_t{1} << 14;
-
 void renumber(std::vector<face>& faces, const std::vector<std::uint32_t>& new_of_old) {
-    for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
             for (std::uint32_t& corner : faces[f]) corner = new_of_old[corner];
     });
@@ -48,13 +46,13 @@ void append_all(std::span<const mesh_view> operands, joined_operands& joined) {
         const mesh_view& operand = operands[k];
         joined.first_point.push_back(static_cast<std::uint32_t>(point));
         joined.first_face.push_back(static_cast<std::uint32_t>(face_number));
-        for_chunks(operand.points.size(), grain,
+        for_chunks(operand.points.size(), light_grain,
                    [&](std::size_t begin, std::size_t end, std::size_t) {
                        for (std::size_t p = begin; p < end; ++p)
                            all.points[point + p] = operand.points[p];
                    });
         const auto offset = static_cast<std::uint32_t>(point);
-        for_chunks(operand.faces.size(), grain,
+        for_chunks(operand.faces.size(), light_grain,
                    [&](std::size_t begin, std::size_t end, std::size_t) {
                        for (std::size_t f = begin; f < end; ++f) {
                            const auto& [a, b, c] = operand.faces[f];

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// A face's side from one corner to the next, by the edge it is.
-struct edge_use {
+struct kept_edge {
     std::uint32_t low;
     std::uint32_t high;
     std::uint32_t face;
@@ -55,7 +55,7 @@ class merger {
                 const std::uint32_t b = surface_.faces[f][(i + 1) % 3];
                 uses_.push_back({std::min(a, b), std::max(a, b), f, a});
             }
-        std::sort(uses_.begin(), uses_.end(), [](const edge_use& u, const edge_use& v) {
+        std::sort(uses_.begin(), uses_.end(), [](const kept_edge& u, const kept_edge& v) {
             if (u.low != v.low) return u.low < v.low;
             return u.high != v.high ? u.high < v.high : u.face < v.face;
         });
@@ -64,7 +64,7 @@ class merger {
     template <class Visit>
     void for_each_edge(const Visit& visit) const {
         for (std::size_t begin = 0, end = 0; begin < uses_.size(); begin = end) {
-            const edge_use& first = uses_[begin];
+            const kept_edge& first = uses_[begin];
             while (end < uses_.size() && uses_[end].low == first.low &&
                    uses_[end].high == first.high)
                 ++end;
@@ -88,7 +88,7 @@ class merger {
     /// Two faces that meet here and nowhere bend, so that nothing is lost without the edge.
     [[nodiscard]] bool is_flat(std::size_t begin, std::size_t end) const {
         if (end - begin != 2) return false;
-        const edge_use &u = uses_[begin], &v = uses_[begin + 1];
+        const kept_edge &u = uses_[begin], &v = uses_[begin + 1];
         return u.from != v.from && group(u.face) == group(v.face) && coplanar(u.face, v.face);
     }
 
@@ -254,7 +254,7 @@ class merger {
     const exact_surface& surface_;
     const face_planes& planes_;
     std::size_t point_count_;
-    std::vector<edge_use> uses_;     ///< edge by edge
+    std::vector<kept_edge> uses_;    ///< edge by edge
     std::vector<crease> creases_{};  ///< ascending
     base::union_find regions_;       ///< of faces
     std::vector<std::uint8_t> spare_{};

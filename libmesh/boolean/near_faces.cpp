@@ -13,7 +13,6 @@
 namespace treeform::detail::boolean {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 15;
 constexpr double largest_coordinate = 0x1p1000;
 
 using box = aabb<double, 3>;
@@ -27,8 +26,8 @@ bool can_be_used(const point3& p) {
 /// What `make(begin, end)` gives for chunks, in order.
 template <class T, class Make>
 std::vector<T> by_chunks(std::size_t count, const Make& make) {
-    std::vector<T> made(chunk_count(count, grain));
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    std::vector<T> made(chunk_count(count, light_grain));
+    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         made[c] = make(begin, end);
     });
     return made;
@@ -59,9 +58,11 @@ constexpr outcode unusable = 64;
 class reach_test {
   public:
     reach_test(mesh_view mesh, const box& reach) : mesh_(mesh), codes_(mesh.points.size()) {
-        for_chunks(codes_.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t i = begin; i < end; ++i) codes_[i] = code_of(mesh.points[i], reach);
-        });
+        for_chunks(codes_.size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t i = begin; i < end; ++i)
+                           codes_[i] = code_of(mesh.points[i], reach);
+                   });
     }
 
     [[nodiscard]] bool operator()(std::size_t f) const {
@@ -121,10 +122,10 @@ ids faces_within(mesh_view mesh, const box& reach) {
 void append(mesh_view mesh, const ids& faces, std::uint32_t points_before,
             std::uint32_t faces_before, near_faces& result) {
     buffer<std::uint32_t> number(mesh.points.size());
-    for_chunks(number.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(number.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::fill(number.data() + begin, number.data() + end, 0U);
     });
-    for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
             for (const std::uint32_t corner : mesh.faces[faces[i]])
                 std::atomic_ref(number[corner]).store(1, std::memory_order_relaxed);
@@ -144,7 +145,7 @@ void append(mesh_view mesh, const ids& faces, std::uint32_t points_before,
     const std::size_t first = result.local.faces.size();
     result.local.faces.resize(first + faces.size());
     result.face_of.resize(first + faces.size());
-    for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto& [a, b, c] = mesh.faces[faces[i]];
             result.local.faces[first + i] = {number[a], number[b], number[c]};

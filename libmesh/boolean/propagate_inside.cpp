@@ -17,8 +17,6 @@
 namespace treeform::detail::boolean {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 14;
-
 /// Of a face or point: the operands whose surface it is on, as bits.
 using operand_set = std::uint8_t;
 constexpr operand_set both = 3;
@@ -74,41 +72,44 @@ class finder {
     bool find_covers() {
         std::fill_n(on_.data(), points_, operand_set{0});
         std::atomic<bool> bad{false};
-        for_chunks(cut_.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t f = begin; f < end; ++f) {
-                operand_set set = 0;
-                for (const covering_face& cover : cut_.covers_of(f)) {
-                    const auto bit = static_cast<operand_set>(1U << near_.operand_of(cover.face));
-                    if ((set & bit) != 0) bad = true;
-                    set = static_cast<operand_set>(set | bit);
-                }
-                covered_[f] = set;
-                for (const std::uint32_t p : cut_.faces[f]) {
-                    const std::atomic_ref on(on_[p]);
-                    if ((on.load(std::memory_order_relaxed) & set) != set)
-                        on.fetch_or(set, std::memory_order_relaxed);
-                }
-            }
-        });
+        for_chunks(cut_.faces.size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t f = begin; f < end; ++f) {
+                           operand_set set = 0;
+                           for (const covering_face& cover : cut_.covers_of(f)) {
+                               const auto bit =
+                                   static_cast<operand_set>(1U << near_.operand_of(cover.face));
+                               if ((set & bit) != 0) bad = true;
+                               set = static_cast<operand_set>(set | bit);
+                           }
+                           covered_[f] = set;
+                           for (const std::uint32_t p : cut_.faces[f]) {
+                               const std::atomic_ref on(on_[p]);
+                               if ((on.load(std::memory_order_relaxed) & set) != set)
+                                   on.fetch_or(set, std::memory_order_relaxed);
+                           }
+                       }
+                   });
         return !bad;
     }
 
     /// Near a point that is not on the other surface all is inside or all is outside.
     void join_at_points() {
-        for_chunks(cut_.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t f = begin; f < end; ++f) {
-                if (!is_alone(f)) continue;
-                const std::uint32_t first = element(f);
-                for (const std::uint32_t p : cut_.faces[f])
-                    if (p != first && on_[p] != both) alike_.join(first, p);
-            }
-        });
+        for_chunks(cut_.faces.size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t f = begin; f < end; ++f) {
+                           if (!is_alone(f)) continue;
+                           const std::uint32_t first = element(f);
+                           for (const std::uint32_t p : cut_.faces[f])
+                               if (p != first && on_[p] != both) alike_.join(first, p);
+                       }
+                   });
     }
 
     /// The edges between points on both surfaces, in parts, all faces at an edge in one part.
     [[nodiscard]] std::vector<std::vector<edge_use>> shared_edges() const {
-        std::vector<std::vector<edge_use>> found(chunk_count(cut_.faces.size(), grain));
-        for_chunks(cut_.faces.size(), grain,
+        std::vector<std::vector<edge_use>> found(chunk_count(cut_.faces.size(), light_grain));
+        for_chunks(cut_.faces.size(), light_grain,
                    [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                        for (std::size_t f = begin; f < end; ++f)
                            for (std::size_t i = 0; i < 3; ++i) {
@@ -200,7 +201,7 @@ class finder {
     /// sets of which nothing is known, as edges are the better witnesses.
     void look_at_boxes() {
         const std::size_t given = cut_.given_points.size();
-        for_chunks(given, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for_chunks(given, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
                 if (on_[i] == 0 || on_[i] == both) continue;
                 aabb<double, 3> at;
@@ -220,8 +221,8 @@ class finder {
     /// may be in.
     [[nodiscard]] std::array<std::vector<std::uint32_t>, 2> unknown_sets() {
         using lists = std::array<std::vector<std::uint32_t>, 2>;
-        std::vector<lists> found(chunk_count(cut_.faces.size(), grain));
-        for_chunks(cut_.faces.size(), grain,
+        std::vector<lists> found(chunk_count(cut_.faces.size(), light_grain));
+        for_chunks(cut_.faces.size(), light_grain,
                    [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                        for (std::size_t f = begin; f < end; ++f) {
                            if (!is_alone(f)) continue;
@@ -264,10 +265,11 @@ class finder {
 
     std::vector<std::uint8_t> answers() {
         std::vector<std::uint8_t> result(cut_.faces.size());
-        for_chunks(cut_.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t f = begin; f < end; ++f)
-                result[f] = is_alone(f) && told_[alike_.root(element(f))] == inside ? 1 : 0;
-        });
+        for_chunks(
+            cut_.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+                for (std::size_t f = begin; f < end; ++f)
+                    result[f] = is_alone(f) && told_[alike_.root(element(f))] == inside ? 1 : 0;
+            });
         return result;
     }
 

@@ -20,8 +20,6 @@
 namespace treeform::detail::boolean {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 15;
-
 using ids = std::vector<std::uint32_t>;
 
 /// Pairs of a face of each operand that meet beyond the corners they share.
@@ -167,10 +165,10 @@ class assembly {
         const auto use = [&](std::size_t p) {
             std::atomic_ref(number_[p]).store(1, std::memory_order_relaxed);
         };
-        for_chunks(points_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for_chunks(points_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             std::fill(number_.data() + begin, number_.data() + end, 0U);
         });
-        for_chunks(faces_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for_chunks(faces_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for_far_faces(begin, end, [&](std::size_t f) {
                 for (const std::uint32_t p : corners(f)) use(points_[operand_of(f)] + p);
             });
@@ -182,8 +180,8 @@ class assembly {
             else
                 number_[near_.point_of[p]] = 1;
 
-        std::vector<std::size_t> first(chunk_count(points_[2], grain) + 1, 0);
-        for_chunks(points_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::vector<std::size_t> first(chunk_count(points_[2], light_grain) + 1, 0);
+        for_chunks(points_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
             for (std::size_t p = begin; p < end; ++p) first[c + 1] += number_[p];
         });
         for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
@@ -191,7 +189,7 @@ class assembly {
         std::vector<point3>& points = result.mesh.points;
         points.resize(given_ + made);
         result.vertex_source.resize(given_ + made);
-        for_chunks(points_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for_chunks(points_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
             std::size_t next = first[c];
             for (std::size_t p = begin; p < end; ++p) {
                 if (number_[p] == 0) continue;
@@ -213,8 +211,8 @@ class assembly {
             return static_cast<std::size_t>(std::lower_bound(source.begin(), source.end(), face) -
                                             source.begin());
         };
-        std::vector<std::size_t> first(chunk_count(faces_[2], grain) + 1, 0);
-        for_chunks(faces_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::vector<std::size_t> first(chunk_count(faces_[2], light_grain) + 1, 0);
+        for_chunks(faces_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
             std::size_t count = looked_at(end) - looked_at(begin);
             for_far_faces(begin, end, [&](std::size_t) { ++count; });
             first[c + 1] = count;
@@ -223,7 +221,7 @@ class assembly {
         std::vector<face>& faces = result.mesh.faces;
         faces.resize(first.back());
         result.face_source.resize(first.back());
-        for_chunks(faces_[2], grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for_chunks(faces_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
             std::size_t next = first[c];
             const auto put = [&](std::size_t f, const face& corners) {
                 const std::size_t k = operand_of(f);
@@ -294,13 +292,16 @@ std::optional<boolean_result> boolean_of_sound_pair(std::span<const mesh_view, 2
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(chosen.faces)};
     exact.sound.resize(chosen.face_of.size());
-    for_chunks(exact.sound.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t f = begin; f < end; ++f) exact.sound[f] = cut.whole[chosen.face_of[f]];
-    });
-    for_chunks(chosen.face_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t f = begin; f < end; ++f)  // faces of operands from here on
-            chosen.face_of[f] = near->face_of[cut.covers_of(chosen.face_of[f]).front().face];
-    });
+    for_chunks(exact.sound.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t f = begin; f < end; ++f)
+                       exact.sound[f] = cut.whole[chosen.face_of[f]];
+               });
+    for_chunks(
+        chosen.face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t f = begin; f < end; ++f)  // faces of operands from here on
+                chosen.face_of[f] = near->face_of[cut.covers_of(chosen.face_of[f]).front().face];
+        });
     cut = {};
     inside.reset();
     // What was left out meets no box of what was cut, and so no piece of it either, rounded or not:
@@ -309,7 +310,7 @@ std::optional<boolean_result> boolean_of_sound_pair(std::span<const mesh_view, 2
     if (!rounded.certificate || rounded.vanished_components > 0) return std::nullopt;
     if (!goes_on(0.8)) return result;
     ids source(rounded.face_of.size());
-    for_chunks(source.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(source.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) source[i] = chosen.face_of[rounded.face_of[i]];
     });
     assembly(operands, *near, choice).write(rounded, source, result);

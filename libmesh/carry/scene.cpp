@@ -80,8 +80,8 @@ mesh_file scene_of(std::span<const scene_member> members) {
         files.push_back(described(*member.file));
         labels.push_back(member.label);
     }
-    std::vector<mesh_file*> all;
-    for (mesh_file& one : files) all.push_back(&one);
+    std::vector<mesh_file*> all(files.size());
+    std::transform(files.begin(), files.end(), all.begin(), [](mesh_file& one) { return &one; });
     mesh_file scene;
     scene.warnings = unite_textures(all, labels);
     scene.format = members[0].file->format;

@@ -3,6 +3,7 @@
 #include <libmesh/exact/implicit_filter.hpp>
 #include <libmesh/exact/implicit_point.hpp>
 #include <libmesh/exact/implicit_polynomials.hpp>
+#include <libmesh/exact/staged_sign.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +17,7 @@ namespace {
 
 using detail::exact::ball;
 using detail::exact::ball_of;
+using detail::exact::count_call;
 using detail::exact::count_factor;
 using detail::exact::sum;
 using detail::exact::term;
@@ -25,12 +27,6 @@ using detail::exact::vector_of;
 
 constexpr double u = 0x1p-52;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-void count(predicate_counters* counters, bool open) {
-    if (!counters) return;
-    ++counters->calls;
-    counters->undecided += open;
-}
 
 // ---- where a point is, nearly
 
@@ -242,13 +238,13 @@ int compare(int axis, const implicit_point& a, const implicit_point& b,
     const bool known = is_center(a) && is_center(b);
     const int sign = known ? compare_bits(a.center()[i], b.center()[i])
                            : detail::exact::compare_filter(axis, ball_of(a), ball_of(b));
-    count(counters, sign == undecided);
+    count_call(counters, sign == undecided);
     return sign != undecided ? sign : detail::exact::compare_exact(axis, a, b, counters);
 }
 
 bool equal(const implicit_point& a, const implicit_point& b, predicate_counters* counters) {
     if (is_center(a) && is_center(b)) {
-        count(counters, false);
+        count_call(counters, false);
         return compare_bits(a.center().x, b.center().x) == 0 &&
                compare_bits(a.center().y, b.center().y) == 0 &&
                compare_bits(a.center().z, b.center().z) == 0;
@@ -258,7 +254,7 @@ bool equal(const implicit_point& a, const implicit_point& b, predicate_counters*
     const bool open = detail::exact::compare_filter(0, p, q) == undecided &&
                       detail::exact::compare_filter(1, p, q) == undecided &&
                       detail::exact::compare_filter(2, p, q) == undecided;
-    count(counters, open);
+    count_call(counters, open);
     if (!open) return false;
     return detail::exact::equal_exact(a, b, counters);
 }
@@ -268,14 +264,14 @@ int orient2d(int axis, const implicit_point& a, const implicit_point& b, const i
     if (is_center(a) && is_center(b) && is_center(c))
         return orient2d(axis, a.center(), b.center(), c.center(), counters);
     const int sign = detail::exact::orient2d_filter(axis, ball_of(a), ball_of(b), ball_of(c));
-    count(counters, sign == undecided);
+    count_call(counters, sign == undecided);
     return sign != undecided ? sign : detail::exact::orient2d_exact(axis, a, b, c, counters);
 }
 
 int side(const plane_points& p, const implicit_point& d, predicate_counters* counters) {
     if (is_center(d)) return orient3d(p.a, p.b, p.c, d.center(), counters);
     const int sign = detail::exact::side_filter(p, ball_of(d));
-    count(counters, sign == undecided);
+    count_call(counters, sign == undecided);
     return sign != undecided ? sign : detail::exact::side_exact(p, d, counters);
 }
 
@@ -304,7 +300,7 @@ int normal_cross(int axis, const plane_points& p, const plane_points& q,
     using polynomial = detail::exact::normal_cross_polynomial;
     const auto& [a, b, c, d, e, f] = points;
     const int sign = detail::exact::filter_sign<polynomial>(a, b, c, d, e, f);
-    count(counters, sign == undecided);
+    count_call(counters, sign == undecided);
     if (sign != undecided) return sign;
     return detail::exact::exact_sign<polynomial>(
         {vector_of(a), vector_of(b), vector_of(c), vector_of(d), vector_of(e), vector_of(f)},

@@ -1,32 +1,16 @@
 #include <libmesh/exact/exact_sign.hpp>
 #include <libmesh/exact/filter.hpp>
+#include <libmesh/exact/staged_sign.hpp>
 #include <libmesh/exact/stages.hpp>
 #include <treeform/mesh/predicates.hpp>
 
 namespace treeform {
 namespace {
 
+using detail::exact::count_call;
+using detail::exact::sign_by_integers;
+using detail::exact::staged_sign;
 using detail::exact::undecided;
-using detail::exact::vector_of;
-
-void count(predicate_counters* counters, bool open) {
-    if (!counters) return;
-    ++counters->calls;
-    counters->undecided += open;
-}
-
-/// The exact stage, called with references: the filter's caller stores no copies for it.
-template <class Polynomial, class... Points>
-[[gnu::noinline]] int sign_by_integers(predicate_counters* counters, const Points&... points) {
-    return detail::exact::exact_sign<Polynomial>({vector_of(points)...}, counters);
-}
-
-template <class Polynomial, class... Points>
-int staged(predicate_counters* counters, const Points&... points) {
-    const int sign = detail::exact::filter_sign<Polynomial>(points...);
-    count(counters, sign == undecided);
-    return sign != undecided ? sign : sign_by_integers<Polynomial>(counters, points...);
-}
 
 }  // namespace
 
@@ -51,52 +35,53 @@ int orient3d_exact(const point3& a, const point3& b, const point3& c, const poin
 }  // namespace detail::exact
 
 int orient2d(const point2& a, const point2& b, const point2& c, predicate_counters* counters) {
-    return staged<detail::exact::orient2d_polynomial>(counters, a, b, c);
+    return staged_sign<detail::exact::orient2d_polynomial>(counters, a, b, c);
 }
 
 int orient2d(int axis, const point3& a, const point3& b, const point3& c,
              predicate_counters* counters) {
     const int sign = detail::exact::orient2d_filter(axis, a, b, c);
-    count(counters, sign == undecided);
+    count_call(counters, sign == undecided);
     return sign != undecided ? sign : detail::exact::orient2d_exact(axis, a, b, c, counters);
 }
 
 int orient3d(const point3& a, const point3& b, const point3& c, const point3& d,
              predicate_counters* counters) {
-    return staged<detail::exact::orient3d_polynomial>(counters, a, b, c, d);
+    return staged_sign<detail::exact::orient3d_polynomial>(counters, a, b, c, d);
 }
 
 bool collinear(const point3& a, const point3& b, const point3& c, predicate_counters* counters) {
     const int differs = detail::exact::collinear_filter(a, b, c);
-    count(counters, differs == undecided);
+    count_call(counters, differs == undecided);
     if (differs != undecided) return differs == 0;
     return sign_by_integers<detail::exact::normal_polynomial>(counters, a, b, c) == 0;
 }
 
 int compare_along(const point3& a, const point3& b, const point3& c, const point3& d,
                   predicate_counters* counters) {
-    return staged<detail::exact::compare_along_polynomial>(counters, a, b, c, d);
+    return staged_sign<detail::exact::compare_along_polynomial>(counters, a, b, c, d);
 }
 
 int compare_distance(const point3& a, const point3& b, const point3& c, const point3& d,
                      predicate_counters* counters) {
-    return staged<detail::exact::compare_distance_polynomial>(counters, a, b, c, d);
+    return staged_sign<detail::exact::compare_distance_polynomial>(counters, a, b, c, d);
 }
 
 int normal_dot(const plane_points& p, const plane_points& q, predicate_counters* counters) {
-    return staged<detail::exact::normal_dot_polynomial>(counters, p.a, p.b, p.c, q.a, q.b, q.c);
+    return staged_sign<detail::exact::normal_dot_polynomial>(counters, p.a, p.b, p.c, q.a, q.b,
+                                                             q.c);
 }
 
 int normal_turn(const plane_points& p, const plane_points& q, const point3& a, const point3& b,
                 predicate_counters* counters) {
-    return staged<detail::exact::normal_turn_polynomial>(counters, p.a, p.b, p.c, q.a, q.b, q.c, a,
-                                                         b);
+    return staged_sign<detail::exact::normal_turn_polynomial>(counters, p.a, p.b, p.c, q.a, q.b,
+                                                              q.c, a, b);
 }
 
 int normal_determinant(const plane_points& p, const plane_points& q, const plane_points& r,
                        predicate_counters* counters) {
-    return staged<detail::exact::normal_determinant_polynomial>(counters, p.a, p.b, p.c, q.a, q.b,
-                                                                q.c, r.a, r.b, r.c);
+    return staged_sign<detail::exact::normal_determinant_polynomial>(counters, p.a, p.b, p.c, q.a,
+                                                                     q.b, q.c, r.a, r.b, r.c);
 }
 
 }  // namespace treeform

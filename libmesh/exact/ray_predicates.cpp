@@ -2,6 +2,7 @@
 #include <libmesh/exact/exact_sign.hpp>
 #include <libmesh/exact/filter.hpp>
 #include <libmesh/exact/ray_polynomials.hpp>
+#include <libmesh/exact/staged_sign.hpp>
 #include <treeform/mesh/predicates.hpp>
 
 #include <array>
@@ -10,25 +11,10 @@
 namespace treeform {
 namespace {
 
+using detail::exact::staged_sign;
 using detail::exact::vector_of;
 
 constexpr point3 zero{};
-
-template <class Polynomial, class... Points>
-[[gnu::noinline]] int exact(predicate_counters* counters, const Points&... points) {
-    return detail::exact::exact_sign<Polynomial>({vector_of(points)...}, counters);
-}
-
-template <class Polynomial, class... Points>
-int staged(predicate_counters* counters, const Points&... points) {
-    const int sign = detail::exact::filter_sign<Polynomial>(points...);
-    const bool open = sign == detail::exact::undecided;
-    if (counters) {
-        ++counters->calls;
-        counters->undecided += open;
-    }
-    return open ? exact<Polynomial>(counters, points...) : sign;
-}
 
 /// Whether the filter's bound puts the value's relative error below 2^-42.
 bool is_accurate(const detail::exact::sum& s) {
@@ -41,12 +27,12 @@ bool is_accurate(const detail::exact::sum& s) {
 
 int direction_side(const point3& a, const point3& b, const point3& c, const point3& d,
                    predicate_counters* counters) {
-    return staged<detail::exact::direction_side_polynomial>(counters, a, b, c, d, zero);
+    return staged_sign<detail::exact::direction_side_polynomial>(counters, a, b, c, d, zero);
 }
 
 int line_side(int axis, const point3& o, const point3& d, const point3& p,
               predicate_counters* counters) {
-    return staged<detail::exact::line_side_polynomial>(
+    return staged_sign<detail::exact::line_side_polynomial>(
         counters, detail::exact::projection(axis, o), detail::exact::projection(axis, p),
         detail::exact::projection(axis, d), detail::exact::projection(axis, zero));
 }
@@ -58,14 +44,14 @@ int compare_cuts(const point3& o, const point3& d, const cutting_plane& p, const
 
 int compare_cuts(const point3& d, const point3& o, const cutting_plane& p, const point3& r,
                  const cutting_plane& q, predicate_counters* counters) {
-    return staged<detail::exact::compare_cuts_polynomial>(counters, o, d, zero, p.at, p.u_from,
-                                                          p.u_to, p.v_from, p.v_to, q.at, q.u_from,
-                                                          q.u_to, q.v_from, q.v_to, r);
+    return staged_sign<detail::exact::compare_cuts_polynomial>(
+        counters, o, d, zero, p.at, p.u_from, p.u_to, p.v_from, p.v_to, q.at, q.u_from, q.u_to,
+        q.v_from, q.v_to, r);
 }
 
 int compare_cut(const point3& o, const point3& d, const cutting_plane& p, double s,
                 predicate_counters* counters) {
-    return staged<detail::exact::compare_cut_polynomial>(
+    return staged_sign<detail::exact::compare_cut_polynomial>(
         counters, o, d, zero, p.at, p.u_from, p.u_to, p.v_from, p.v_to, point3{s, 1.0, 0.0});
 }
 

@@ -10,6 +10,8 @@
 
 namespace treeform::detail::geometry {
 
+constexpr const point3& at(const triangle3& t, int i) { return t[static_cast<std::size_t>(i)]; }
+
 constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
 constexpr int previous(int i) { return i == 0 ? 2 : i - 1; }
 

@@ -10,8 +10,6 @@
 namespace treeform::detail::geometry {
 namespace {
 
-const point3& at(const triangle3& t, int i) { return t[static_cast<std::size_t>(i)]; }
-
 /// An integer that orders as the double does, both zeros being one.
 std::int64_t ordered_bits(double x) {
     const auto bits = std::bit_cast<std::int64_t>(x);

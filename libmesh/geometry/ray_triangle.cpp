@@ -16,9 +16,8 @@
 namespace treeform {
 namespace {
 
+using detail::geometry::at;
 using signs = std::array<int, 3>;
-
-const point3& at(const triangle3& t, int i) { return t[static_cast<std::size_t>(i)]; }
 
 constexpr point3 zero{};
 constexpr std::array<point3, 3> unit{point3{1, 0, 0}, point3{0, 1, 0}, point3{0, 0, 1}};

@@ -11,6 +11,7 @@
 namespace treeform {
 namespace {
 
+using detail::geometry::at;
 using detail::geometry::interval_end;
 using detail::geometry::plane_interval;
 using signs = std::array<int, 3>;
@@ -28,8 +29,6 @@ bool strictly_on_both_sides(const signs& s) {
     const bool below = s[0] < 0 || s[1] < 0 || s[2] < 0;
     return above && below;
 }
-
-const point3& at(const triangle3& t, int i) { return t[static_cast<std::size_t>(i)]; }
 
 /// Two triangles whose planes meet in a line, which both reach: each cuts an interval from it.
 ///

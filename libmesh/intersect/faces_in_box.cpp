@@ -64,9 +64,8 @@ std::vector<std::uint32_t> faces_in_box(mesh_view mesh, const point3& min, const
         });
     };
 
-    constexpr std::size_t grain = 1 << 14;
-    std::vector<std::vector<std::uint32_t>> found(chunk_count(mesh.faces.size(), grain));
-    for_chunks(mesh.faces.size(), grain,
+    std::vector<std::vector<std::uint32_t>> found(chunk_count(mesh.faces.size(), light_grain));
+    for_chunks(mesh.faces.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                    for (std::size_t f = begin; f < end; ++f)
                        if (meets(mesh.faces[f]))

@@ -12,7 +12,7 @@ namespace {
 
 using base::triangle_of;
 
-constexpr std::size_t grain = std::size_t{1} << 7;
+constexpr std::size_t pair_grain = std::size_t{1} << 7;
 
 std::size_t place_of(feature f) { return static_cast<std::size_t>(geometry::index_of(f)); }
 
@@ -48,26 +48,27 @@ implicit_point point_of(mesh_view mesh, const point_name& name) {
 mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs) {
     mesh_meetings result;
     result.meetings.resize(pairs.size());
-    std::vector<std::vector<open_end>> open_of(chunk_count(pairs.size(), grain));
-    for_chunks(pairs.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto [a, b, kind] = pairs[i];
-            const triangle_contact common =
-                treeform::intersect(triangle_of(mesh, a), triangle_of(mesh, b));
-            meeting& m = result.meetings[i];
-            m = {a, b, common.kind, common.coplanar, common.count, {}};
-            for (std::uint8_t k = 0; k < common.count; ++k) {
-                const contact at = common.ends[k];
-                m.ends[k] = {0, at.on_a, at.on_b};
-                if (geometry::is_corner(at.on_a))
-                    m.ends[k].point = mesh.faces[a][place_of(at.on_a)];
-                else if (geometry::is_corner(at.on_b))
-                    m.ends[k].point = mesh.faces[b][place_of(at.on_b)];
-                else
-                    open_of[chunk].push_back({name_of(mesh, a, b, at), i, k});
-            }
-        }
-    });
+    std::vector<std::vector<open_end>> open_of(chunk_count(pairs.size(), pair_grain));
+    for_chunks(pairs.size(), pair_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                   for (std::size_t i = begin; i < end; ++i) {
+                       const auto [a, b, kind] = pairs[i];
+                       const triangle_contact common =
+                           treeform::intersect(triangle_of(mesh, a), triangle_of(mesh, b));
+                       meeting& m = result.meetings[i];
+                       m = {a, b, common.kind, common.coplanar, common.count, {}};
+                       for (std::uint8_t k = 0; k < common.count; ++k) {
+                           const contact at = common.ends[k];
+                           m.ends[k] = {0, at.on_a, at.on_b};
+                           if (geometry::is_corner(at.on_a))
+                               m.ends[k].point = mesh.faces[a][place_of(at.on_a)];
+                           else if (geometry::is_corner(at.on_b))
+                               m.ends[k].point = mesh.faces[b][place_of(at.on_b)];
+                           else
+                               open_of[chunk].push_back({name_of(mesh, a, b, at), i, k});
+                       }
+                   }
+               });
 
     std::vector<open_end> open;
     for (const auto& part : open_of) open.insert(open.end(), part.begin(), part.end());
@@ -79,10 +80,11 @@ mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs) {
             static_cast<std::uint32_t>(mesh.points.size() + result.names.size() - 1);
     }
     result.points.resize(result.names.size());
-    for_chunks(result.names.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            result.points[i] = point_of(mesh, result.names[i]);
-    });
+    for_chunks(result.names.size(), pair_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i)
+                       result.points[i] = point_of(mesh, result.names[i]);
+               });
     return result;
 }
 

@@ -25,7 +25,7 @@
 namespace treeform {
 namespace {
 
-constexpr std::size_t grain = 256;                        // points a chunk
+constexpr std::size_t point_grain = 256;                  // points a chunk
 constexpr std::size_t star_grain = std::size_t{1} << 14;  // points of the mesh a chunk
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -145,7 +145,7 @@ std::vector<point_location> locate_all(const Locator& locator, std::span<const P
         if (!is_finite(points[i]))
             refuse(std::string(name) + ": point " + std::to_string(i) + " is not finite");
     std::vector<point_location> found(points.size());
-    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(points.size(), point_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) found[i] = locator.locate(points[i]);
     });
     return found;

@@ -14,7 +14,7 @@
 namespace treeform::detail::intersect {
 namespace {
 
-constexpr std::size_t grain = 256;  // rays a chunk
+constexpr std::size_t ray_grain = 256;  // rays a chunk
 
 void check(const ray3& ray, std::size_t number) {
     bool finite = true;
@@ -129,7 +129,7 @@ bool ray_query::any(const ray3& ray) const {
 std::vector<std::optional<mesh_hit>> ray_query::first(std::span<const ray3> rays) const {
     check(rays);
     std::vector<std::optional<mesh_hit>> found(rays.size());
-    for_chunks(rays.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(rays.size(), ray_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) found[i] = first(rays[i]);
     });
     return found;
@@ -139,8 +139,8 @@ mesh_hits ray_query::all(std::span<const ray3> rays) const {
     check(rays);
     mesh_hits result;
     result.begin.resize(rays.size() + 1);
-    std::vector<std::vector<mesh_hit>> parts(chunk_count(rays.size(), grain));
-    for_chunks(rays.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+    std::vector<std::vector<mesh_hit>> parts(chunk_count(rays.size(), ray_grain));
+    for_chunks(rays.size(), ray_grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::vector<mesh_hit> hits = all(rays[i]);
             parts[chunk].insert(parts[chunk].end(), hits.begin(), hits.end());
@@ -156,7 +156,7 @@ mesh_hits ray_query::all(std::span<const ray3> rays) const {
 std::vector<std::uint8_t> ray_query::any(std::span<const ray3> rays) const {
     check(rays);
     std::vector<std::uint8_t> found(rays.size());
-    for_chunks(rays.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(rays.size(), ray_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) found[i] = any(rays[i]);
     });
     return found;

@@ -21,8 +21,6 @@
 namespace treeform {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 14;
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -55,13 +53,14 @@ bool fits_filter(points_view points) {
 /// The faces in leaf order, so that candidates find theirs side by side.
 detail::buffer<detail::intersect::numbered_face> leaf_order(mesh_view mesh, const tree<3>& tree) {
     detail::buffer<detail::intersect::numbered_face> faces(mesh.faces.size());
-    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t id = tree.ids()[i];
-            const face& f = mesh.faces[id];
-            faces[i] = {f[0], f[1], f[2], id};
-        }
-    });
+    for_chunks(mesh.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i) {
+                       const std::uint32_t id = tree.ids()[i];
+                       const face& f = mesh.faces[id];
+                       faces[i] = {f[0], f[1], f[2], id};
+                   }
+               });
     return faces;
 }
 

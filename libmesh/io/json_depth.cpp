@@ -14,7 +14,7 @@ namespace treeform::detail::io {
 
 namespace {
 
-constexpr std::size_t deepest = 500;
+constexpr std::size_t deepest_json = 500;
 constexpr std::size_t deepest_node = 1000;
 
 /// Of binary glTF, of both versions, the first chunk; its length is four bytes at 12.
@@ -42,9 +42,9 @@ void refuse_deep_brackets(const source& gltf, std::string_view json) {
             at = end_of_string(at + 1, end);
             if (at == end) return;
         } else if (*at == '[' || *at == '{') {
-            if (++depth > deepest)
-                gltf.fail_byte(at,
-                               "JSON nested more than " + std::to_string(deepest) + " levels deep");
+            if (++depth > deepest_json)
+                gltf.fail_byte(
+                    at, "JSON nested more than " + std::to_string(deepest_json) + " levels deep");
         } else if (*at == ']' || *at == '}') {
             if (depth == 0) return;
             --depth;

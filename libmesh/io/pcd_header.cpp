@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::size_t most_values = 65'536;  ///< in a row; a field of many is a histogram
 
-struct field {
+struct declared_field {
     std::string name{};
     char kind = 'F';
     std::size_t size = 4;
     std::size_t count = 1;
 };
 
-[[nodiscard]] std::optional<scalar_type> type_of(const field& f) {
+[[nodiscard]] std::optional<scalar_type> type_of(const declared_field& f) {
     constexpr std::array<std::pair<const char*, scalar_type>, 10> types{{
         {"I1", scalar_type::int8},
         {"U1", scalar_type::uint8},
@@ -39,9 +39,9 @@ struct field {
     return std::nullopt;
 }
 
-class header_reader {
+class pcd_header_reader {
   public:
-    explicit header_reader(const source& in) : text_(in) {}
+    explicit pcd_header_reader(const source& in) : text_(in) {}
 
     pcd_header read() {
         while (!has_data_) {
@@ -68,11 +68,11 @@ class header_reader {
         else if (keyword == "FIELDS" || keyword == "COLUMNS")
             names();
         else if (keyword == "SIZE")
-            each([&](field& f) { f.size = number(8); });
+            each([&](declared_field& f) { f.size = number(8); });
         else if (keyword == "TYPE")
-            each([&](field& f) { f.kind = kind(); });
+            each([&](declared_field& f) { f.kind = kind(); });
         else if (keyword == "COUNT")
-            each([&](field& f) { f.count = number(most_values); });
+            each([&](declared_field& f) { f.count = number(most_values); });
         else if (keyword == "WIDTH")
             width_ = number_at_word();
         else if (keyword == "HEIGHT")
@@ -121,7 +121,7 @@ class header_reader {
 
     template <class F>
     void each(F&& f) {
-        for (field& one : fields_) {
+        for (declared_field& one : fields_) {
             if (line_ends()) fail("fewer words than fields");
             f(one);
         }
@@ -163,7 +163,7 @@ class header_reader {
 
     void place_fields() {
         std::size_t values = 0;
-        for (const field& f : fields_) {
+        for (const declared_field& f : fields_) {
             const auto type = type_of(f);
             if (!type)
                 text_.file.fail("field " + f.name + ": no type " + f.kind + " has " +
@@ -174,7 +174,7 @@ class header_reader {
         }
     }
 
-    void add_columns(const field& f, scalar_type type) {
+    void add_columns(const declared_field& f, scalar_type type) {
         for (std::size_t i = 0; i < f.count; ++i) {
             const std::string number = f.count > 1 ? '[' + std::to_string(i) + ']' : "";
             header_.vertices.columns.push_back({.name = f.name + number, .type = type});
@@ -219,7 +219,7 @@ class header_reader {
 
     text text_;
     pcd_header header_{};
-    std::vector<field> fields_{};
+    std::vector<declared_field> fields_{};
     const char* start_ = nullptr;  ///< of the statement
     std::optional<std::uint64_t> width_{};
     std::optional<std::uint64_t> height_{};
@@ -242,6 +242,6 @@ std::string_view name_of(pcd_encoding encoding) {
     return "pcd-binary-compressed";
 }
 
-pcd_header read_pcd_header(const source& in) { return header_reader(in).read(); }
+pcd_header read_pcd_header(const source& in) { return pcd_header_reader(in).read(); }
 
 }  // namespace treeform::detail::io

@@ -32,9 +32,9 @@ constexpr std::array<std::pair<std::string_view, scalar_type>, 18> type_names{{
 
 bool is_integer(scalar_type type) { return type < scalar_type::float32; }
 
-class header_reader {
+class ply_header_reader {
   public:
-    explicit header_reader(const source& in) : text_(in) {}
+    explicit ply_header_reader(const source& in) : text_(in) {}
 
     ply_header read() {
         if (text_.word() != "ply") text_.fail("no 'ply' at the start");
@@ -225,6 +225,6 @@ std::string_view name_of(scalar_type type) {
     return type_names[static_cast<std::size_t>(type)].first;
 }
 
-ply_header read_ply_header(const source& in) { return header_reader(in).read(); }
+ply_header read_ply_header(const source& in) { return ply_header_reader(in).read(); }
 
 }  // namespace treeform::detail::io

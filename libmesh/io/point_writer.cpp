@@ -12,7 +12,7 @@ namespace treeform {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_block(const std::string& what) {
     throw std::invalid_argument("point_writer: " + what);
 }
 
@@ -26,7 +26,7 @@ namespace {
     head.attributes.obj_info = header.attributes.obj_info;
     for (const element& e : header.attributes.elements) {
         if (e.name != "vertex" && e.rows > 0)
-            refuse("the header's element " + e.name + " has rows");
+            refuse_block("the header's element " + e.name + " has rows");
         detail::io::restart(head.attributes.elements.emplace_back(), e);
     }
     for (const element& e : head.attributes.elements) detail::io::check_columns(e);
@@ -65,15 +65,15 @@ struct point_writer::state {
 
     void check(const point_block& block) const {
         const element& properties = block.properties;
-        if (block.points.size() > count - written) refuse("more points than were announced");
+        if (block.points.size() > count - written) refuse_block("more points than were announced");
         if (properties.rows != block.points.size())
-            refuse("another number of rows than there are points");
+            refuse_block("another number of rows than there are points");
         if (!same_columns(properties, find_element(head.attributes, "vertex")))
-            refuse("the columns are not those of the header");
+            refuse_block("the columns are not those of the header");
         detail::io::check_columns(properties);
         if (result.written_as == precision::float32 && !options.precision &&
             !fits_single(block.points))
-            refuse("a coordinate is no float32 value, as the header says");
+            refuse_block("a coordinate is no float32 value, as the header says");
     }
 
     std::uint64_t count;

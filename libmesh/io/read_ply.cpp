@@ -131,7 +131,7 @@ class body_reader {
 
 /// Calls f with the values of the body, and with the name of their format.
 template <class F>
-void with_values(const source& in, const ply_header& header, F&& f) {
+void with_reader(const source& in, const ply_header& header, F&& f) {
     switch (header.encoding) {
         case ply_encoding::ascii:
             return f("ply-ascii", text_values(in, header.body));
@@ -167,7 +167,7 @@ mesh_file read_ply(const source& in) {
     ply_header header = read_ply_header(in);
     mesh_file file;
     take_remarks(header, file);
-    with_values(in, header, [&](const char* format, auto values) {
+    with_reader(in, header, [&](const char* format, auto values) {
         file.format = format;
         file.attributes.elements = std::move(header.elements);
         body_reader<decltype(values)>(in, std::move(values), file).read();
@@ -184,7 +184,7 @@ point_rows open_ply_points(const source& in) {
         if (&e != &vertices && e.rows > 0)
             in.fail("element '" + e.name + "' has rows; only files of points are read in blocks");
     rows.count = vertices.rows;
-    with_values(in, header, [&](const char* format, auto values) {
+    with_reader(in, header, [&](const char* format, auto values) {
         check_room(values, vertices);
         rows.head.format = format;
         rows.append = ply_runs(std::move(values), vertices.rows);

@@ -13,12 +13,12 @@ namespace treeform::detail::io {
 
 namespace {
 
-constexpr std::size_t deepest = 1000;
+constexpr std::size_t deepest_scene = 1000;
 constexpr std::size_t npos = std::string_view::npos;
 
 /// `at` is where the thousand and first level begins.
-[[noreturn]] void refuse(const source& in, std::size_t at) {
-    in.fail("byte " + std::to_string(at) + ": nested more than " + std::to_string(deepest) +
+[[noreturn]] void refuse_depth(const source& in, std::size_t at) {
+    in.fail("byte " + std::to_string(at) + ": nested more than " + std::to_string(deepest_scene) +
             " levels deep");
 }
 
@@ -53,7 +53,7 @@ void refuse_deep_tags(const source& in, std::string_view xml) {
         } else {
             const std::size_t end = end_of_tag(xml, at);
             if (xml[end - 1] != '>' || xml[end - 2] != '/') ++depth;
-            if (depth > deepest) refuse(in, at);
+            if (depth > deepest_scene) refuse_depth(in, at);
             at = end;
         }
     }
@@ -70,7 +70,7 @@ void refuse_deep_braces(const source& in, std::string_view text, const std::stri
         const bool two = text.substr(at).starts_with('/');
         if (comment.find(c) != npos && (c != '/' || two)) at = behind(text, "\n", at);
         if (c == '"') at = behind(text, "\"", at);
-        if (c == '{' && ++depth > deepest) refuse(in, at - 1);
+        if (c == '{' && ++depth > deepest_scene) refuse_depth(in, at - 1);
         if (c == '}' && depth > 0) --depth;
     }
 }
@@ -94,7 +94,7 @@ void refuse_deep_records(const source& in, std::string_view fbx) {
         at += bytes + name;
         if (at == end) continue;
         ends.push_back(end);
-        if (ends.size() > deepest) refuse(in, at);
+        if (ends.size() > deepest_scene) refuse_depth(in, at);
     }
 }
 

@@ -13,7 +13,7 @@ namespace treeform {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_file(const std::string& what) {
     throw std::invalid_argument("treeform::write: " + what);
 }
 
@@ -24,13 +24,13 @@ namespace detail::io {
 void check_columns(const element& e) {
     for (const column& c : e.columns) {
         if (c.name.empty() || std::any_of(c.name.begin(), c.name.end(), is_space))
-            refuse("column name '" + c.name + "' is empty or has blanks");
+            refuse_file("column name '" + c.name + "' is empty or has blanks");
         if (c.role != column_role::data) continue;
         const std::size_t values = value_count(c);
         const bool fits = c.list_length
                               ? c.list_begin.size() == e.rows + 1 && c.list_begin.back() == values
                               : values == e.rows;
-        if (!fits) refuse("column " + c.name + " does not fit element " + e.name);
+        if (!fits) refuse_file("column " + c.name + " does not fit element " + e.name);
     }
 }
 
@@ -76,21 +76,22 @@ void check_faces(const mesh_file& file) {
     for (std::size_t f = 0; f < faces.size(); ++f)
         for (const std::uint32_t corner : faces[f])
             if (corner >= file.mesh.points.size())
-                refuse("face " + std::to_string(f) + " has a corner out of range");
+                refuse_file("face " + std::to_string(f) + " has a corner out of range");
     const auto& stored = file.stored_face;
     if (const auto fault = fault_of(file.attributes.corners, faces.size()); !fault.empty())
-        refuse(fault);
+        refuse_file(fault);
     if (stored.empty()) return;
-    if (stored.size() != faces.size()) refuse("stored_face has another size than faces");
-    if (stored[0] != 0) refuse("stored_face does not start with face 0");
+    if (stored.size() != faces.size()) refuse_file("stored_face has another size than faces");
+    if (stored[0] != 0) refuse_file("stored_face does not start with face 0");
     for (std::size_t f = 1; f < faces.size(); ++f) {
         if (stored[f] == stored[f - 1]) {
             const corner_values& corners = file.attributes.corners;
             if (!continues_fan(faces, f) || !continues_fan(corners.texture_of_corner, f) ||
                 !continues_fan(corners.normal_of_corner, f))
-                refuse("the triangles of stored face " + std::to_string(stored[f]) + " are no fan");
+                refuse_file("the triangles of stored face " + std::to_string(stored[f]) +
+                            " are no fan");
         } else if (stored[f] != stored[f - 1] + 1) {
-            refuse("stored_face skips a face before triangle " + std::to_string(f));
+            refuse_file("stored_face skips a face before triangle " + std::to_string(f));
         }
     }
 }
@@ -98,9 +99,9 @@ void check_faces(const mesh_file& file) {
 void check_attributes(const mesh_file& file) {
     for (const element& e : file.attributes.elements) {
         if (e.name == "vertex" && e.rows != file.mesh.points.size())
-            refuse("element vertex has another number of rows than there are points");
+            refuse_file("element vertex has another number of rows than there are points");
         if (e.name == "face" && e.rows != detail::io::stored_face_count(file))
-            refuse("element face has another number of rows than there are stored faces");
+            refuse_file("element face has another number of rows than there are stored faces");
         detail::io::check_columns(e);
     }
 }

@@ -156,10 +156,9 @@ using base::largest_of;
 using base::scaled;
 
 double largest_in(mesh_view mesh) {
-    constexpr std::size_t grain = std::size_t{1} << 14;
-    std::vector<double> largest(chunk_count(mesh.faces.size(), grain));
+    std::vector<double> largest(chunk_count(mesh.faces.size(), light_grain));
     for_chunks(
-        mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        mesh.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
             for (std::size_t i = begin; i < end; ++i)
                 for (const std::uint32_t corner : mesh.faces[i])
                     largest[chunk] = std::max(largest[chunk], largest_of(mesh.points[corner]));

@@ -56,7 +56,7 @@ struct candidate {
     footprint cells{};
 };
 
-struct shape {
+struct part_shape {
     std::vector<candidate> candidates{};  ///< those that are not larger than the plate
     double area = 0.0;                    ///< covered, of the first
 };
@@ -74,13 +74,13 @@ double cell_length(std::span<const mesh_view> parts, const pack_options& o) {
 }
 
 /// Whether a turn covers other cells than those before, as one of a box by 180 degrees does not.
-bool is_new(const shape& s, const candidate& c) {
+bool is_new(const part_shape& s, const candidate& c) {
     return std::none_of(s.candidates.begin(), s.candidates.end(),
                         [&](const candidate& other) { return other.cells == c.cells; });
 }
 
-std::vector<shape> shapes_of(std::span<const mesh_view> parts, const pack_options& o, double cell,
-                             const progress_callback& progress) {
+std::vector<part_shape> shapes_of(std::span<const mesh_view> parts, const pack_options& o,
+                                  double cell, const progress_callback& progress) {
     const std::vector<unsigned> turns = turns_of(o.turns);
     std::vector<candidate> all(parts.size() * turns.size());
     detail::base::work_progress work(progress);
@@ -99,11 +99,11 @@ std::vector<shape> shapes_of(std::span<const mesh_view> parts, const pack_option
                           detail::place::cells_covered(there.mesh(), 0.0, 0.0, cell)};
         }
     });
-    std::vector<shape> shapes(parts.size());
+    std::vector<part_shape> shapes(parts.size());
     for (std::size_t i = 0; i < all.size(); ++i)
         if (all[i].cells.cells != 0 && is_new(shapes[i / turns.size()], all[i]))
             shapes[i / turns.size()].candidates.push_back(std::move(all[i]));
-    for (shape& s : shapes)
+    for (part_shape& s : shapes)
         if (!s.candidates.empty())
             s.area = static_cast<double>(s.candidates[0].cells.cells) * cell * cell;
     return shapes;
@@ -112,7 +112,7 @@ std::vector<shape> shapes_of(std::span<const mesh_view> parts, const pack_option
 /// One filling of the plate, part by part.
 class filling {
   public:
-    filling(std::span<const mesh_view> parts, const std::vector<shape>& shapes,
+    filling(std::span<const mesh_view> parts, const std::vector<part_shape>& shapes,
             const pack_options& options, double cell, bool square)
         : parts_(parts),
           shapes_(shapes),
@@ -198,7 +198,7 @@ class filling {
     static constexpr unsigned most_tries = 24;
 
     std::span<const mesh_view> parts_;
-    const std::vector<shape>& shapes_;
+    const std::vector<part_shape>& shapes_;
     const pack_options& options_;
     double cell_;
     plate plate_;
@@ -206,11 +206,11 @@ class filling {
 };
 
 /// The parts by descending area, the first two times; later with areas changed at random.
-std::vector<std::uint32_t> order_of(const std::vector<shape>& shapes, std::uint64_t seed,
+std::vector<std::uint32_t> order_of(const std::vector<part_shape>& shapes, std::uint64_t seed,
                                     unsigned attempt) {
     std::mt19937_64 engine(seed * 1'000'003 + attempt);
     std::vector<double> weight;
-    for (const shape& s : shapes) {
+    for (const part_shape& s : shapes) {
         const double change = static_cast<double>(engine() >> 11) * 0x1p-53;
         weight.push_back(attempt < 2 ? s.area : s.area * (0.5 + change));
     }
@@ -230,7 +230,7 @@ packing pack(std::span<const mesh_view> parts, const pack_options& options) {
         detail::place::check_operand("pack", "part " + std::to_string(i), parts[i]);
     const double cell = cell_length(parts, options);
     detail::base::work_progress work(options.progress);
-    const std::vector<shape> shapes = shapes_of(parts, options, cell, work.part(0.0, 0.2));
+    const std::vector<part_shape> shapes = shapes_of(parts, options, cell, work.part(0.0, 0.2));
 
     packing best;
     best.bed = detail::place::not_below(options.corner.z, options.precision);

@@ -15,7 +15,7 @@
 namespace treeform {
 namespace {
 
-triangle3 triangle_of(mesh_view mesh, std::uint32_t face, const transform<3>& by, bool moves) {
+triangle3 moved_triangle(mesh_view mesh, std::uint32_t face, const transform<3>& by, bool moves) {
     triangle3 t;
     for (std::size_t i = 0; i < 3; ++i) {
         const point3& p = mesh.points[mesh.faces[face][i]];
@@ -88,10 +88,10 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
     const transformed<3> moving(tree_a, options.move_a);
     const transformed<3> still(tree_b, options.move_b);
     const auto face_a = [&](std::uint32_t f) {
-        return triangle_of(a, f, options.move_a, moving.moves());
+        return moved_triangle(a, f, options.move_a, moving.moves());
     };
     const auto face_b = [&](std::uint32_t f) {
-        return triangle_of(b, f, options.move_b, still.moves());
+        return moved_triangle(b, f, options.move_b, still.moves());
     };
 
     earliest found;

@@ -27,7 +27,6 @@
 namespace treeform {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 12;
 constexpr std::size_t point_grain = std::size_t{1} << 7;  // the constructed ones are the last
 constexpr std::size_t most_listed = 100;
 
@@ -152,13 +151,14 @@ class rounding {
         detail::base::parallel_invoke([&] { new_of_old.resize(point_of_.size()); },
                                       [&] { point_of.resize(points.size()); });
         const auto equal = detail::weld::few_equal_points(at);
-        for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const auto number = static_cast<std::uint32_t>(i);
-                new_of_old[points[i]] = equal ? equal->new_of_old[i] : number;
-                point_of[i] = point_of_[points[i]];
-            }
-        });
+        for_chunks(points.size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t i = begin; i < end; ++i) {
+                           const auto number = static_cast<std::uint32_t>(i);
+                           new_of_old[points[i]] = equal ? equal->new_of_old[i] : number;
+                           point_of[i] = point_of_[points[i]];
+                       }
+                   });
         if (equal) {
             const std::vector<std::uint32_t>& first = equal->first_of_new;
             for (std::size_t p = 0; p < first.size(); ++p) {  // in place: it is no earlier

@@ -28,7 +28,7 @@ using base::cross;
 using base::dot;
 using base::minus;
 
-constexpr std::size_t grain = std::size_t{1} << 10;
+constexpr std::size_t snap_grain = std::size_t{1} << 10;
 constexpr int most_rounds = 8, most_rounds_of_operands = 3;
 
 /// A place on an edge, from 0 at its lower end to 1, and how far away it is.
@@ -59,9 +59,9 @@ struct passing_edges {
 /// that are more than that.
 template <class T, class Find>
 std::vector<T> gather(std::size_t count, std::size_t most, const Find& find) {
-    std::vector<std::vector<T>> parts(chunk_count(count, grain));
+    std::vector<std::vector<T>> parts(chunk_count(count, snap_grain));
     std::atomic<std::size_t> total{0};
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    for_chunks(count, snap_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t i = begin; i < end && total <= most; ++i) {
             const std::size_t before = parts[c].size();
             find(i, parts[c]);

@@ -19,8 +19,6 @@
 namespace treeform::detail::round {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 13;
-
 using ids = std::vector<std::uint32_t>;
 
 void find_turned(mesh_view surface, surface_faults& result) {
@@ -71,7 +69,7 @@ ids with_neighbors(mesh_view surface, const ids& doubted, std::span<const std::u
     for (const face& f : asked) reach.include(box_of(surface.points, f));
     coarse_grid grid(reach);  // tells of nearly all faces
     std::vector<coarse_grid::cell> cell(surface.points.size());
-    for_chunks(cell.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(cell.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t p = begin; p < end; ++p) cell[p] = grid.cell_of(surface.points[p]);
     });
     for (const auto& [a, b, c] : asked) grid.add(cell[a], cell[b], cell[c]);
@@ -83,11 +81,12 @@ ids with_neighbors(mesh_view surface, const ids& doubted, std::span<const std::u
         const auto box = box_of(surface.points, surface.faces[f]);
         return overlaps(box, reach) && search_any(tree, box, [](std::uint32_t) { return true; });
     };
-    std::vector<ids> found(chunk_count(surface.faces.size(), grain));
-    for_chunks(surface.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t f = begin; f < end; ++f)
-            if (is_near(f)) found[c].push_back(static_cast<std::uint32_t>(f));
-    });
+    std::vector<ids> found(chunk_count(surface.faces.size(), light_grain));
+    for_chunks(surface.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t c) {
+                   for (std::size_t f = begin; f < end; ++f)
+                       if (is_near(f)) found[c].push_back(static_cast<std::uint32_t>(f));
+               });
     ids all;
     for (const ids& part : found) all.insert(all.end(), part.begin(), part.end());
     return all;

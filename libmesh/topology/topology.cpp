@@ -12,7 +12,6 @@
 namespace treeform {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 13;
 constexpr std::size_t ahead = 4;  ///< stars whose memory is under way
 
 /// One use of an edge at a point: the point at its other end, then the position in the star of the
@@ -185,8 +184,8 @@ topology_counts count_topology(std::size_t point_count, std::span<const face> fa
     detail::base::check_faces("count_topology", point_count, faces);
     const detail::base::stars stars(point_count, faces);
     detail::base::union_find linked(faces.size());
-    std::vector<chunk_counts> found(chunk_count(stars.size(), grain));
-    for_chunks(stars.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    std::vector<chunk_counts> found(chunk_count(stars.size(), light_grain));
+    for_chunks(stars.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         chunk_counts part;
         star_reader reader(faces, linked, part);
         for (std::size_t v = begin; v < end; ++v) {

@@ -13,8 +13,6 @@
 namespace treeform {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 15;
-
 bool degenerate(const point3& a, const point3& b, const point3& c) {
     const int known = detail::exact::collinear_filter(a, b, c);
     return known == detail::exact::undecided ? collinear(a, b, c) : known == 0;
@@ -25,8 +23,8 @@ using ids = std::vector<std::uint32_t>;
 void append(ids& list, const ids& more) { list.insert(list.end(), more.begin(), more.end()); }
 
 ids find_nonfinite_points(points_view points) {
-    std::vector<ids> found(chunk_count(points.size(), grain));
-    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    std::vector<ids> found(chunk_count(points.size(), light_grain));
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t i = begin; i < end; ++i)
             if (!detail::base::is_finite(points[i]))
                 found[c].push_back(static_cast<std::uint32_t>(i));
@@ -60,10 +58,11 @@ mesh_defects find_defects(mesh_view mesh) {
         throw std::invalid_argument("treeform::find_defects: more than 2^32 - 1 points or faces");
     mesh_defects result;
     result.nonfinite_points = find_nonfinite_points(mesh.points);
-    std::vector<mesh_defects> found(chunk_count(mesh.faces.size(), grain));
-    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t i = begin; i < end; ++i) look_at(mesh, i, found[c]);
-    });
+    std::vector<mesh_defects> found(chunk_count(mesh.faces.size(), light_grain));
+    for_chunks(mesh.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t c) {
+                   for (std::size_t i = begin; i < end; ++i) look_at(mesh, i, found[c]);
+               });
     for (const mesh_defects& part : found) {
         append(result.nonfinite_faces, part.nonfinite_faces);
         append(result.degenerate_faces, part.degenerate_faces);

@@ -11,8 +11,6 @@
 namespace treeform::detail::weld {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 16;
-
 [[noreturn]] void refuse(const std::string& why) {
     throw std::invalid_argument("treeform::weld: " + why);
 }
@@ -30,7 +28,7 @@ void check_column(const element& e, const column& c) {
 
 template <class T>
 void renumber_values(column& c, const std::vector<std::uint32_t>& new_of_old) {
-    for_chunks(value_count(c), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(value_count(c), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             T value;
             std::byte* const at = c.values.data() + i * sizeof value;

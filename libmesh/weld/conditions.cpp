@@ -11,8 +11,6 @@
 namespace treeform::detail::weld {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 16;
-
 /// Numbers that are equal where the numbers in `label` are and where the values of both columns
 /// are; NaN equals NaN here, and a point that takes no part nothing. Empty arrays do not tell
 /// points apart.
@@ -21,7 +19,7 @@ std::vector<std::uint32_t> refine(std::size_t count, std::span<const std::uint32
                                   std::span<const double> a, std::span<const double> b) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     buffer<point3> keys(count);
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         const auto value = [](std::span<const double> values, std::size_t i) {
             return values.empty() ? 0.0 : values[i];
         };
@@ -39,7 +37,7 @@ std::vector<std::uint32_t> refine(std::size_t count, std::span<const std::uint32
     return find_equal_points(keys.span()).new_of_old;
 }
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_conditions(const std::string& why) {
     throw std::invalid_argument("treeform::weld: " + why);
 }
 
@@ -50,8 +48,8 @@ conditions::conditions(points_view points, const attributes& properties,
                        std::span<const std::uint8_t> takes_part)
     : given_(options) {
     if (!given_.label.empty() && given_.label.size() != points.size())
-        refuse(std::to_string(given_.label.size()) + " labels for " +
-               std::to_string(points.size()) + " points");
+        refuse_conditions(std::to_string(given_.label.size()) + " labels for " +
+                          std::to_string(points.size()) + " points");
     std::vector<buffer<double>> equal;
     // Two columns a round.
     const auto refine_by_columns = [&] {
@@ -65,7 +63,8 @@ conditions::conditions(points_view points, const attributes& properties,
     for (const weld_condition& condition : asked) {
         const double tolerance = condition.tolerance;
         if (!(tolerance >= 0.0) || !std::isfinite(tolerance))
-            refuse("the tolerance of '" + condition.property + "' must be finite and not negative");
+            refuse_conditions("the tolerance of '" + condition.property +
+                              "' must be finite and not negative");
         vertex_values values(points, properties, condition.property);
         if (tolerance > 0.0) {
             questions_.push_back({std::move(values), tolerance});

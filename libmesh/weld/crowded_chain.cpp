@@ -4,6 +4,7 @@
 #include <libmesh/weld/hashed_ids.hpp>
 #include <libmesh/weld/reach.hpp>
 #include <libmesh/weld/settle_in_chain.hpp>
+#include <libmesh/weld/tolerance.hpp>
 
 #include <algorithm>
 #include <array>
@@ -19,11 +20,7 @@
 namespace treeform::detail::weld {
 namespace {
 
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-
-/// As in memory: the diagonal of a cube is less than the tolerance, and points within the tolerance
-/// are at most two cubes apart along each axis.
-constexpr double cubes_per_tolerance = 1.7321 * (1.0 + 0x1p-10);
+constexpr std::uint32_t no_crowd = std::numeric_limits<std::uint32_t>::max();
 
 /// Points of one cube that are within the tolerance of its first. Where rounding makes cubes wider,
 /// there may be several in one.
@@ -45,7 +42,7 @@ struct crowd {
 
 using cube = std::array<std::int64_t, 3>;
 
-std::uint64_t hash_of(const cube& c) { return cube_hash(c[0], c[1], c[2], 0); }
+std::uint64_t cube_hash_of(const cube& c) { return cube_hash(c[0], c[1], c[2], 0); }
 
 cube bits_of(const point3& p) {
     return {std::bit_cast<std::int64_t>(p.x + 0.0), std::bit_cast<std::int64_t>(p.y + 0.0),
@@ -63,10 +60,10 @@ struct crowded_chain::state {
         return {axis.index(p.x), axis.index(p.y), axis.index(p.z)};
     }
 
-    /// The crowd of `p`, the lowest where it might be in several; `nobody` when it is in none.
+    /// The crowd of `p`, the lowest where it might be in several; `no_crowd` when it is in none.
     [[nodiscard]] std::uint32_t find(const point3& p, const cube& at) const {
-        std::uint32_t lowest = nobody;
-        by_cube.visit(hash_of(at), [&](std::uint32_t c) {
+        std::uint32_t lowest = no_crowd;
+        by_cube.visit(cube_hash_of(at), [&](std::uint32_t c) {
             if (c < lowest && cube_of(crowds[c].first) == at && within.holds(p, crowds[c].first))
                 lowest = c;
         });
@@ -76,12 +73,12 @@ struct crowded_chain::state {
     void look(const tile_point& p) {
         const cube at = cube_of(p.at);
         std::uint32_t c = find(p.at, at);
-        if (c == nobody) {
-            if (crowds.size() == nobody - 1)
+        if (c == no_crowd) {
+            if (crowds.size() == no_crowd - 1)
                 throw std::invalid_argument("treeform::crowded_chain: too many cubes");
             c = static_cast<std::uint32_t>(crowds.size());
             crowds.push_back({p.at, p.at, p.at, p.id(), false});
-            by_cube.add(hash_of(at), c);
+            by_cube.add(cube_hash_of(at), c);
         }
         crowds[c].take(p);
     }
@@ -94,7 +91,7 @@ struct crowded_chain::state {
         for (std::int64_t x = ranges[0].first; x <= ranges[0].last; ++x)
             for (std::int64_t y = ranges[1].first; y <= ranges[1].last; ++y)
                 for (std::int64_t z = ranges[2].first; z <= ranges[2].last; ++z)
-                    by_cube.visit(hash_of({x, y, z}), [&](std::uint32_t c) {
+                    by_cube.visit(cube_hash_of({x, y, z}), [&](std::uint32_t c) {
                         if (c != b) meet(c);
                     });
     }
@@ -151,7 +148,7 @@ struct crowded_chain::state {
     }
 
     void keep(const point3& p, std::uint32_t b) {
-        const std::uint64_t hash = hash_of(bits_of(p));
+        const std::uint64_t hash = cube_hash_of(bits_of(p));
         bool known = false;
         kept_by_place.visit(hash, [&](std::uint32_t i) { known = known || kept[i] == p; });
         if (known) return;

@@ -5,6 +5,7 @@
 #include <libmesh/weld/lattice.hpp>
 #include <libmesh/weld/linked.hpp>
 #include <libmesh/weld/sort_by_key.hpp>
+#include <libmesh/weld/tolerance.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,11 +15,6 @@
 
 namespace treeform::detail::weld {
 namespace {
-
-/// Cubes whose points are all within the tolerance of each other: their diagonal is less than it
-/// (where rounding a denormal width makes it more, more blocks are left to be linked). Points
-/// within the tolerance are at most two cubes apart along each axis.
-constexpr double cubes_per_tolerance = 1.7321 * (1.0 + 0x1p-10);
 
 struct member {
     std::uint64_t hash;  ///< of its cube and label
@@ -31,7 +27,7 @@ struct block {
     std::size_t end;
 };
 
-using cube = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+using cube_key = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
 
 class chain_finder {
   public:
@@ -61,7 +57,7 @@ class chain_finder {
     [[nodiscard]] std::uint32_t label_of(std::uint32_t i) const {
         return options_->label.empty() ? 0 : options_->label[i];
     }
-    [[nodiscard]] cube cube_of(std::uint32_t i) const {
+    [[nodiscard]] cube_key cube_of(std::uint32_t i) const {
         const point3& p = points_[i];
         return {axis_.index(p.x), axis_.index(p.y), axis_.index(p.z)};
     }
@@ -143,7 +139,7 @@ class chain_finder {
     /// Looks from each pair of cubes, and of blocks in one cube, once: from the lower.
     void join_neighbors(std::uint32_t b) {
         const std::uint32_t first = members_.records[blocks_[b].begin].id;
-        const cube own = cube_of(first);
+        const cube_key own = cube_of(first);
         const point3& p = points_[first];
         std::array<cube_axis::range, 3> ranges;
         for (std::size_t k = 0; k < 3; ++k) ranges[k] = axis_.neighbors(p[k], 2);
@@ -152,7 +148,7 @@ class chain_finder {
         for (std::int64_t x = std::get<0>(own); x <= ranges[0].last; ++x)
             for (std::int64_t y = ranges[1].first; y <= ranges[1].last; ++y)
                 for (std::int64_t z = ranges[2].first; z <= ranges[2].last; ++z) {
-                    if (cube(x, y, z) <= own) continue;
+                    if (cube_key(x, y, z) <= own) continue;
                     hashes[count] = cube_hash(x, y, z, label_of(first));
                     by_hash_.prefetch(hashes[count++]);
                 }

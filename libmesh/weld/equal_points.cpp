@@ -16,7 +16,6 @@ namespace treeform {
 namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t grain = std::size_t{1} << 14;
 
 using detail::weld::bits_of;
 
@@ -39,7 +38,7 @@ class buckets {
     explicit buckets(std::span<const std::uint32_t> hashes)
         : bits_(bits_for(hashes.size())), entries_(hashes.size()) {
         // At most 65 chunks: the counts are a table of chunks x buckets.
-        const std::size_t large = std::max(grain, hashes.size() / 64);
+        const std::size_t large = std::max(light_grain, hashes.size() / 64);
         const std::size_t chunks = chunk_count(hashes.size(), large);
         std::vector<std::size_t> next(chunks * count(), 0);
         for_chunks(hashes.size(), large, [&](std::size_t begin, std::size_t end, std::size_t c) {
@@ -165,7 +164,7 @@ void find_firsts(points_view points, std::span<const std::uint32_t> label,
 std::vector<std::uint32_t> detail::weld::equal_firsts(points_view points,
                                                       std::span<const std::uint32_t> label) {
     std::vector<std::uint32_t> hash_then_first(points.size());
-    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
             hash_then_first[i] = hash_of(points[i], label.empty() ? 0 : label[i]);
     });
@@ -187,16 +186,18 @@ mesh join_equal_points(mesh_view mesh) {
     const equal_points joined = find_equal_points(mesh.points);
     treeform::mesh result;
     result.points.resize(joined.first_of_new.size());
-    for_chunks(result.points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            result.points[i] = mesh.points[joined.first_of_new[i]];
-    });
+    for_chunks(result.points.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i)
+                       result.points[i] = mesh.points[joined.first_of_new[i]];
+               });
     result.faces.resize(mesh.faces.size());
-    for_chunks(result.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            for (std::size_t k = 0; k < 3; ++k)
-                result.faces[i][k] = joined.new_of_old[mesh.faces[i][k]];
-    });
+    for_chunks(result.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i)
+                       for (std::size_t k = 0; k < 3; ++k)
+                           result.faces[i][k] = joined.new_of_old[mesh.faces[i][k]];
+               });
     return result;
 }
 

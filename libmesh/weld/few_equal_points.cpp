@@ -17,8 +17,6 @@
 namespace treeform::detail::weld {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 14;
-
 /// Marks of hashes, 8 to 16 for each point that there is.
 class hash_marks {
   public:
@@ -58,11 +56,11 @@ class hash_marks {
 /// The points whose marks are shared, ascending: all that equal another are among them.
 std::vector<std::uint32_t> points_in_doubt(points_view points) {
     hash_marks marks(points.size());
-    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) marks.set(hash_of(points[i]));
     });
-    std::vector<std::vector<std::uint32_t>> found(chunk_count(points.size(), grain));
-    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    std::vector<std::vector<std::uint32_t>> found(chunk_count(points.size(), light_grain));
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t i = begin; i < end; ++i)
             if (marks.is_shared(hash_of(points[i])))
                 found[c].push_back(static_cast<std::uint32_t>(i));

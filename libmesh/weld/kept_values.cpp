@@ -12,8 +12,6 @@
 namespace treeform::detail::weld {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 14;
-
 /// The mean of value(i) over several i, rounded as the header of `weld` says; NaN when one of
 /// them is not finite. Where a sum of differences is beyond the doubles it is taken of values
 /// scaled by 2^-64: 2^32 differences of less than 2^961 each. What this drops of small values is
@@ -41,7 +39,7 @@ double mean(std::span<const std::uint32_t> members, const Value& value) {
 
 template <class Body>
 void for_groups_of_several(const group_members& members, const Body& body) {
-    for_chunks(members.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(members.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t g = begin; g < end; ++g)
             if (members[g].size() > 1) body(g, members[g]);
     });

@@ -15,15 +15,14 @@
 namespace treeform::detail::weld {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 16;
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_number = std::numeric_limits<std::uint32_t>::max();
 
 using numbers = std::vector<std::uint32_t>;
 
 /// The faces with point v called name[v]; of those that repeated a corner before nothing is left.
 std::vector<face> renamed(std::span<const face> faces, const numbers& name) {
     std::vector<face> result(faces.size());
-    for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const face& f = faces[i];
             if (base::has_three_corners(f))
@@ -97,7 +96,7 @@ class splitter {
     /// [V] the lowest point that may be merged with each as things stand.
     [[nodiscard]] numbers mergeable() const {
         numbers name(point_count());
-        for_chunks(name.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for_chunks(name.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t v = begin; v < end; ++v) {
                 const std::uint32_t group = given_.group_of_point[v];
                 name[v] = single_[group] != 0 ? static_cast<std::uint32_t>(v)
@@ -126,7 +125,7 @@ class splitter {
                                    end_of(faces, edge.face(i), end));
             });
         numbers part(point_count());
-        for_chunks(part.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for_chunks(part.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t v = begin; v < end; ++v)
                 part[v] = parts.root(static_cast<std::uint32_t>(v));
         });
@@ -134,7 +133,7 @@ class splitter {
     }
 
     void join_shrunk(const std::vector<face>& faces, base::union_find& parts) const {
-        for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
                 if (!base::has_three_corners(given_faces_[i])) continue;
                 for (std::size_t k = 0; k < 3; ++k) {
@@ -209,20 +208,20 @@ class splitter {
         for (const face& f : given_faces_)
             if (base::has_three_corners(f))
                 for (const std::uint32_t corner : f) has_faces[corner] = 1;
-        numbers host(given_.first_of_group.size(), nobody);
+        numbers host(given_.first_of_group.size(), no_number);
         for (std::size_t v = 0; v < part.size(); ++v) {
             std::uint32_t& h = host[given_.group_of_point[v]];
             if (has_faces[v] != 0) h = std::min(h, part[v]);
         }
         for (std::size_t g = 0; g < host.size(); ++g)
-            if (host[g] == nobody) host[g] = given_.first_of_group[g];
+            if (host[g] == no_number) host[g] = given_.first_of_group[g];
         point_groups result;
-        numbers number_of(point_count(), nobody);
+        numbers number_of(point_count(), no_number);
         result.group_of_point.resize(point_count());
         for (std::size_t v = 0; v < part.size(); ++v) {
             const std::uint32_t g = given_.group_of_point[v];
             std::uint32_t& n = number_of[has_faces[v] != 0 ? part[v] : host[g]];
-            if (n == nobody) {
+            if (n == no_number) {
                 n = static_cast<std::uint32_t>(result.first_of_group.size());
                 result.first_of_group.push_back(static_cast<std::uint32_t>(v));
             }
@@ -238,8 +237,8 @@ class splitter {
 };
 
 bool all_equal(points_view points, const point_groups& given) {
-    std::vector<std::uint8_t> differ(chunk_count(points.size(), grain), 0);
-    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    std::vector<std::uint8_t> differ(chunk_count(points.size(), light_grain), 0);
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t v = begin; v < end && differ[c] == 0; ++v) {
             const std::uint32_t first = given.first_of_group[given.group_of_point[v]];
             if (first != v && !(points[v] == points[first])) differ[c] = 1;
@@ -252,7 +251,7 @@ bool all_equal(points_view points, const point_groups& given) {
 point_groups with_equal_coordinates(points_view points, const point_groups& given) {
     const numbers place = find_equal_points(points).new_of_old;
     buffer<point3> keys(points.size());
-    for_chunks(keys.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(keys.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t v = begin; v < end; ++v)
             keys[v] = {static_cast<double>(given.group_of_point[v]), static_cast<double>(place[v]),
                        0.0};
@@ -292,7 +291,7 @@ std::uint64_t count_split(const point_groups& given, const point_groups& parts) 
 }  // namespace
 
 manifold_groups split_to_manifold(mesh_view mesh, const point_groups& given, int rounds) {
-    if (mesh.faces.size() > nobody / 3)
+    if (mesh.faces.size() > no_number / 3)
         throw std::invalid_argument("treeform::weld: more than 2^32 / 3 faces with keep_manifold");
     const bool equal = all_equal(mesh.points, given);
     point_groups parts =

@@ -14,8 +14,6 @@
 namespace treeform::detail::weld {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 15;
-
 /// From where to where a point went.
 struct move {
     point3 from{};
@@ -62,8 +60,8 @@ bool is_flipped(const plane_points& before, const plane_points& after) {
 
 double max_displacement(points_view points, std::span<const std::uint32_t> group_of_point,
                         points_view places) {
-    std::vector<move> furthest(chunk_count(points.size(), grain));
-    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    std::vector<move> furthest(chunk_count(points.size(), light_grain));
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t i = begin; i < end; ++i) {
             const move mine{points[i], places[group_of_point[i]]};
             if (mine.from == mine.to || !detail::base::is_finite(mine.from)) continue;
@@ -78,14 +76,15 @@ double max_displacement(points_view points, std::span<const std::uint32_t> group
 
 std::uint64_t count_flipped(mesh_view before, mesh_view after,
                             std::span<const std::uint32_t> face_of_new) {
-    std::vector<std::uint64_t> found(chunk_count(after.faces.size(), grain), 0);
-    for_chunks(after.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t i = begin; i < end; ++i)
-            found[c] += is_flipped(corners_of(before, before.faces[face_of_new[i]]),
-                                   corners_of(after, after.faces[i]))
-                            ? 1
-                            : 0;
-    });
+    std::vector<std::uint64_t> found(chunk_count(after.faces.size(), light_grain), 0);
+    for_chunks(after.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t c) {
+                   for (std::size_t i = begin; i < end; ++i)
+                       found[c] += is_flipped(corners_of(before, before.faces[face_of_new[i]]),
+                                              corners_of(after, after.faces[i]))
+                                       ? 1
+                                       : 0;
+               });
     std::uint64_t total = 0;
     for (const std::uint64_t n : found) total += n;
     return total;

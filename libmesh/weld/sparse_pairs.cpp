@@ -14,8 +14,6 @@
 namespace treeform::detail::weld {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 16;
-
 /// Pairs by the search asked for. The other ways help where a window or a cell holds too many.
 bool find_pairs(const near_pairs_task& task, neighbor_search search) {
     constexpr double wide = 384.0;  // a window as slow as cells are
@@ -111,7 +109,7 @@ void place_copies(points_view points, later_leaders& later, std::vector<std::uin
         return a.earlier != b.earlier ? a.earlier < b.earlier : a.point < b.point;
     };
     std::sort(later.begin(), later.end(), by_dropped);
-    for_chunks(leader_of.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(leader_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t dropped = leader_of[i];
             std::uint32_t best = leader_of[dropped];
@@ -187,7 +185,7 @@ std::vector<std::uint32_t> sparse_chains(points_view points, const weld_options&
                                add_copy, add_pairs};
     if (!find_pairs(task, options.search)) return {};
     std::vector<std::uint32_t> root_of(points.size());
-    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
             root_of[i] = sets.root(static_cast<std::uint32_t>(i));
     });

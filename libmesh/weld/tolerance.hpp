@@ -1,12 +1,17 @@
 #pragma once
 /// \file
-/// The check of a tolerance at the door.
+/// A tolerance: its check at the door, and the cubes that it makes.
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 namespace treeform::detail::weld {
+
+/// Cubes whose points are all within the tolerance of each other: their diagonal is less than it
+/// (except where rounding makes a denormal width larger). Points within the tolerance are at most
+/// two cubes apart along each axis.
+inline constexpr double cubes_per_tolerance = 1.7321 * (1.0 + 0x1p-10);
 
 /// \throws std::invalid_argument naming the function `called`
 inline void check_tolerance(const char* called, double tolerance) {

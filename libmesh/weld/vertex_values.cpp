@@ -11,16 +11,14 @@
 namespace treeform::detail::weld {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 16;
-
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_property(const std::string& why) {
     throw std::invalid_argument("treeform::weld: " + why);
 }
 
 template <class T, class Value>
 buffer<T> filled(std::size_t count, const Value& value) {
     buffer<T> values(count);
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) values[i] = value(i);
     });
     return values;
@@ -52,11 +50,11 @@ vertex_values::vertex_values(points_view points, const attributes& properties,
     const column* c = vertices == nullptr ? nullptr : find_column(*vertices, name);
     if (c == nullptr || c->role != column_role::data) {
         const std::size_t axis = name.size() == 1 ? std::string_view("xyz").find(name) : 3;
-        if (axis > 2) refuse("no vertex property '" + name + "'");
+        if (axis > 2) refuse_property("no vertex property '" + name + "'");
         number_ = filled<double>(points.size(), [&](std::size_t i) { return points[i][axis]; });
         return;
     }
-    if (c->list_length) refuse("the vertex property '" + name + "' is a list");
+    if (c->list_length) refuse_property("the vertex property '" + name + "' is a list");
     const bool is_signed = c->type == scalar_type::int64;
     if (!is_signed && c->type != scalar_type::uint64) {
         number_ = filled<double>(points.size(), [&](std::size_t i) { return number_at(*c, i); });

@@ -19,8 +19,6 @@
 namespace treeform {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 16;
-
 [[nodiscard]] point_groups find_groups(mesh_view mesh, const attributes& properties,
                                        const weld_options& options) {
     const auto asked = weld_conditions(properties, !mesh.faces.empty(), options);
@@ -32,8 +30,8 @@ constexpr std::size_t grain = std::size_t{1} << 16;
 }
 
 std::uint64_t count_non_finite(points_view points) {
-    std::vector<std::uint64_t> counts(chunk_count(points.size(), grain));
-    for_chunks(points.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    std::vector<std::uint64_t> counts(chunk_count(points.size(), light_grain));
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t i = begin; i < end; ++i)
             if (!detail::base::is_finite(points[i])) ++counts[c];
     });
@@ -53,8 +51,8 @@ void carry_faces(std::span<const face> faces, bool keep_degenerate, weld_result&
     const auto welded = [&](const face& f) {
         return face{group_of[f[0]], group_of[f[1]], group_of[f[2]]};
     };
-    std::vector<face_counts> counts(chunk_count(faces.size(), grain));
-    for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    std::vector<face_counts> counts(chunk_count(faces.size(), light_grain));
+    for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         face_counts mine;
         for (std::size_t i = begin; i < end; ++i) {
             const bool three = detail::base::has_three_corners(welded(faces[i]));
@@ -72,7 +70,7 @@ void carry_faces(std::span<const face> faces, bool keep_degenerate, weld_result&
     }
     result.mesh.faces.resize(total);
     result.face_of_new.resize(total);
-    for_chunks(faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         std::size_t at = counts[c].kept;
         for (std::size_t i = begin; i < end; ++i) {
             const face f = welded(faces[i]);
@@ -88,7 +86,7 @@ void carry_points(points_view points, const attributes& properties, const weld_o
                   weld_result& result) {
     std::vector<point3>& places = result.mesh.points;
     places.resize(result.point_of_group.size());
-    for_chunks(places.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(places.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t g = begin; g < end; ++g) places[g] = points[result.point_of_group[g]];
     });
     result.attributes = detail::weld::carry_rows(properties, result);

@@ -10,7 +10,6 @@ namespace treeform::detail {
 namespace {
 
 constexpr std::size_t few = 32;
-constexpr std::size_t grain = std::size_t{1} << 14;
 
 struct coded {
     std::uint32_t code;
@@ -30,8 +29,8 @@ extent<D> extent_of(std::size_t count, function_ref<std::array<double, D>(std::s
     extent<D> none;
     none.low.fill(infinity);
     none.high.fill(-infinity);
-    std::vector<extent<D>> parts(chunk_count(count, grain), none);
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+    std::vector<extent<D>> parts(chunk_count(count, light_grain), none);
+    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         extent<D> mine = none;
         for (std::size_t i = begin; i < end; ++i) {
             const std::array<double, D> p = point_of(i);
@@ -91,7 +90,7 @@ std::vector<std::uint32_t> morton_order(std::size_t count,
     for (std::size_t k = 0; k < D; ++k) side = std::max(side, all.high[k] - all.low[k]);
     if (!(side > 0.0)) return order;
     std::vector<coded> codes(count);
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::array<double, D> p = point_of(i);
             std::uint32_t code = 0;

@@ -23,8 +23,6 @@ constexpr std::size_t ratio = 4;
 /// Trees below this many slots join whatever is built.
 constexpr std::size_t least_slots = 64;
 
-constexpr std::size_t grain = std::size_t{1} << 13;
-
 /// The first of `ids`, all below `end`, that has come before; none when they differ.
 std::optional<std::uint32_t> repeated(std::span<const std::uint32_t> ids, std::size_t end) {
     if (ids.size() < end / 128) {  // few: do not sweep memory for all
@@ -56,7 +54,7 @@ void sort(std::vector<std::uint32_t>& ids, std::size_t end) {
 template <class IsBad>
 std::size_t first_bad(std::size_t count, const IsBad& is_bad) {
     std::atomic<std::size_t> first{count};
-    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
             if (is_bad(i)) return detail::lower(first, i);
     });
@@ -132,7 +130,7 @@ std::vector<std::uint32_t> dynamic_tree<D>::insert(std::span<const box_type> box
     free_.resize(free_.size() - again);
     for (std::size_t i = again; i < ids.size(); ++i) ids[i] = static_cast<std::uint32_t>(id_end_++);
     make_room(id_end_);
-    for_chunks(ids.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(ids.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) boxes_[ids[i]] = boxes[i];
     });
     settle(ids, std::vector<std::vector<std::uint32_t>>(parts_.size()));
@@ -178,7 +176,7 @@ void dynamic_tree<D>::move(std::span<const std::uint32_t> ids, std::span<const b
     constexpr std::size_t ahead = 16;  // where they are, and what they were, is anywhere in memory
     std::vector<location> at(ids.size());
     std::vector<std::uint8_t> stays(ids.size());
-    for_chunks(ids.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(ids.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             if (i + ahead < end) {
                 __builtin_prefetch(&where_[ids[i + ahead]]);
@@ -265,7 +263,7 @@ void dynamic_tree<D>::build_part(const std::vector<std::uint32_t>& ids) {
                          [&](std::uint32_t id) -> const box_type& { return boxes_[id]; });
     const auto number = static_cast<std::uint32_t>(unused - parts_.begin());
     std::uint32_t* const in_order = unused->boxes.ids_data();
-    for_chunks(ids.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(ids.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t place = begin; place < end; ++place) {
             in_order[place] = ids[in_order[place]];
             where_[in_order[place]] = {number, static_cast<std::uint32_t>(place)};

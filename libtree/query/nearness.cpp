@@ -74,18 +74,18 @@ void dispatch(const tree<3>& t, const near_query<3>& query, double squared,
 }  // namespace
 
 template <std::size_t D>
-void approach(const tree<D>& tree, const aabb<double, D>& query, double squared,
-              const nearness_strategy& strategy, function_ref<double(std::uint32_t)> visit) {
+void walk_near(const tree<D>& tree, const aabb<double, D>& query, double squared,
+               const nearness_strategy& strategy, function_ref<double(std::uint32_t)> visit) {
     if (!is_finite(query))
         throw std::invalid_argument("treeform::nearness: the query is not finite, or an empty box");
     if (tree.empty() || squared < 0.0) return;
     dispatch(tree, near_query<D>(tree.frame(), query), squared, strategy, visit);
 }
 
-template TREEFORM_API void approach(const tree<2>&, const aabb<double, 2>&, double,
-                                    const nearness_strategy&, function_ref<double(std::uint32_t)>);
-template TREEFORM_API void approach(const tree<3>&, const aabb<double, 3>&, double,
-                                    const nearness_strategy&, function_ref<double(std::uint32_t)>);
+template TREEFORM_API void walk_near(const tree<2>&, const aabb<double, 2>&, double,
+                                     const nearness_strategy&, function_ref<double(std::uint32_t)>);
+template TREEFORM_API void walk_near(const tree<3>&, const aabb<double, 3>&, double,
+                                     const nearness_strategy&, function_ref<double(std::uint32_t)>);
 
 }  // namespace treeform::detail
 #endif

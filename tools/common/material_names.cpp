@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Without links; none where it cannot be found out.
-std::optional<fs::path> folder_of(const fs::path& file) {
+std::optional<fs::path> known_folder_of(const fs::path& file) {
     std::error_code error;
     const fs::path whole = fs::absolute(file, error);
     if (error) return std::nullopt;
@@ -29,8 +29,8 @@ bool is_absolute(std::string_view name) {
 std::vector<std::string> seen_from_output(std::vector<std::string> names, const fs::path& input,
                                           const fs::path& output) {
     if (names.empty() || input == "-" || output == "-") return names;
-    const auto from = folder_of(input);
-    const auto to = folder_of(output);
+    const auto from = known_folder_of(input);
+    const auto to = known_folder_of(output);
     if (!from || !to || *from == *to) return names;
     for (std::string& name : names) {
         if (is_absolute(name)) continue;

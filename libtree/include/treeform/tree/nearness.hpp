@@ -51,15 +51,15 @@ namespace detail {
 
 /// Calls `visit` as `visit_near` does, from the bound `squared` on.
 template <std::size_t D>
-TREEFORM_API void approach(const tree<D>& tree, const aabb<double, D>& query, double squared,
-                           const nearness_strategy& strategy,
-                           function_ref<double(std::uint32_t)> visit);
+TREEFORM_API void walk_near(const tree<D>& tree, const aabb<double, D>& query, double squared,
+                            const nearness_strategy& strategy,
+                            function_ref<double(std::uint32_t)> visit);
 
 template <tree_of_trees Trees, class Visit>
-void approach(const Trees& trees, const aabb<double, Trees::dimensions>& query, double squared,
-              const nearness_strategy& strategy, const Visit& visit) {
-    approach(trees.top(), query, squared, strategy, [&](std::uint32_t part) {
-        approach(trees.part(part), query, squared, strategy, [&](std::uint32_t id) {
+void walk_near(const Trees& trees, const aabb<double, Trees::dimensions>& query, double squared,
+               const nearness_strategy& strategy, const Visit& visit) {
+    walk_near(trees.top(), query, squared, strategy, [&](std::uint32_t part) {
+        walk_near(trees.part(part), query, squared, strategy, [&](std::uint32_t id) {
             if (id != no_primitive) squared = visit(id);
             return squared;
         });
@@ -122,9 +122,9 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class Visit>
 requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
 void visit_near(const Tree& tree, const Query& query, const Visit& visit,
                 const nearness_options& options = {}) {
-    detail::approach(tree, detail::box_of_query<Tree::dimensions>(query),
-                     detail::squared_radius("treeform::visit_near", options.radius),
-                     options.strategy, visit);
+    detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query),
+                      detail::squared_radius("treeform::visit_near", options.radius),
+                      options.strategy, visit);
 }
 
 /// The nearest primitive, of equally near ones that of the lowest number; none when the tree is
@@ -143,11 +143,11 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
                            const nearness_options& options = {}) {
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
     detail::nearest_one<answer> one(detail::squared_radius("treeform::nearest", options.radius));
-    detail::approach(tree, detail::box_of_query<Tree::dimensions>(query), one.bound(),
-                     options.strategy, [&](std::uint32_t id) {
-                         one.offer(id, distance_of);
-                         return one.bound();
-                     });
+    detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query), one.bound(),
+                      options.strategy, [&](std::uint32_t id) {
+                          one.offer(id, distance_of);
+                          return one.bound();
+                      });
     return one.best;
 }
 
@@ -163,11 +163,11 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
     detail::nearest_k<neighbor<answer>> found(
         std::min(k, tree.size()), detail::squared_radius("treeform::k_nearest", options.radius));
-    detail::approach(tree, detail::box_of_query<Tree::dimensions>(query), found.bound(),
-                     options.strategy, [&](std::uint32_t id) {
-                         found.offer({id, distance_of(id)});
-                         return found.bound();
-                     });
+    detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query), found.bound(),
+                      options.strategy, [&](std::uint32_t id) {
+                          found.offer({id, distance_of(id)});
+                          return found.bound();
+                      });
     return std::move(found.sorted());
 }
 
@@ -184,12 +184,12 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
     const double bound = detail::squared_radius("treeform::all_within", radius);
     std::vector<neighbor<answer>> found;
-    detail::approach(tree, detail::box_of_query<Tree::dimensions>(query), bound, strategy,
-                     [&](std::uint32_t id) {
-                         neighbor<answer> one{id, distance_of(id)};
-                         if (one.squared_distance() <= bound) found.push_back(std::move(one));
-                         return bound;
-                     });
+    detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query), bound, strategy,
+                      [&](std::uint32_t id) {
+                          neighbor<answer> one{id, distance_of(id)};
+                          if (one.squared_distance() <= bound) found.push_back(std::move(one));
+                          return bound;
+                      });
     std::sort(found.begin(), found.end(),
               [](const auto& a, const auto& b) { return nearer(a, b); });
     return found;

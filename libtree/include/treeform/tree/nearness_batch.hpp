@@ -90,7 +90,7 @@ template <any_tree Tree, std::ranges::random_access_range Queries, class Distanc
             const auto from_query = [&](std::uint32_t id) { return distance_of(query, id); };
             detail::nearest_one<answer> one(squared);
             if (before) one.offer(*before, from_query);
-            detail::approach(
+            detail::walk_near(
                 tree, detail::box_of_query<Tree::dimensions>(detail::element(queries, query)),
                 one.bound(), options.strategy, [&](std::uint32_t id) {
                     if (id != before) one.offer(id, from_query);
