@@ -75,14 +75,14 @@ bool radial_order::sort(const std::array<std::uint32_t, 2>& points, std::span<fa
 std::optional<face_side> radial_order::last_before_x(const point3& from, const point3& toward,
                                                      std::span<const face_side> sides) {
     collect(sides);
-    const member* best = nullptr;
+    const member* best = &members_.front();
     for (member& m : members_) {
         m.half = 2 - orient2d(0, m.plane.a, m.plane.b, m.plane.c) * m.sense();
-        if (!best || m.half < best->half) {
+        if (&m == best || m.half > best->half) continue;
+        if (m.half < best->half) {
             best = &m;
             continue;
         }
-        if (m.half > best->half) continue;
         const int ahead =
             normal_turn(best->plane, m.plane, from, toward) * best->sense() * m.sense();
         if (ahead == 0) return std::nullopt;

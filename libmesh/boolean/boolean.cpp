@@ -246,7 +246,7 @@ unmended_result boolean_of(std::span<const mesh_view> operands,
                            const boolean_expression& expression, const boolean_options& options,
                            bool sound) {
     check_expression("boolean", operands, expression);
-    if (sound && operands.size() == 2 && !options.simplify && !options.volumes)
+    if (sound)
         if (auto result =
                 detail::boolean::boolean_of_sound_pair(operands.first<2>(), expression, options))
             return {std::move(*result), {}};
@@ -350,16 +350,39 @@ boolean_result evaluate(const char* function, std::span<const mesh_view> operand
     }
 }
 
+/// Whether there are two operands, both of them prepared and sound. `looked` is the share of the
+/// work that it took to find out: none where it is known.
+bool both_sound(std::span<const mesh_operand> operands, const progress_callback& progress,
+                double& looked) {
+    if (operands.size() != 2 || operands[0].prepared() == nullptr ||
+        operands[1].prepared() == nullptr)
+        return false;
+    const progress_callback report = [&](double done) {
+        looked = done;
+        return !progress || progress(done);
+    };
+    return std::ranges::all_of(operands, [&](const mesh_operand& operand) {
+        return detail::boolean::is_sound(*operand.prepared(),
+                                         part_of(report, looked, looked + 0.3));
+    });
+}
+
 boolean_result evaluate(const char* function, std::span<const mesh_operand> operands,
                         const boolean_expression& expression, const boolean_options& options) {
     std::vector<mesh_view> views;
     for (const mesh_operand& operand : operands) views.push_back(operand.view());
-    const bool sound =
-        operands.size() == 2 && std::ranges::all_of(operands, [](const mesh_operand& operand) {
-            return operand.prepared() != nullptr && detail::boolean::is_sound(*operand.prepared());
-        });
     return evaluate(function, views, options, true, [&](auto given, const auto& how) {
-        return boolean_of(given, expression, how, sound && given.data() == views.data());
+        if (given.data() != views.data() || how.simplify || how.volumes)
+            return boolean_of(given, expression, how, false);
+        double looked = 0.0;
+        try {
+            const bool sound = both_sound(operands, how.progress, looked);
+            boolean_options rest = how;
+            rest.progress = part_of(how.progress, looked, 1.0);
+            return boolean_of(given, expression, rest, sound);
+        } catch (const detail::boolean::stopped&) {
+            return unmended_result{with_counts({}), {}};
+        }
     });
 }
 
@@ -433,8 +456,13 @@ treeform::mesh boolean_result::value() && {
 }
 
 certificate check_solid(mesh_view mesh, const progress_callback& progress) {
-    detail::boolean::check_operands("check_solid", {&mesh, 1});
-    detail::boolean::check_coordinates("check_solid", {&mesh, 1});
+    return detail::boolean::check_solid("check_solid", mesh, progress);
+}
+
+certificate detail::boolean::check_solid(const char* called, mesh_view mesh,
+                                         const progress_callback& progress) {
+    check_operands(called, {&mesh, 1});
+    check_coordinates(called, {&mesh, 1});
     if (!find_open_edge(detail::boolean::join_operands({&mesh, 1}).all)) return {};
     const auto [joined, arranged] = arrange_operands({&mesh, 1}, part_of(progress, 0.0, 1.0));
     if (arranged.cancelled) return {.status = status::cancelled};

@@ -1,4 +1,5 @@
 #include <libmesh/base/operand_name.hpp>
+#include <libmesh/boolean/sound_operand.hpp>
 #include <treeform/mesh/solid.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -45,7 +46,7 @@ solid::solid(treeform::mesh&& owned)
     : solid(std::make_shared<const prepared_mesh>(std::move(owned))) {}
 
 solid::solid(std::shared_ptr<const prepared_mesh> shared) {
-    if (certificate found = check_solid(shared->view()); !found)
+    if (certificate found = detail::boolean::check_solid("solid", shared->view()); !found)
         throw not_certified_error(std::move(found));
     auto made = std::make_shared<formula>();
     made->leaf = std::move(shared);

@@ -44,6 +44,12 @@ TEST_CASE("errors name the function that was called, the operand, and the caller
         {named("clip", "operand b: "), [&] { (void)tf::clip(with_wild, 0, both); }},
         {named("split", "operand b: "), [&] { (void)tf::split(with_wild); }},
         {named("check_solid", ""), [&] { (void)tf::check_solid(wild); }},
+        {named("intersection", "operand b: "),
+         [&] {
+             (void)tf::intersection(tf::prepared_mesh::borrow(good),
+                                    tf::prepared_mesh::borrow(wild));
+         }},
+        {named("solid", ""), [&] { (void)tf::solid(tf::mesh(wild)); }},
         {named("resolve_self_intersections", ""),
          [&] { (void)tf::resolve_self_intersections(wild); }},
         {named("resolve_self_intersections", ""),

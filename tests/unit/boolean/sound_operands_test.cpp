@@ -213,6 +213,31 @@ TEST_CASE("sound operands: a second question about prepared meshes builds nothin
     CHECK(a.indexes_built() + b.indexes_built() == built);
 }
 
+TEST_CASE("sound operands: progress can say stop while it is found out whether they are") {
+    const operands pair{ball(3, 1.0), moved(ball(3, 1.0), {0.3, 0.2, 0.1})};
+    const auto a = tf::prepared_mesh::borrow(pair[0]), b = tf::prepared_mesh::borrow(pair[1]);
+    std::vector<double> told;
+    const auto until = [&](double limit) {
+        return tf::unite(a, b, {.progress = [&told, limit](double done) {
+                             told.push_back(done);
+                             return done < limit;
+                         }});
+    };
+    CHECK(until(0.2).certificate.status == tf::status::cancelled);
+    CHECK(a.indexes_built() == 0);
+    CHECK(until(0.5).certificate.status == tf::status::cancelled);
+    CHECK(a.indexes_built() == 1);
+    CHECK(b.indexes_built() == 0);
+    told.clear();
+    CHECK(until(2.0).certificate);
+    CHECK(b.indexes_built() == 1);
+    CHECK(std::ranges::is_sorted(told));
+    CHECK(told.back() == 1.0);
+    told.clear();
+    CHECK(until(2.0).certificate);  // both are known: it starts from 0
+    CHECK(told.front() < 0.3);
+}
+
 TEST_CASE("sound operands: the same bytes on any number of threads, and progress can say stop") {
     const operands pair{ball(5, 1.0), moved(rotated(ball(5, 1.0), 0.3), {0.4, 0.3, 0.2})};
     const tf::boolean_result all = evaluate_prepared(pair, "a-b", {});
