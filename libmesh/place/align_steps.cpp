@@ -73,7 +73,7 @@ similarity plane_step(const std::vector<partner>& partners, bool scale) {
         return one;
     });
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 7, 7>> solver(sums.leftCols<7>());
-    const row7 values = solver.eigenvalues();
+    const row7& values = solver.eigenvalues();
     const row7 along = solver.eigenvectors().transpose() * sums.col(7);
     row7 x = row7::Zero();
     for (int i = 0; i < 7; ++i)

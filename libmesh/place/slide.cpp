@@ -7,7 +7,6 @@ namespace treeform {
 namespace {
 
 using detail::place::placing;
-using detail::place::placing_options;
 
 using many = std::span<const prepared_mesh>;
 

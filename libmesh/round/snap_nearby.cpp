@@ -24,7 +24,6 @@
 namespace treeform::detail::round {
 namespace {
 
-using base::cross;
 using base::dot;
 using base::minus;
 

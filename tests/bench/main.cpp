@@ -50,7 +50,8 @@ void print_peak(const bench::setting& setting, const std::string& id, const std:
 }
 
 void measure_all(const bench::setting& setting, const std::vector<std::string>& ids,
-                 const std::string& folder, const std::vector<std::string>& this_command) {
+                 const std::string& only, const std::string& folder,
+                 const std::vector<std::string>& this_command) {
     std::filesystem::create_directories(folder);
     bench::write_machine(folder);
     bench::csv_report csv(folder);
@@ -62,7 +63,12 @@ void measure_all(const bench::setting& setting, const std::vector<std::string>& 
             continue;
         fmt::print("\n== {}  {}\n", workload.id, workload.title);
         std::vector<bench::outcome> outcomes;
-        workload.contests(setting, [&](const bench::contest& contest) {
+        workload.contests(setting, [&](bench::contest contest) {
+            if (!only.empty()) {
+                std::erase_if(contest.contestants, [&](const auto& c) { return c.who != only; });
+                contest.with_memory = false;
+                if (contest.contestants.empty()) return;
+            }
             const std::size_t size = contest.size();
             std::vector<bench::measured> results = bench::measure(contest, setting);
             for (std::size_t i = 0; contest.with_memory && i < results.size(); ++i) {
@@ -86,12 +92,14 @@ int run(int argc, char** argv) {
     std::vector<std::string> ids;
     std::string folder = ".";
     std::string peak_of;
+    std::string only;
     bool quick = false;
     bool tiny = false;
     app.add_option("ID", ids,
                    "workloads, such as B1, or B for all of them; all when none is named");
     app.add_flag("--quick", quick, "smaller models, within three minutes");
     app.add_flag("--tiny", tiny, "only see that everything runs");
+    app.add_option("--only", only, "only contestants of this name, such as treeform; no memory");
     app.add_option("--out", folder, "folder of bench.csv, machine.txt and index.html");
     app.add_option("--models", setting.models_dir, "folder of real models");
     app.add_option("--cache", setting.cache_dir, "folder for models and files made here")
@@ -115,7 +123,7 @@ int run(int argc, char** argv) {
     if (!setting.models_dir.empty())
         this_command.insert(this_command.end(), {"--models", setting.models_dir});
     if (tiny || quick) this_command.emplace_back(tiny ? "--tiny" : "--quick");
-    measure_all(setting, ids, folder, this_command);
+    measure_all(setting, ids, only, folder, this_command);
     return 0;
 }
 
