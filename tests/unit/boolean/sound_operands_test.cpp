@@ -223,19 +223,19 @@ TEST_CASE("sound operands: progress can say stop while it is found out whether t
                              return done < limit;
                          }});
     };
-    CHECK(until(0.2).certificate.status == tf::status::cancelled);
+    CHECK(until(0.1).certificate.status == tf::status::cancelled);
     CHECK(a.indexes_built() == 0);
-    CHECK(until(0.5).certificate.status == tf::status::cancelled);
+    CHECK(until(0.2).certificate.status == tf::status::cancelled);
     CHECK(a.indexes_built() == 1);
     CHECK(b.indexes_built() == 0);
     told.clear();
     CHECK(until(2.0).certificate);
     CHECK(b.indexes_built() == 1);
     CHECK(std::ranges::is_sorted(told));
-    CHECK(told.back() == 1.0);
+    CHECK(told.back() > 0.3);
     told.clear();
     CHECK(until(2.0).certificate);  // both are known: it starts from 0
-    CHECK(told.front() < 0.3);
+    CHECK(told.front() < 0.1);
 }
 
 TEST_CASE("sound operands: the same bytes on any number of threads, and progress can say stop") {
