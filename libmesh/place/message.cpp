@@ -31,7 +31,7 @@ std::string too_far(const placement& p) {
 }  // namespace
 
 std::string placement::message(std::span<const std::string> names) const {
-    const bool floats = precision == treeform::precision::float32;
+    const bool floats = certificate.precision == treeform::precision::float32;
     const bool named = nearest && nearest->fixed < names.size();
     const std::string other = named ? names[nearest->fixed] : "something fixed";
     switch (end) {
@@ -57,12 +57,12 @@ std::string placement::message(std::span<const std::string> names) const {
         case placement_end::cancelled:
             return "stopped by its caller";
         default:
-            return status == treeform::status::ok ? "" : "there is no such place";
+            return certificate ? "" : "there is no such place";
     }
 }
 
 placement laid_flat::as_placement() const {
-    placement at{.status = status,
+    placement at{.certificate = certificate,
                  .end = placement_end::bed,
                  .points = points,
                  .matrix = matrix,
@@ -75,7 +75,7 @@ placement laid_flat::as_placement() const {
 }
 
 placement align_result::as_placement() const {
-    return {.status = status, .points = points, .matrix = matrix};
+    return {.certificate = {.status = status}, .points = points, .matrix = matrix};
 }
 
 }  // namespace treeform

@@ -52,13 +52,13 @@ void lay(outcome& found, const body_set& moving, const place_settings& s,
          const tf::progress_callback& progress) {
     tf::lay_flat_options options = s.lay;
     options.bed = s.bed.value_or(0.0);
-    check_bed(options.bed, found.at.precision);
-    options.precision = found.at.precision;
+    check_bed(options.bed, found.at.certificate.precision);
+    options.precision = found.at.certificate.precision;
     options.tolerance = found.flatness = s.flatness.used(tf::diagonal(*moving.bodies[0].box));
     options.progress = progress;
     found.laid = tf::lay_flat(moving.shapes[0], options);
     if (!found.laid) {
-        found.at.status = tf::status::no_place;
+        found.at.certificate.status = tf::status::no_place;
         found.reason = "has no side: all its points are on a line";
         return;
     }
@@ -70,7 +70,7 @@ void fit(outcome& found, const body_set& moving, const body_set& fixed, const pl
     tf::align_options options = s.fit;
     if (s.max_distance)
         options.max_distance = s.max_distance->used(tf::diagonal(*moving.bodies[0].box));
-    options.precision = found.at.precision;
+    options.precision = found.at.certificate.precision;
     options.progress = progress;
     found.aligned = tf::align(moving.shapes[0], fixed.shapes[0], options);
     found.at = found.aligned->as_placement();
@@ -81,7 +81,8 @@ std::string remedy_for(const tf::placement& p) {
     if (p.end == tf::placement_end::starts_penetrating) return "; clear would take it out";
     if (p.end == tf::placement_end::starts_below_bed)
         return "; with --fixed, drop only goes down: drop it without --fixed first";
-    if (p.end == tf::placement_end::no_coordinates && p.precision == tf::precision::float32)
+    if (p.end == tf::placement_end::no_coordinates &&
+        p.certificate.precision == tf::precision::float32)
         return "; --precision double, in a format that has it, may find one";
     return {};
 }
@@ -100,7 +101,7 @@ void check_bed(double level, tf::precision precision) {
 outcome place(job& work, const body_set& moving, const body_set& fixed, const place_settings& s,
               tf::precision precision) {
     outcome found;
-    found.at.precision = precision;
+    found.at.certificate.precision = precision;
     const auto timing = work.time("search");
     const tf::progress_callback progress = work.progress("search");
     try {
@@ -111,10 +112,11 @@ outcome place(job& work, const body_set& moving, const body_set& fixed, const pl
         else
             found.at = place_by_verb(moving, fixed, s, precision, progress);
     } catch (const std::overflow_error&) {
-        found.at = {.status = tf::status::out_of_range, .end = tf::placement_end::out_of_range};
+        found.at = {.certificate = {.status = tf::status::out_of_range},
+                    .end = tf::placement_end::out_of_range};
     }
     work.call_ended();
-    found.at.precision = precision;  // also of what was only measured
+    found.at.certificate.precision = precision;  // also of what was only measured
     if (!found.at && found.reason.empty())
         found.reason = found.at.message(fixed.labels()) + remedy_for(found.at);
     return found;

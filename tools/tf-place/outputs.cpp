@@ -102,7 +102,7 @@ void write_result(job& work, body_set& moving, const outcome& found, const body_
     const tf::placement& p = found.at;
     const placed_body placed{0, p.points, p.matrix, all_moves};
     const bool picture = settings.mode == place_mode::measure;
-    if (!picture) enter_rounding(work, moving, {&placed, 1}, p.precision);
+    if (!picture) enter_rounding(work, moving, {&placed, 1}, p.certificate.precision);
     if (work.options.dry_run) return;
     const written_form form = form_of(work, *one.file, *path);
     // `fit` looks at no faces, and without fixed meshes there is nothing to meet.
@@ -110,7 +110,7 @@ void write_result(job& work, body_set& moving, const outcome& found, const body_
                         (form.format == "ply" || form.format == "glb");
     tf::contact_classes met;
     if (colors) met = tf::classify_contacts(moving.shapes[0], fixed.shapes, p);
-    put_back(moving, {&placed, 1}, p.precision);
+    put_back(moving, {&placed, 1}, p.certificate.precision);
     std::vector<const body*> all{&one};
     for (const body& part : fixed.bodies) all.push_back(&part);
     tf::mesh_file file = settings.scene ? scene_of(work, all, form.format) : *one.file;
@@ -119,7 +119,7 @@ void write_result(job& work, body_set& moving, const outcome& found, const body_
     if (colors)
         tf::color_contacts(file, classes_of(one, fixed, met, settings.scene),
                            {.split_polygons = picture && !settings.scene, .keep_colors = as_it_is});
-    write(work, file, form, *path, p.precision, settings.scene);
+    write(work, file, form, *path, p.certificate.precision, settings.scene);
 }
 
 }  // namespace tools

@@ -74,8 +74,9 @@ struct placement_statistics {
 /// Where a mesh goes. "At the place" is where it goes, or where it is if it does not move.
 struct placement {
     /// ok: the mesh has a place, and `points` were checked exactly as they are. Otherwise
-    /// `no_place`, `not_certified` (no_coordinates), `out_of_range` or `cancelled`.
-    treeform::status status = treeform::status::ok;
+    /// `no_place`, `not_certified` (no_coordinates), `out_of_range` or `cancelled`. It lists no
+    /// faces.
+    treeform::certificate certificate{};
     placement_end end = placement_end::stays;
     std::vector<point3> points{};  ///< [V] at the place, as they are to be written
     /// new = M * old: a translation. `points` are moved by it and rounded once, except for those
@@ -91,12 +92,11 @@ struct placement {
     standing at_place = standing::separate;
     std::optional<nearest_fixed> nearest{};  ///< at the place; none when all are too far to matter
     std::vector<placement_contact> contacts{};
-    std::uint64_t contact_count = 0;                               ///< of all, listed or not
-    std::optional<double> max_travel{};                            ///< that was allowed
-    treeform::precision precision = treeform::precision::float64;  ///< of the points
+    std::uint64_t contact_count = 0;     ///< of all, listed or not
+    std::optional<double> max_travel{};  ///< that was allowed
     placement_statistics statistics{};
 
-    explicit operator bool() const { return status == treeform::status::ok; }
+    explicit operator bool() const { return static_cast<bool>(certificate); }
     /// Why there is no place: half a sentence about the mesh that moves, without a stop at its end.
     /// `names` are those of the fixed meshes. Empty when there is one.
     [[nodiscard]] TREEFORM_API std::string message(std::span<const std::string> names = {}) const;
