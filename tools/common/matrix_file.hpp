@@ -2,6 +2,7 @@
 /// \file
 /// 4x4 matrices as text: row-major, column vectors, new = M * old.
 
+#include "tools/common/run.hpp"
 #include <treeform/tf.hpp>
 #include <treeform/tree/transform.hpp>
 
@@ -16,5 +17,8 @@ namespace tools {
 
 /// Four lines of four numbers with 17 digits.
 [[nodiscard]] std::string matrix_text(const tf::transform<3>& matrix);
+
+/// Writes that of one matrix or several to `path`, where one is named. \throws failure (bad_output)
+void write_matrix(const job& work, const std::filesystem::path& path, const std::string& text);
 
 }  // namespace tools

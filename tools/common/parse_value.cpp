@@ -50,14 +50,17 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
     return values;
 }
 
+std::string listed(std::span<const char* const> words) {
+    std::string list;
+    for (const char* word : words) list += (list.empty() ? "" : ", ") + std::string(word);
+    return list;
+}
+
 std::size_t parse_choice(std::string_view option, std::string_view text,
                          std::span<const char* const> words) {
-    std::string list;
-    for (std::size_t i = 0; i < words.size(); ++i) {
+    for (std::size_t i = 0; i < words.size(); ++i)
         if (text == words[i]) return i;
-        list += (i == 0 ? "one of " : ", ") + std::string(words[i]);
-    }
-    refuse(option, text, list);
+    refuse(option, text, "one of " + listed(words));
 }
 
 std::uint64_t parse_count(std::string_view option, std::string_view text) {

@@ -20,6 +20,9 @@ struct distance {
     [[nodiscard]] double used(double diagonal) const { return relative ? value * diagonal : value; }
 };
 
+/// "union, xor, split"
+[[nodiscard]] std::string listed(std::span<const char* const> words);
+
 /// All of them: \throws failure (bad_usage) naming `option`, the text and what was expected.
 [[nodiscard]] double parse_number(std::string_view option, std::string_view text);
 [[nodiscard]] std::vector<double> parse_numbers(std::string_view option, std::string_view text,

@@ -27,7 +27,7 @@ struct place_settings {
     std::optional<tf::point3> direction{};
     distance clearance{};
     std::optional<distance> max_travel{};
-    std::filesystem::path start{};
+    std::string start{};
     std::filesystem::path matrix{};
     bool scene = false;
     tf::align_options fit{};

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace treeform {
@@ -61,6 +62,8 @@ struct laid_flat {
     treeform::certificate certificate{};
 
     explicit operator bool() const { return static_cast<bool>(certificate); }
+    /// For people: "on side 0 of 6, of area 24". Empty where it was cancelled.
+    [[nodiscard]] TREEFORM_API std::string message() const;
     /// The same in the terms of all placements; nothing fixed was looked at.
     [[nodiscard]] TREEFORM_API placement as_placement() const;
 };
