@@ -27,6 +27,7 @@ void put_number(std::string& text, double value) {
 }  // namespace
 
 tf::transform<3> read_matrix(const std::filesystem::path& path) {
+    if (path.empty()) return {};
     const auto refuse = [&](const std::string& why) {
         throw failure(bad_input, "matrix", path.string() + ": " + why);
     };

@@ -11,7 +11,7 @@
 
 namespace tools {
 
-/// A 4x4 matrix in a file: 16 numbers by rows, the last row 0 0 0 1.
+/// A 4x4 matrix in a file: 16 numbers by rows, the last row 0 0 0 1. The identity without a path.
 /// \throws failure (bad_input)
 [[nodiscard]] tf::transform<3> read_matrix(const std::filesystem::path& path);
 

@@ -50,6 +50,18 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
     return values;
 }
 
+tf::point3 parse_point(std::string_view option, std::string_view text) {
+    const auto v = parse_numbers(option, text, 3);
+    return {v[0], v[1], v[2]};
+}
+
+tf::point3 parse_direction(std::string_view option, std::string_view text) {
+    const tf::point3 direction = parse_point(option, text);
+    if (direction == tf::point3{})
+        refuse(std::string(option) + " " + std::string(text) + ": has no direction");
+    return direction;
+}
+
 std::string listed(std::span<const char* const> words) {
     std::string list;
     for (const char* word : words) list += (list.empty() ? "" : ", ") + std::string(word);

@@ -5,16 +5,11 @@
 #include "tools/common/common_options.hpp"
 #include "tools/common/mesh_output.hpp"
 #include "tools/common/run.hpp"
-#include "tools/tf-place/placing.hpp"
-#include "tools/tf-place/settings.hpp"
+#include "tools/tf-place/place.hpp"
 
 #include <string>
 
 namespace {
-
-using tools::command_line;
-using tools::common_options;
-using tools::place_settings;
 
 const char* const epilogue =
     "DIST is in the unit of the file; \"0.01%\" is that share of the diagonal of\n"
@@ -46,12 +41,13 @@ const char* const epilogue =
 }  // namespace
 
 int main(int argc, char** argv) {
-    command_line line("tf-place", "MODE [OPTIONS] MOVING...",
-                      "Find where to put one mesh (or point set) with respect to others.\n"
-                      "The result never penetrates: it is checked again in the precision written.");
-    place_settings s;
+    tools::command_line line(
+        "tf-place", "MODE [OPTIONS] MOVING...",
+        "Find where to put one mesh (or point set) with respect to others.\n"
+        "The result never penetrates: it is checked again in the precision written.");
+    tools::place_settings s;
     tools::fixed_meshes fixed;
-    common_options options;
+    tools::common_options options;
     options.suffix = "-place";
     line.word("MODE", [&](std::string_view text) {
         s.mode_text = text;

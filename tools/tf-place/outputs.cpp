@@ -1,12 +1,13 @@
 #include "tools/common/material_words.hpp"
 #include "tools/common/mesh_output.hpp"
-#include "tools/tf-place/placing.hpp"
+#include "tools/tf-place/place.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 
+#include <algorithm>
 #include <vector>
 
 namespace tools {
@@ -29,20 +30,6 @@ tf::rounding_effects rounding_of(job& work, const tf::body_set& moving,
     return sum;
 }
 
-tf::mesh_file scene_of(job& work, std::span<const tf::body_file* const> files,
-                       const std::string& format) {
-    std::vector<tf::scene_member> members;
-    std::vector<const tf::mesh_file*> contents;
-    for (const tf::body_file* file : files) {
-        members.push_back({&file->content, file->name, file->label});
-        contents.push_back(&file->content);
-    }
-    tf::mesh_file scene = tf::scene_of(members);
-    work.warn(scene.warnings);
-    if (format == "obj") warn_of_ambiguous_materials(work, contents);
-    return scene;
-}
-
 }  // namespace
 
 void write_result(job& work, const place_settings& settings, tf::body_set& moving,
@@ -55,16 +42,23 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
     const bool scene = settings.scene || settings.mode == place_mode::arrange;
     if (!picture) enter_rounding(work, rounding_of(work, moving, placed, precision), precision);
     if (work.options.dry_run) return;
-    std::vector<const tf::body_file*> files;
+    std::vector<const tf::mesh_file*> files;
+    std::vector<tf::scene_member> members;
+    const auto add = [&](const tf::body_file& file) {
+        files.push_back(&file.content);
+        members.push_back({&file.content, file.name, file.label});
+    };
     for (const placed_body& at : placed) {
         tf::put_back(moving, at.number, at.points, at.matrix, precision);
         tf::body_file& file = moving.files[moving.bodies[at.number].file];
         tf::transform_normals(file.content, at.all_moves);
-        files.push_back(&file);
+        add(file);
     }
-    for (const tf::body_file& file : fixed.files) files.push_back(&file);
-    const written_form form = form_of(work, files[0]->content, *path);
-    tf::mesh_file file = scene ? scene_of(work, files, form.format) : files[0]->content;
+    std::for_each(fixed.files.begin(), fixed.files.end(), add);
+    const written_form form = form_of(work, *files[0], *path);
+    tf::mesh_file file = scene ? tf::scene_of(members) : *files[0];
+    if (scene) work.warn(file.warnings);
+    if (scene && form.format == "obj") warn_of_ambiguous_materials(work, files);
     // `fit` looks at no faces, and without fixed meshes there is nothing to meet.
     if (!fixed.files.empty() && settings.mode != place_mode::fit &&
         (form.format == "ply" || form.format == "glb")) {

@@ -1,7 +1,8 @@
+#include "tools/tf-place/place.hpp"
+
 #include "tools/common/console.hpp"
 #include "tools/common/matrix_file.hpp"
 #include "tools/common/mesh_output.hpp"
-#include "tools/tf-place/placing.hpp"
 #include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>
 
@@ -16,10 +17,6 @@ namespace tools {
 namespace {
 
 // ---- what is read ----
-
-tf::transform<3> start_of(const place_settings& settings) {
-    return settings.start.empty() ? tf::transform<3>{} : read_matrix(settings.start);
-}
 
 /// Says what is left out. \throws failure (bad_input) when there is nothing to place
 const tf::body_file& checked(job& work, const tf::body_file& file) {
@@ -56,40 +53,39 @@ void read_fixed(job& work, const place_settings& settings, bool as_single, fixed
             settings.mode == place_mode::fit ? &tf::body_set::add : &tf::body_set::add_parts;
         const tf::body_file& added =
             checked(work, (fixed.bodies.*add)(std::move(file), label, stem_of(path)));
-        about["faces"] = added.content.stored_faces;
-        about["box"] = added.box;
+        about.update({{"faces", added.content.stored_faces}, {"box", added.box}});
         fixed.entries.push_back(std::move(about));
     }
     fixed.as_single = as_single;
 }
 
-/// With what numbers the mesh made of `file` will be written.
-tf::precision precision_of(const job& work, const tf::body_file& file) {
+/// With what numbers the mesh made of these files will be written.
+tf::precision precision_of(const job& work, const tf::body_set& moving) {
     const auto path = mesh_output(work.options, work.path);
-    const tf::mesh_file* const input = &file.content;
     if (!path) return tf::precision::float64;
-    return written_precision(work.options, form_of(work, *input, *path), {&input, 1});
+    std::vector<const tf::mesh_file*> inputs;
+    for (const tf::body_file& file : moving.files) inputs.push_back(&file.content);
+    return written_precision(work.options, form_of(work, *inputs[0], *path), inputs);
 }
 
-/// \throws failure (bad_usage) where the height is none that can be written
-void check_bed(double level, tf::precision precision) {
+/// The bed. \throws failure (bad_usage) where what is so far above it is not to be written
+double bed_of(const place_settings& settings, tf::precision precision, double above = 0.0) {
+    const double bed = settings.bed.value_or(0.0);
     if (precision == tf::precision::float64 ||
-        std::abs(level) <= static_cast<double>(std::numeric_limits<float>::max()))
-        return;
-    refuse("--bed: " + shortest(level) +
+        std::abs(bed + above) <= double{std::numeric_limits<float>::max()})
+        return bed;
+    refuse("--bed: " + shortest(bed + above) +
            " is beyond the range of float32, which is what will be written; a format of text, or "
            "--precision double in PLY, has more");
 }
 
 // ---- one MOVING after the other ----
 
-tf::placement lay(placing& p, double diagonal, tf::precision precision,
-                  const tf::progress_callback& progress) {
+tf::placement lay(placing& p, const tf::progress_callback& progress) {
     tf::lay_flat_options options = p.settings.lay;
-    options.bed = p.settings.bed.value_or(0.0);
-    check_bed(options.bed, precision);
-    options.precision = precision;
-    options.tolerance = p.flatness = p.settings.flatness.used(diagonal);
+    options.bed = bed_of(p.settings, p.precision);
+    options.precision = p.precision;
+    options.tolerance = p.used(p.settings.flatness);
     options.progress = progress;
     p.laid = tf::lay_flat(p.moving.shapes[0], options);
     if (p.laid) return p.laid->as_placement();
@@ -97,42 +93,37 @@ tf::placement lay(placing& p, double diagonal, tf::precision precision,
     return {.certificate = {.status = tf::status::no_place}};
 }
 
-tf::placement fit(placing& p, double diagonal, tf::precision precision,
-                  const tf::progress_callback& progress) {
+tf::placement fit(placing& p, const tf::progress_callback& progress) {
     tf::align_options options = p.settings.fit;
-    if (p.settings.max_distance) options.max_distance = p.settings.max_distance->used(diagonal);
-    options.precision = precision;
+    if (p.settings.max_distance) options.max_distance = p.used(*p.settings.max_distance);
+    options.precision = p.precision;
     options.progress = progress;
     p.aligned = tf::align(p.moving.shapes[0], p.fixed.shapes[0], options);
     return p.aligned->as_placement();
 }
 
 /// Calls the verb of the mode.
-tf::placement search(placing& p, double diagonal, tf::precision precision,
-                     const tf::progress_callback& progress) {
+tf::placement search(placing& p, const tf::progress_callback& progress) {
     const place_settings& s = p.settings;
     const tf::prepared_mesh& mesh = p.moving.shapes[0];
     const auto& fixed = p.fixed.shapes;
-    const double clearance = s.clearance.used(diagonal);
+    const double clearance = p.used(s.clearance);
     const auto with = [&](auto options) {
         options.clearance = clearance;
-        if (s.max_travel) options.max_travel = s.max_travel->used(diagonal);
-        options.precision = precision;
+        if (s.max_travel) options.max_travel = p.used(*s.max_travel);
+        options.precision = p.precision;
         options.progress = progress;
         return options;
     };
     switch (s.mode) {
         case place_mode::lay:
-            return lay(p, diagonal, precision, progress);
+            return lay(p, progress);
         case place_mode::fit:
-            return fit(p, diagonal, precision, progress);
+            return fit(p, progress);
         case place_mode::drop: {
             tf::drop_options options = with(tf::drop_options{});
             options.direction = s.direction.value_or(options.direction);
-            if (s.has_bed()) {
-                options.bed = s.bed.value_or(0.0);
-                check_bed(*options.bed + clearance, precision);
-            }
+            if (s.has_bed()) options.bed = bed_of(s, p.precision, clearance);
             return tf::drop(mesh, fixed, options);
         }
         case place_mode::slide:
@@ -158,17 +149,16 @@ std::string remedy_for(const tf::placement& at) {
     return {};
 }
 
-void find_place(job& work, placing& p, tf::precision precision) {
+void find_place(job& work, placing& p) {
     const auto timing = work.time("search");
-    const double diagonal = tf::diagonal(*p.moving.files[0].box);
     try {
-        p.at = search(p, diagonal, precision, work.progress("search"));
+        p.at = search(p, work.progress("search"));
     } catch (const std::overflow_error&) {
         p.at = {.certificate = {.status = tf::status::out_of_range},
                 .end = tf::placement_end::out_of_range};
     }
     work.call_ended();
-    p.at.certificate.precision = precision;  // also of what was only measured
+    p.at.certificate.precision = p.precision;  // also of what was only measured
     if (!p.at && p.reason.empty()) p.reason = p.at.message(p.fixed.labels()) + remedy_for(p.at);
 }
 
@@ -192,14 +182,9 @@ tf::body_set read_all(job& work, const tf::transform<3>& start) {
 }
 
 tf::packing find_places(job& work, const tf::body_set& parts, const place_settings& settings) {
-    const bool all_single =
-        std::all_of(parts.files.begin(), parts.files.end(), [&](const tf::body_file& file) {
-            return precision_of(work, file) == tf::precision::float32;
-        });
     tf::pack_options options = settings.arrange;
-    options.corner.z = settings.bed.value_or(0.0);
-    options.precision = all_single ? tf::precision::float32 : tf::precision::float64;
-    check_bed(options.corner.z, options.precision);
+    options.precision = precision_of(work, parts);
+    options.corner.z = bed_of(settings, options.precision);
     options.progress = work.progress("search");
     const auto timing = work.time("search");
     tf::packing result = tf::pack(parts.shapes, options);
@@ -207,7 +192,7 @@ tf::packing find_places(job& work, const tf::body_set& parts, const place_settin
     return result;
 }
 
-/// Enters and says what has a place. \returns what has not, as the end of the sentence
+/// Enters and says what has a place.
 void enter_places(job& work, const place_settings& settings, const tf::body_set& parts,
                   const tf::packing& found) {
     json& entry = work.entry;
@@ -218,8 +203,7 @@ void enter_places(job& work, const place_settings& settings, const tf::body_set&
         entry["not_placed"].push_back(work.options.inputs[i]);
         words += "; no place for " + parts.files[i].label;
     }
-    entry["fits"] = found.not_placed.empty();
-    entry["placed"] = found.not_placed.empty();
+    entry["fits"] = entry["placed"] = found.not_placed.empty();
     entry["bed"] = {{"given", settings.bed.value_or(0.0)}, {"used", found.bed}, {"reached", true}};
     const std::uint64_t pairs = count * (count - 1) / 2;
     entry["skipped"]["pairs_culled_by_box"] =
@@ -230,13 +214,13 @@ void enter_places(job& work, const place_settings& settings, const tf::body_set&
 }  // namespace
 
 exit_status place_one(job& work, const place_settings& settings, fixed_meshes& fixed) {
-    const tf::transform<3> start = start_of(settings);
+    const tf::transform<3> start = read_matrix(settings.start);
     placing p{.settings = settings, .fixed = fixed.bodies};
     const tf::body_file& file = add_moving(work, work.path, work.read(), start, p.moving);
-    const tf::precision precision = precision_of(work, file);
-    read_fixed(work, settings, settings.scene && precision == tf::precision::float32, fixed);
+    p.precision = precision_of(work, p.moving);
+    read_fixed(work, settings, settings.scene && p.precision == tf::precision::float32, fixed);
     enter_inputs(work.entry, file, fixed);
-    find_place(work, p, precision);
+    find_place(work, p);
     p.matrix = tf::after(p.at.matrix, start);
     enter_place(work.entry, p);
     say_place(work, p);
@@ -249,7 +233,7 @@ exit_status place_one(job& work, const place_settings& settings, fixed_meshes& f
 }
 
 exit_status arrange_all(job& work, const place_settings& settings) {
-    const tf::transform<3> start = start_of(settings);
+    const tf::transform<3> start = read_matrix(settings.start);
     tf::body_set parts = read_all(work, start);
     const tf::packing plate = find_places(work, parts, settings);
     enter_places(work, settings, parts, plate);
@@ -259,9 +243,8 @@ exit_status arrange_all(job& work, const place_settings& settings) {
         const tf::packed_part& at = plate.parts[i];
         const tf::transform<3> matrix = tf::after(at.matrix, start);
         matrix_lines += matrix_text(matrix);
-        json& about = work.entry["parts"][i];
-        about["placed"] = at.placed;
-        about["matrix"] = or_null(at.placed, matrix);
+        work.entry["parts"][i].update(
+            {{"placed", at.placed}, {"matrix", or_null(at.placed, matrix)}});
         if (at.placed) placed.push_back({i, at.points, at.matrix, matrix});
     }
     const auto timing = work.time("write");

@@ -1,5 +1,5 @@
 #include "tools/common/console.hpp"
-#include "tools/tf-place/placing.hpp"
+#include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
 
 #include <utility>
@@ -38,9 +38,8 @@ json name_entry(const tf::file_body& body) { return or_null(!body.name.empty(), 
 void enter_nearest(json& entry, const placing& p, const tf::nearest_fixed& near) {
     const tf::file_body& body = p.fixed.bodies[near.fixed];
     json there = side_entry(p.fixed, near.fixed, near.how.on_b);
-    there["file"] = entry["fixed"][body.file]["input"];
-    there["part"] = body.file;
-    there["name"] = name_entry(body);
+    there.update(
+        {{"file", p.settings.fixed[body.file]}, {"part", body.file}, {"name", name_entry(body)}});
     entry["distance"] = near.how.distance;
     entry["surface_distance"] = near.how.surface_distance;
     entry["closest"] = {{"moving", side_entry(p.moving, 0, near.how.on_a)}, {"fixed", there}};
@@ -49,14 +48,13 @@ void enter_nearest(json& entry, const placing& p, const tf::nearest_fixed& near)
 }
 
 json contact_entry(const placing& p, const tf::placement_contact& c) {
-    json entry{
-        {"point", c.point}, {"normal", c.normal}, {"moving", p.moving.stored_face(0, c.moving)},
-        {"fixed", nullptr}, {"part", "bed"},      {"name", nullptr}};
-    if (!c.fixed_face) return entry;
-    entry["fixed"] = p.fixed.stored_face(c.fixed, *c.fixed_face);
-    entry["part"] = p.fixed.bodies[c.fixed].file;
-    entry["name"] = name_entry(p.fixed.bodies[c.fixed]);
-    return entry;
+    const tf::file_body* const body = c.fixed_face ? &p.fixed.bodies[c.fixed] : nullptr;
+    return {{"point", c.point},
+            {"normal", c.normal},
+            {"moving", p.moving.stored_face(0, c.moving)},
+            {"fixed", body ? json(p.fixed.stored_face(c.fixed, *c.fixed_face)) : json(nullptr)},
+            {"part", body ? json(body->file) : json("bed")},
+            {"name", body ? name_entry(*body) : json(nullptr)}};
 }
 
 /// The faces were not looked at: nothing is said of how they lie to each other.
@@ -69,13 +67,13 @@ void enter_fit(json& entry, const tf::align_result& fit) {
         {"pivot", fit.pivot}, {"pivot_moved", fit.pivot_moved}};
 }
 
-void enter_lay(json& entry, const tf::laid_flat& laid, double flatness) {
-    for (const tf::hull_side& side : laid.sides)
+void enter_lay(json& entry, const placing& p) {
+    for (const tf::hull_side& side : p.laid->sides)
         entry["sides"].push_back(
             {{"normal", side.normal}, {"area", side.area}, {"center", side.center}});
-    entry["chosen"] = laid.chosen;
-    entry["tolerance"]["used"] = flatness;
-    entry["corrected"] = laid.corrected;
+    entry["chosen"] = p.laid->chosen;
+    entry["tolerance"]["used"] = p.used(p.settings.flatness);
+    entry["corrected"] = p.laid->corrected;
 }
 
 /// What did not have to be looked at.
@@ -171,7 +169,7 @@ void enter_place(json& entry, const placing& p) {
     entry["travel"] = at.travel;
     entry["backed_off"] = at.statistics.backed_off;
     entry["matrix"] = p.matrix;
-    if (p.laid) enter_lay(entry, *p.laid, p.flatness);
+    if (p.laid) enter_lay(entry, p);
     if (p.aligned) enter_fit(entry, *p.aligned);
 }
 

@@ -1,6 +1,5 @@
-#include "tools/tf-place/settings.hpp"
-
 #include "tools/common/exit_status.hpp"
+#include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -36,18 +35,6 @@ tf::point3 parse_size3(std::string_view text) {
     return size;
 }
 
-tf::point3 parse_point(std::string_view option, std::string_view text) {
-    const auto v = parse_numbers(option, text, 3);
-    return {v[0], v[1], v[2]};
-}
-
-tf::point3 parse_direction(std::string_view option, std::string_view text) {
-    const tf::point3 direction = parse_point(option, text);
-    if (direction == tf::point3{})
-        refuse(std::string(option) + " " + std::string(text) + ": has no direction");
-    return direction;
-}
-
 void add_modes(command_line& line) {
     const std::initializer_list<std::pair<const char*, const char*>> described{
         {"drop",
@@ -66,7 +53,7 @@ void add_modes(command_line& line) {
     for (const auto& [names, text] : described) line.mention({.names = names, .text = text});
 }
 
-void add_lay_options(command_line& line, place_settings& s) {
+void add_options_of_modes(command_line& line, place_settings& s) {
     line.flag(s.largest_side,
               {"--largest-face", "", "lay: on the largest side of the convex hull", "this"});
     line.option({"--face-normal", "X,Y,Z", "lay: on the side whose normal is nearest to this"},
@@ -84,9 +71,6 @@ void add_lay_options(command_line& line, place_settings& s) {
                              "it, and flat afterwards; 0 = exactly in one plane",
                              "0.0001%"});
     line.flag(s.lay.keep_spin, {"--keep-spin", "", "lay: keep the turn about the vertical"});
-}
-
-void add_arrange_and_fit_options(command_line& line, place_settings& s) {
     line.option({"--size", "X,Y[,Z]", "arrange: bed or box size"},
                 [&s](std::string_view text) { s.arrange.size = parse_size3(text); });
     line.option({"--spacing", "DIST", "arrange: between parts", "2"}, [&s](std::string_view text) {
@@ -106,7 +90,12 @@ void add_arrange_and_fit_options(command_line& line, place_settings& s) {
     line.flag(s.fit.scale, {"--scale", "", "fit: allow uniform scale"});
 }
 
-void add_placing_options(command_line& line, place_settings& s, common_options& options) {
+}  // namespace
+
+const char* name_of(place_mode mode) { return modes[static_cast<std::size_t>(mode)]; }
+
+void add_options(command_line& line, place_settings& s, common_options& options) {
+    add_modes(line);
     line.group("Options");
     line.repeatable_option(options.also_read, {"--fixed", "FILE",
                                                "what stays where it is (repeatable); its objects,\n"
@@ -122,12 +111,8 @@ void add_placing_options(command_line& line, place_settings& s, common_options& 
         [&s](std::string_view text) { s.direction = parse_direction("--direction", text); });
     line.option(s.clearance, {"--clearance", "DIST", "gap to leave", "0"});
     line.option(s.max_travel, {"--max-travel", "DIST", "give up beyond this travel (exit 1)"});
-    add_lay_options(line, s);
-    add_arrange_and_fit_options(line, s);
+    add_options_of_modes(line, s);
     line.option(s.start, {"--start", "FILE", "4x4 matrix applied to MOVING first"});
-}
-
-void add_what_to_give_back(command_line& line, place_settings& s, common_options& options) {
     line.group("What to give back");
     line.output(options.output, {"-o, --output", "FILE",
                                  "MOVING at its new place; of measure, where it is;\n"
@@ -140,16 +125,6 @@ void add_what_to_give_back(command_line& line, place_settings& s, common_options
     line.output(s.matrix, {"--matrix", "FILE",
                            "4x4 matrix, 4 lines, row-major, column vectors:\n"
                            "new = M * old, in file coordinates; \"-\" = stdout"});
-}
-
-}  // namespace
-
-const char* name_of(place_mode mode) { return modes[static_cast<std::size_t>(mode)]; }
-
-void add_options(command_line& line, place_settings& settings, common_options& options) {
-    add_modes(line);
-    add_placing_options(line, settings, options);
-    add_what_to_give_back(line, settings, options);
 }
 
 void check_settings(const command_line& line, place_settings& s, common_options& o) {
