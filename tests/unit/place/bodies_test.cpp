@@ -1,4 +1,6 @@
+#include <treeform/mesh/align.hpp>
 #include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/slide.hpp>
@@ -137,6 +139,13 @@ TEST_CASE("bodies: how they lie to each other, in words, with the numbers of the
     fixed.add(file_of(moved(box(3, 3, 3), {-1, -1, -1})), "around.obj");
     CHECK(words(0, 1, 0) == "penetrating around.obj, inside it");
     CHECK(tf::relation_in_words(tf::drop(moving.shapes[0]), moving, {}) == "touching the bed");
+}
+
+TEST_CASE("what has been laid flat or aligned says so in words") {
+    CHECK(tf::lay_flat(box(1, 2, 3))->message() == "on side 0 of 6, of area 6");
+    CHECK(tf::laid_flat{}.message().empty());
+    CHECK(tf::align_result{.rms = 0.5, .overlap = 1, .iterations = 1}.message() ==
+          "after 1 step; rms 0.5, from 0; overlap 1");
 }
 
 TEST_CASE("classes in files: those of bodies, by file, and of clouds only where they are alone") {
