@@ -1,27 +1,20 @@
 #include <libmesh/base/operand_name.hpp>
+#include <libmesh/base/words.hpp>
 #include <treeform/mesh/certificate.hpp>
 
-#include <charconv>
 #include <cstddef>
 #include <utility>
 
 namespace treeform {
 namespace {
 
-/// 26306 edges as "26,306 edges".
-std::string counted(std::uint64_t n, const char* one, const char* several) {
-    std::string text = std::to_string(n);
-    for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
-    return text + " " + (n == 1 ? one : several);
-}
+using detail::base::counted;
+using detail::base::shortest;
 
 std::string place_of(const point3& p) {
     std::string text = "(";
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        char digits[32];
-        const auto end = std::to_chars(digits, digits + sizeof digits, p[axis]).ptr;
-        text.append(axis == 0 ? "" : ", ").append(digits, end);
-    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        text.append(axis == 0 ? "" : ", ").append(shortest(p[axis]));
     return text + ")";
 }
 

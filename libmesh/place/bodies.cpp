@@ -77,49 +77,77 @@ std::vector<prepared_mesh> split_up(mesh_view whole, const std::vector<scene_par
 
 }  // namespace
 
-file_bodies whole_body(const mesh_file& file) {
-    file_bodies found;
-    found.cloud = file.mesh.faces.empty();
+body_file& body_set::add(mesh_file content, std::string label, std::string name) {
+    body_file& file = files.emplace_back();
+    file.cloud = content.mesh.faces.empty();
+    file.label = std::move(label);
+    file.name = std::move(name);
     std::vector<std::uint32_t> usable =
-        found.cloud ? finite_points(file.mesh) : usable_faces(file.mesh);
-    const std::size_t all = found.cloud ? file.mesh.points.size() : file.mesh.faces.size();
-    found.left_out = all - usable.size();
-    if (usable.empty()) return found;
-    file_body& body = found.bodies.emplace_back();
-    found.shapes.push_back(found.cloud
-                               ? cloud_of(file.mesh, usable)
-                               : prepared_mesh(join_equal_points(select_faces(file.mesh, usable))));
-    if (usable.size() < all) body.triangle_of_face = std::move(usable);
-    return found;
+        file.cloud ? finite_points(content.mesh) : usable_faces(content.mesh);
+    const std::size_t all = file.cloud ? content.mesh.points.size() : content.mesh.faces.size();
+    file.left_out = all - usable.size();
+    if (!usable.empty()) {
+        shapes.push_back(
+            file.cloud ? cloud_of(content.mesh, usable)
+                       : prepared_mesh(join_equal_points(select_faces(content.mesh, usable))));
+        file.box = bounding_box(shapes.back().view().points);
+        bodies.push_back({.file = files.size() - 1});
+        if (usable.size() < all) bodies.back().triangle_of_face = std::move(usable);
+    }
+    file.content = std::move(content);
+    return file;
 }
 
-file_bodies bodies_of(const mesh_file& file) {
-    file_bodies found = whole_body(file);
-    if (found.bodies.empty() || found.cloud || file.attributes.parts.size() < 2) return found;
-    const file_body& whole = found.bodies.front();
-    const mesh_view mesh = found.shapes.front().view();
+body_file& body_set::add_parts(mesh_file content, std::string label, std::string name) {
+    body_file& file = add(std::move(content), std::move(label), std::move(name));
+    const std::vector<part>& names = file.content.attributes.parts;
+    if (!file.box || file.cloud || names.size() < 2) return file;
+    const mesh_view mesh = shapes.back().view();
     std::vector<std::uint32_t> number;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
-        number.push_back(whole.stored_face(file, f));
-    const std::vector<scene_part> parts = scene_parts(mesh, file.attributes.parts, number);
-    if (parts.size() < 2) return found;
-    std::vector<prepared_mesh> shapes = split_up(mesh, parts);
-    std::vector<file_body> bodies(parts.size());
+        number.push_back(stored_face(bodies.size() - 1, f));
+    const std::vector<scene_part> parts = scene_parts(mesh, names, number);
+    if (parts.size() < 2) return file;
+    std::vector<prepared_mesh> split = split_up(mesh, parts);
+    shapes.pop_back();
+    std::move(split.begin(), split.end(), std::back_inserter(shapes));
+    const file_body whole = std::move(bodies.back());
+    bodies.pop_back();
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        file_body& body = bodies[i];
+        file_body& body = bodies.emplace_back();
+        body.file = whole.file;
         body.name = parts[i].name.empty() ? "part " + std::to_string(i) : parts[i].name;
         for (const std::uint32_t f : parts[i].faces)
             body.triangle_of_face.push_back(whole.triangle(f));
     }
-    found.bodies = std::move(bodies);
-    found.shapes = std::move(shapes);
-    return found;
+    return file;
 }
 
-void put_back(mesh_file& file, const file_body& body, const prepared_mesh& shape,
-              points_view placed, const transform<3>& matrix, precision written_as) {
-    std::vector<point3>& points = file.mesh.points;
-    for (point3& p : points) {
+const body_file& body_set::file_of(std::size_t body) const { return files[bodies[body].file]; }
+
+std::uint32_t body_set::stored_face(std::size_t body, std::uint32_t f) const {
+    const std::vector<std::uint32_t>& stored = file_of(body).content.stored_face;
+    const std::uint32_t t = bodies[body].triangle(f);
+    return stored.empty() ? t : stored[t];
+}
+
+std::string body_set::label(std::size_t body) const {
+    const std::string& part = bodies[body].name;
+    return part.empty() ? file_of(body).label : file_of(body).label + ": " + part;
+}
+
+std::vector<std::string> body_set::labels() const {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < bodies.size(); ++i) all.push_back(label(i));
+    return all;
+}
+
+void put_back(body_set& set, std::size_t number, points_view placed, const transform<3>& matrix,
+              precision written_as) {
+    const file_body& body = set.bodies[number];
+    const prepared_mesh& shape = set.shapes[number];
+    mesh& file = set.files[body.file].content.mesh;
+    for (point3& p : file.points) {
         p = matrix(p);
         if (written_as == precision::float32) p = rounded(p);
     }
@@ -127,10 +155,10 @@ void put_back(mesh_file& file, const file_body& body, const prepared_mesh& shape
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
         const std::uint32_t t = body.triangle(f);
         if (shape.is_cloud()) {
-            points[t] = placed[f];
+            file.points[t] = placed[f];
             continue;
         }
-        for (std::size_t i = 0; i < 3; ++i) points[file.mesh.faces[t][i]] = placed[faces[f][i]];
+        for (std::size_t i = 0; i < 3; ++i) file.points[file.faces[t][i]] = placed[faces[f][i]];
     }
 }
 

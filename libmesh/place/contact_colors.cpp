@@ -6,8 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 namespace treeform {
@@ -35,22 +35,31 @@ bool has_colors(const mesh_file& file) {
                        [](const element& e) { return find_column(e, "red") != nullptr; });
 }
 
+/// Adds a class for each triangle of the files of `set`; `classes` are by body.
+void append_classes(std::vector<contact_class>& all, const body_set& set,
+                    std::span<const std::vector<contact_class>> classes, bool with_clouds) {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < set.bodies.size(); ++i) {
+        const body_file& file = set.file_of(i);
+        if (file.cloud && !with_clouds) continue;
+        if (i == 0 || set.bodies[i].file != set.bodies[i - 1].file) {
+            first = all.size();
+            const mesh& content = file.content.mesh;
+            all.resize(first + (file.cloud ? content.points.size() : content.faces.size()));
+        }
+        for (std::uint32_t f = 0; f < classes[i].size(); ++f)
+            all[first + set.bodies[i].triangle(f)] = classes[i][f];
+    }
+}
+
 }  // namespace
 
-std::vector<contact_class> classes_in_files(std::span<const classified_body> bodies) {
+std::vector<contact_class> classes_in_files(const contact_classes& classes, const body_set& moving,
+                                            const body_set& fixed) {
+    const bool with_clouds = fixed.bodies.empty();
     std::vector<contact_class> all;
-    std::size_t first = 0;
-    const mesh_file* file = nullptr;
-    for (const classified_body& b : bodies) {
-        const bool cloud = b.file->mesh.faces.empty();
-        if (cloud && bodies.size() > 1) continue;
-        if (std::exchange(file, b.file) != b.file) {
-            first = all.size();
-            all.resize(first + (cloud ? b.file->mesh.points.size() : b.file->mesh.faces.size()));
-        }
-        for (std::uint32_t f = 0; f < b.classes.size(); ++f)
-            all[first + b.body->triangle(f)] = b.classes[f];
-    }
+    append_classes(all, moving, {&classes.moving, 1}, with_clouds);
+    append_classes(all, fixed, classes.fixed, with_clouds);
     return all;
 }
 

@@ -9,6 +9,7 @@
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/rounding.hpp>
 
 #include <algorithm>
 #include <array>
@@ -361,7 +362,7 @@ std::optional<laid_flat> lay_flat(mesh_view mesh, const lay_flat_options& option
     const std::vector<std::uint32_t> ids = points_that_count(mesh);
     detail::base::work_progress work(options.progress);
     const candidates found = sides_of(mesh, ids, options.tolerance, work.part(0.0, 0.8));
-    if (work.cancelled()) return laid_flat{.status = status::cancelled};
+    if (work.cancelled()) return laid_flat{.certificate = {.status = status::cancelled}};
     if (found.hull.sides.empty()) return std::nullopt;
 
     laid_flat laid;
@@ -377,6 +378,8 @@ std::optional<laid_flat> lay_flat(mesh_view mesh, const lay_flat_options& option
     const plane_points plane{found.points[f[0]], found.points[f[1]], found.points[f[2]]};
     put_down(laid, mesh, ids, plane, move, options);
     laid.contact = detail::place::contact_with_bed({laid.points, mesh.faces});
+    laid.certificate.precision = options.precision;
+    laid.certificate.max_displacement = max_displacement(mesh.points, laid.matrix, laid.points);
     work.reach(1.0);
     return laid;
 }

@@ -1,18 +1,17 @@
+#include <libmesh/base/words.hpp>
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/placement.hpp>
 
-#include <charconv>
+#include <array>
+#include <cstddef>
 #include <string>
 
 namespace treeform {
 namespace {
 
-/// The shortest decimal text that reads back as `value`.
-std::string shortest(double value) {
-    char digits[32];
-    return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
+using detail::base::counted;
+using detail::base::shortest;
 
 std::string depth_of(const placement& p) {
     return "reaches " + shortest(p.below_bed) + " below " +
@@ -28,10 +27,45 @@ std::string too_far(const placement& p) {
     return "the nearest point is further away than " + longest;
 }
 
+/// "touching bed.stl", and the first pair of faces that meet.
+std::string meeting_in_words(const placement& at, const body_set& moving, const body_set& fixed) {
+    const nearest_fixed& near = *at.nearest;
+    const std::string text = name_of(at.at_place) + (" " + fixed.label(near.fixed));
+    const mesh_relation_result& how = near.how.relation;
+    if (how.a_inside_b) return text + ", inside it";
+    if (how.b_inside_a) return text + ", which is inside";
+    if (at.contacts.empty() || !at.contacts[0].fixed_face) return text;
+    const placement_contact& first = at.contacts[0];
+    const bool cloud = moving.file_of(0).cloud, to_cloud = fixed.file_of(first.fixed).cloud;
+    const char* const of = cloud && to_cloud ? " of points"
+                           : cloud           ? " of a point and a face"
+                           : to_cloud        ? " of a face and a point"
+                                             : " of faces";
+    return text + " (" + counted(at.contact_count, "pair", "pairs") + of + ", the first " +
+           std::to_string(moving.stored_face(0, first.moving)) + " and " +
+           std::to_string(fixed.stored_face(first.fixed, *first.fixed_face)) + ")";
+}
+
 }  // namespace
 
+const char* name_of(standing how) {
+    constexpr std::array<const char*, 5> names{"separate", "touching", "penetrating",
+                                               "closer-than-clearance", "clear"};
+    return names[static_cast<std::size_t>(how)];
+}
+
+std::string relation_in_words(const placement& at, const body_set& moving, const body_set& fixed) {
+    const std::string how = name_of(at.at_place);
+    if (at.on_bed) return how + (at.at_place == standing::clear ? " of the bed" : " the bed");
+    if (!at.nearest) return how;
+    if (at.at_place == standing::touching || at.at_place == standing::penetrating)
+        return meeting_in_words(at, moving, fixed);
+    return how + ", " + shortest(at.nearest->how.distance) + " from " +
+           fixed.label(at.nearest->fixed);
+}
+
 std::string placement::message(std::span<const std::string> names) const {
-    const bool floats = precision == treeform::precision::float32;
+    const bool floats = certificate.precision == treeform::precision::float32;
     const bool named = nearest && nearest->fixed < names.size();
     const std::string other = named ? names[nearest->fixed] : "something fixed";
     switch (end) {
@@ -57,12 +91,23 @@ std::string placement::message(std::span<const std::string> names) const {
         case placement_end::cancelled:
             return "stopped by its caller";
         default:
-            return status == treeform::status::ok ? "" : "there is no such place";
+            return certificate ? "" : "there is no such place";
     }
 }
 
+std::string align_result::message() const {
+    return "after " + counted(iterations, "step", "steps") + "; rms " + shortest(rms) + ", from " +
+           shortest(rms_at_start) + "; overlap " + shortest(overlap);
+}
+
+std::string laid_flat::message() const {
+    if (sides.empty()) return {};
+    return "on side " + std::to_string(chosen) + " of " + std::to_string(sides.size()) +
+           ", of area " + shortest(sides[chosen].area);
+}
+
 placement laid_flat::as_placement() const {
-    placement at{.status = status,
+    placement at{.certificate = certificate,
                  .end = placement_end::bed,
                  .points = points,
                  .matrix = matrix,
@@ -75,7 +120,7 @@ placement laid_flat::as_placement() const {
 }
 
 placement align_result::as_placement() const {
-    return {.status = status, .points = points, .matrix = matrix};
+    return {.certificate = {.status = status}, .points = points, .matrix = matrix};
 }
 
 }  // namespace treeform

@@ -2,6 +2,7 @@
 #include <libmesh/place/plate.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/pack.hpp>
+#include <treeform/mesh/rounding.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
@@ -234,6 +235,7 @@ packing pack(std::span<const mesh_view> parts, const pack_options& options) {
 
     packing best;
     best.bed = detail::place::not_below(options.corner.z, options.precision);
+    best.certificate.precision = options.precision;
     const auto count = static_cast<double>(parts.size());
     double least_left = -1.0;
     for (unsigned attempt = 0; attempt < options.attempts && least_left != 0.0; ++attempt) {
@@ -243,7 +245,8 @@ packing pack(std::span<const mesh_view> parts, const pack_options& options) {
         for (const std::uint32_t part : order_of(shapes, options.seed, attempt)) {
             const double all = static_cast<double>(options.attempts) * count;
             const double done = static_cast<double>(attempt) * count + static_cast<double>(tried++);
-            if (!work.reach(0.2 + 0.8 * done / all)) return {.status = status::cancelled};
+            if (!work.reach(0.2 + 0.8 * done / all))
+                return {.certificate = {.status = status::cancelled}};
             if ((least_left < 0.0 || left < least_left) && !one.put(part))
                 left += shapes[part].area;
         }
@@ -254,9 +257,13 @@ packing pack(std::span<const mesh_view> parts, const pack_options& options) {
         }
         best.pairs_measured = measured;
     }
-    for (std::uint32_t i = 0; i < parts.size(); ++i)
-        if (!best.parts[i].placed) best.not_placed.push_back(i);
-    if (!work.reach(1.0)) return {.status = status::cancelled};
+    double& moved = best.certificate.max_displacement;
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+        const packed_part& part = best.parts[i];
+        moved = std::max(moved, max_displacement(parts[i].points, part.matrix, part.points));
+        if (!part.placed) best.not_placed.push_back(i);
+    }
+    if (!work.reach(1.0)) return {.certificate = {.status = status::cancelled}};
     return best;
 }
 

@@ -5,6 +5,7 @@
 #include <libmesh/place/placing.hpp>
 #include <libmesh/place/settle_among.hpp>
 #include <libmesh/place/sweep_among.hpp>
+#include <treeform/mesh/rounding.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,7 @@ placing::placing(const prepared_mesh& moving, std::span<const prepared_mesh> fix
     box_ = box_of_faces(moving.view());
     if (options.max_travel) longest_ = *options.max_travel;
     result_.max_travel = options.max_travel;
-    result_.precision = options.precision;
+    result_.certificate.precision = options.precision;
     result_.clearance = options.clearance;
     result_.points.assign(moving.view().points.begin(), moving.view().points.end());
     if (options.bed) result_.bed = not_below(*options.bed + options.clearance, options.precision);
@@ -83,15 +84,19 @@ void placing::in_range(const function_ref<void()>& find) {
 }
 
 placement placing::finished() {
+    certificate& known = result_.certificate;
+    if (placed())
+        known.max_displacement =
+            max_displacement(whose_.view().points, result_.matrix, result_.points);
     switch (result_.end) {
         case placement_end::no_coordinates:
-            result_.status = status::not_certified;
+            known.status = status::not_certified;
             break;
         case placement_end::out_of_range:
-            result_.status = status::out_of_range;
+            known.status = status::out_of_range;
             break;
         default:
-            result_.status = placed() ? status::ok : status::no_place;
+            known.status = placed() ? status::ok : status::no_place;
             break;
     }
     return std::move(result_);

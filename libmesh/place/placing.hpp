@@ -49,7 +49,7 @@ class placing {
             work_.reach(1.0);
             over();
         } catch (const stopped&) {
-            return {.status = status::cancelled, .end = placement_end::cancelled};
+            return {.certificate = {.status = status::cancelled}, .end = placement_end::cancelled};
         }
         return finished();
     }

@@ -1,4 +1,3 @@
-#include <libmesh/base/double_double.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/rounding.hpp>
@@ -13,24 +12,6 @@
 
 namespace treeform {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Coordinate k of what `by` makes of p.
-detail::base::double_double image(const transform<3>& by, const point3& p, std::size_t k) {
-    detail::base::double_double sum{by.rows[k][3], 0.0};
-    for (std::size_t j = 0; j < 3; ++j) sum = sum + detail::base::product_of(by.rows[k][j], p[j]);
-    return sum;
-}
-
-double difference(const transform<3>& by, const point3& p, std::size_t k, double placed) {
-    const detail::base::double_double exact = image(by, p, k);
-    const double found = std::abs((placed - exact.high) - exact.low);
-    if (!std::isnan(found)) return found;
-    // Products overflow in halves before they do as a whole.
-    const double plain = std::abs(placed - by(p)[k]);
-    return std::isnan(plain) ? infinity : plain;
-}
 
 using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -71,14 +52,6 @@ double coordinate_step(points_view points, precision of) {
     const double least = single ? 0x1p-149 : std::numeric_limits<double>::denorm_min();
     if (largest == 0.0) return least;
     return std::max(least, std::ldexp(1.0, std::ilogb(largest) - (single ? 23 : 52)));
-}
-
-double max_displacement(points_view points, const transform<3>& by, points_view placed) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            largest = std::max(largest, difference(by, points[i], k, placed[i][k]));
-    return largest;
 }
 
 std::vector<point3> rounded(points_view points, precision to) {

@@ -5,6 +5,7 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -13,7 +14,8 @@
 #include <optional>
 #include <string>
 
-/// Points are lists of three numbers, boxes have two of them, what is not there is null.
+/// Points are lists of three numbers, boxes have two of them, matrices have four rows; what is not
+/// there is null.
 template <>
 struct nlohmann::adl_serializer<treeform::point3> {
     template <class Json>
@@ -26,6 +28,14 @@ struct nlohmann::adl_serializer<treeform::box3> {
     template <class Json>
     static void to_json(Json& to, const treeform::box3& box) {
         to = {{"min", box.min}, {"max", box.max}};
+    }
+};
+template <>
+struct nlohmann::adl_serializer<treeform::transform<3>> {
+    template <class Json>
+    static void to_json(Json& to, const treeform::transform<3>& matrix) {
+        to = matrix.rows;
+        to.push_back({0.0, 0.0, 0.0, 1.0});
     }
 };
 template <class T>

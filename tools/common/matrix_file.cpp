@@ -1,6 +1,7 @@
 #include "tools/common/matrix_file.hpp"
 
 #include "tools/common/exit_status.hpp"
+#include "tools/common/output_file.hpp"
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -26,6 +27,7 @@ void put_number(std::string& text, double value) {
 }  // namespace
 
 tf::transform<3> read_matrix(const std::filesystem::path& path) {
+    if (path.empty()) return {};
     const auto refuse = [&](const std::string& why) {
         throw failure(bad_input, "matrix", path.string() + ": " + why);
     };
@@ -61,6 +63,10 @@ std::string matrix_text(const tf::transform<3>& matrix) {
             text += j == 3 ? '\n' : ' ';
         }
     return text + "0 0 0 1\n";
+}
+
+void write_matrix(const job& work, const std::filesystem::path& path, const std::string& text) {
+    write_file(path, work.options.force, work.keeper, [&](output_file& file) { file.write(text); });
 }
 
 }  // namespace tools

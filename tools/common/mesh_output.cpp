@@ -121,6 +121,19 @@ void warn_of_folds(job& work, const tf::rounding_defects& defects, tf::precision
                                  : "nearer to the origin they would stay"));
 }
 
+void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision precision) {
+    work.entry["rounding"] = {{"max_move", lost.max_displacement},
+                              {"step", lost.step},
+                              {"collapsed_faces", or_null(lost.compared, lost.collapsed)},
+                              {"new_pairs", or_null(lost.compared, lost.meeting)}};
+    if (lost.noticeable && precision == tf::precision::float32)
+        warn_of_rounding(work, lost.max_displacement);
+    else if (lost.noticeable)
+        work.warn("rounded", "coordinates move by up to " + shortest(lost.max_displacement));
+    if (lost.compared)
+        warn_of_folds(work, {.collapsed = lost.collapsed, .meeting = lost.meeting}, precision);
+}
+
 void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written) {
     json& output = work.entry["output"];
     output["file"] = path.string();

@@ -29,6 +29,9 @@ void warn_of_rounding(job& work, double max_displacement, const std::string& who
 /// Says which faces rounding to these numbers has folded, if any.
 void warn_of_folds(job& work, const tf::rounding_defects& defects, tf::precision precision);
 
+/// Enters what points have lost at their places as "rounding", and says what is noticeable of it.
+void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision precision);
+
 /// Enters file, format, numbers and what these have moved as "output", beside what is there, and
 /// says what the writer warns of.
 void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written);

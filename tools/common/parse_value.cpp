@@ -50,14 +50,29 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
     return values;
 }
 
+tf::point3 parse_point(std::string_view option, std::string_view text) {
+    const auto v = parse_numbers(option, text, 3);
+    return {v[0], v[1], v[2]};
+}
+
+tf::point3 parse_direction(std::string_view option, std::string_view text) {
+    const tf::point3 direction = parse_point(option, text);
+    if (direction == tf::point3{})
+        refuse(std::string(option) + " " + std::string(text) + ": has no direction");
+    return direction;
+}
+
+std::string listed(std::span<const char* const> words) {
+    std::string list;
+    for (const char* word : words) list += (list.empty() ? "" : ", ") + std::string(word);
+    return list;
+}
+
 std::size_t parse_choice(std::string_view option, std::string_view text,
                          std::span<const char* const> words) {
-    std::string list;
-    for (std::size_t i = 0; i < words.size(); ++i) {
+    for (std::size_t i = 0; i < words.size(); ++i)
         if (text == words[i]) return i;
-        list += (i == 0 ? "one of " : ", ") + std::string(words[i]);
-    }
-    refuse(option, text, list);
+    refuse(option, text, "one of " + listed(words));
 }
 
 std::uint64_t parse_count(std::string_view option, std::string_view text) {

@@ -2,6 +2,9 @@
 /// \file
 /// Values of options: numbers, distances, sizes. Locale-free; what is left over is an error.
 
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,10 +23,17 @@ struct distance {
     [[nodiscard]] double used(double diagonal) const { return relative ? value * diagonal : value; }
 };
 
+/// "union, xor, split"
+[[nodiscard]] std::string listed(std::span<const char* const> words);
+
 /// All of them: \throws failure (bad_usage) naming `option`, the text and what was expected.
 [[nodiscard]] double parse_number(std::string_view option, std::string_view text);
 [[nodiscard]] std::vector<double> parse_numbers(std::string_view option, std::string_view text,
                                                 std::size_t count);
+/// "1,0,-2.5"
+[[nodiscard]] tf::point3 parse_point(std::string_view option, std::string_view text);
+/// The same, not all 0.
+[[nodiscard]] tf::point3 parse_direction(std::string_view option, std::string_view text);
 /// Which of `words` it is.
 [[nodiscard]] std::size_t parse_choice(std::string_view option, std::string_view text,
                                        std::span<const char* const> words);

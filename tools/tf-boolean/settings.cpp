@@ -18,12 +18,6 @@ bool is_operation(const std::string& word) {
     return std::find(operations.begin(), operations.end(), word) != operations.end();
 }
 
-std::string listed_operations() {
-    std::string list;
-    for (const char* word : operations) list += (list.empty() ? "" : ", ") + std::string(word);
-    return list;
-}
-
 void take_operation(boolean_settings& s, common_options& o) {
     const std::string& first = o.inputs.front();
     if (!s.expression.empty()) {
@@ -35,7 +29,7 @@ void take_operation(boolean_settings& s, common_options& o) {
         s.operation = first;
         o.inputs.erase(o.inputs.begin());
     } else if (!s.check) {
-        refuse(first + ": no operation; expected one of " + listed_operations() + ", or --expr");
+        refuse(first + ": no operation; expected one of " + listed(operations) + ", or --expr");
     }
     if (o.inputs.empty()) refuse(s.operation + ": expected an INPUT");
 }

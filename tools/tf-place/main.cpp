@@ -3,21 +3,13 @@
 
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
-#include "tools/common/matrix_file.hpp"
 #include "tools/common/mesh_output.hpp"
 #include "tools/common/run.hpp"
-#include "tools/tf-place/outcome.hpp"
-#include "tools/tf-place/settings.hpp"
-#include <treeform/tf.hpp>
+#include "tools/tf-place/place.hpp"
 
 #include <string>
 
 namespace {
-
-using tools::command_line;
-using tools::common_options;
-using tools::exit_status;
-using tools::place_settings;
 
 const char* const epilogue =
     "DIST is in the unit of the file; \"0.01%\" is that share of the diagonal of\n"
@@ -46,38 +38,16 @@ const char* const epilogue =
     "  the start, not all fit, not converged); 2 usage; 3 input; 4 output;\n"
     "  5 stopped (memory, timeout, signal); 70 bug. Of several inputs, the highest.\n";
 
-exit_status look_at(tools::job& work, const place_settings& s, tools::body_set& fixed) {
-    tools::enter_blank_report(work, s);
-    tools::check_outputs(work, {s.matrix});
-    const tf::transform<3> start = tools::start_of(s);
-    tools::body_set moving;
-    static_cast<void>(tools::read_body(work, work.path, start, moving));
-    const tools::body& one = moving.bodies[0];
-    const tf::precision precision = tools::precision_of(work, *one.file);
-    tools::read_fixed(work, s, s.scene && precision == tf::precision::float32, fixed);
-    tools::enter_bodies(work, one, fixed);
-
-    const tools::outcome found = tools::place(work, moving, fixed, s, precision);
-    const tf::transform<3> matrix = tf::after(found.at.matrix, start);
-    work.out.result(work.name + ": " + tools::verdict(one, found, fixed, s));
-    tools::say_details(work, found, fixed);
-    tools::enter_report(work, one, found, fixed, s, matrix);
-    if (!found.at) return tools::found;
-    const auto timing = work.time("write");
-    tools::write_matrix(work, s, tools::matrix_text(matrix));
-    tools::write_result(work, moving, found, fixed, s, matrix);
-    return found.complete() ? tools::done : tools::found;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    command_line line("tf-place", "MODE [OPTIONS] MOVING...",
-                      "Find where to put one mesh (or point set) with respect to others.\n"
-                      "The result never penetrates: it is checked again in the precision written.");
-    place_settings s;
-    tools::body_set fixed;
-    common_options options;
+    tools::command_line line(
+        "tf-place", "MODE [OPTIONS] MOVING...",
+        "Find where to put one mesh (or point set) with respect to others.\n"
+        "The result never penetrates: it is checked again in the precision written.");
+    tools::place_settings s;
+    tools::fixed_meshes fixed;
+    tools::common_options options;
     options.suffix = "-place";
     line.word("MODE", [&](std::string_view text) {
         s.mode_text = text;
@@ -97,7 +67,8 @@ int main(int argc, char** argv) {
         line, options, {"read", "prepare", "search", "settle", "write"}, argc, argv,
         [&] { tools::check_settings(line, s, options); },
         [&](tools::job& work) {
-            return s.mode == tools::place_mode::arrange ? tools::arrange_all(work, s)
-                                                        : look_at(work, s, fixed);
+            tools::enter_blank_report(work, s);
+            tools::check_outputs(work, {s.matrix});
+            return options.joined ? tools::arrange_all(work, s) : tools::place_one(work, s, fixed);
         });
 }

@@ -1,7 +1,7 @@
-#include "tools/tf-place/outcome.hpp"
+#include "tools/common/console.hpp"
+#include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
 
-#include <array>
 #include <utility>
 
 namespace tools {
@@ -21,52 +21,40 @@ constexpr const char* blank_report = R"({
     "tolerance": {"given": null, "used": null}, "parts": [], "not_placed": [], "rounding": null,
     "matrix_file": null, "output": null})";
 
-void extend(std::optional<tf::box3>& box, const std::optional<tf::box3>& more) {
-    if (box && more)
-        box = tf::bounding_box(std::array{box->min, box->max, more->min, more->max});
-    else if (more)
-        box = more;
+/// A point of a body: of a mesh on a face, of a cloud a vertex.
+json side_entry(const tf::body_set& set, std::size_t body, const tf::surface_point& at) {
+    const bool cloud = set.file_of(body).cloud;
+    const json number = set.bodies[body].triangle(at.face);
+    return {{"point", at.point},
+            {"face", or_null(!cloud, set.stored_face(body, at.face))},
+            {"triangle", or_null(!cloud, number)},
+            {"barycentric", or_null(!cloud, at.barycentric)},
+            {"vertex", or_null(cloud, number)}};
 }
 
-json side_entry(const body& b, const tf::surface_point& at) {
-    json entry{{"point", at.point}};
-    const json triangle = b.is.triangle(at.face);
-    entry["face"] = or_null(!b.cloud, b.stored_face(at.face));
-    entry["triangle"] = or_null(!b.cloud, triangle);
-    entry["barycentric"] = or_null(!b.cloud, at.barycentric);
-    entry["vertex"] = or_null(b.cloud, triangle);
-    return entry;
-}
-
-json name_entry(const body& b) { return or_null(!b.is.name.empty(), b.is.name); }
+json name_entry(const tf::file_body& body) { return or_null(!body.name.empty(), body.name); }
 
 /// How MOVING lies to what is nearest to it.
-void enter_nearest(json& entry, const body& moving, const tf::nearest_fixed& near,
-                   const body_set& fixed) {
-    const body& part = fixed.bodies[near.fixed];
-    json there = side_entry(part, near.how.on_b);
-    there["file"] = part.path;
-    there["part"] = part.file_number;
-    there["name"] = name_entry(part);
+void enter_nearest(json& entry, const placing& p, const tf::nearest_fixed& near) {
+    const tf::file_body& body = p.fixed.bodies[near.fixed];
+    json there = side_entry(p.fixed, near.fixed, near.how.on_b);
+    there.update(
+        {{"file", p.settings.fixed[body.file]}, {"part", body.file}, {"name", name_entry(body)}});
     entry["distance"] = near.how.distance;
     entry["surface_distance"] = near.how.surface_distance;
-    entry["closest"] = {{"moving", side_entry(moving, near.how.on_a)}, {"fixed", std::move(there)}};
+    entry["closest"] = {{"moving", side_entry(p.moving, 0, near.how.on_a)}, {"fixed", there}};
     const tf::mesh_relation_result& how = near.how.relation;
     if (how.a_inside_b || how.b_inside_a) entry["inside"] = how.a_inside_b ? "moving" : "fixed";
 }
 
-json contacts_entry(const body& moving, const tf::placement& p, const body_set& fixed) {
-    json rows = json::array();
-    for (const tf::placement_contact& c : p.contacts) {
-        const body* const part = c.fixed_face ? &fixed.bodies[c.fixed] : nullptr;
-        rows.push_back({{"point", c.point},
-                        {"normal", c.normal},
-                        {"moving", moving.stored_face(c.moving)},
-                        {"fixed", part ? json(part->stored_face(*c.fixed_face)) : json(nullptr)},
-                        {"part", part ? json(part->file_number) : json("bed")},
-                        {"name", part ? name_entry(*part) : json(nullptr)}});
-    }
-    return rows;
+json contact_entry(const placing& p, const tf::placement_contact& c) {
+    const tf::file_body* const body = c.fixed_face ? &p.fixed.bodies[c.fixed] : nullptr;
+    return {{"point", c.point},
+            {"normal", c.normal},
+            {"moving", p.moving.stored_face(0, c.moving)},
+            {"fixed", body ? json(p.fixed.stored_face(c.fixed, *c.fixed_face)) : json(nullptr)},
+            {"part", body ? json(body->file) : json("bed")},
+            {"name", body ? name_entry(*body) : json(nullptr)}};
 }
 
 /// The faces were not looked at: nothing is said of how they lie to each other.
@@ -79,53 +67,64 @@ void enter_fit(json& entry, const tf::align_result& fit) {
         {"pivot", fit.pivot}, {"pivot_moved", fit.pivot_moved}};
 }
 
-void enter_lay(json& entry, const outcome& found) {
-    for (const tf::hull_side& side : found.laid->sides)
+void enter_lay(json& entry, const placing& p) {
+    for (const tf::hull_side& side : p.laid->sides)
         entry["sides"].push_back(
             {{"normal", side.normal}, {"area", side.area}, {"center", side.center}});
-    entry["chosen"] = found.laid->chosen;
-    entry["tolerance"]["used"] = found.flatness;
-    entry["corrected"] = found.laid->corrected;
+    entry["chosen"] = p.laid->chosen;
+    entry["tolerance"]["used"] = p.used(p.settings.flatness);
+    entry["corrected"] = p.laid->corrected;
 }
 
 /// What did not have to be looked at.
-void enter_skipped(json& entry, const tf::placement& p, const body_set& fixed) {
-    std::uint64_t faces = 0;
-    for (json& one : entry["fixed"]) {
-        one["indexed"] = false;
-        one["parts"] = json::array();
+void enter_skipped(json& entry, const placing& p) {
+    std::uint64_t bodies = 0, faces = 0;
+    for (json& file : entry["fixed"]) file.update({{"indexed", false}, {"parts", json::array()}});
+    for (std::size_t i = 0; i < p.fixed.bodies.size(); ++i) {
+        const tf::file_body& body = p.fixed.bodies[i];
+        const tf::prepared_mesh& shape = p.fixed.shapes[i];
+        const tf::mesh_view mesh = shape.view();
+        const bool indexed = shape.indexes_built() > 0;
+        json& file = entry["fixed"][body.file];
+        if (indexed) file["indexed"] = true;
+        bodies += indexed ? 0 : 1;
+        faces += indexed ? 0 : mesh.faces.size();
+        if (!body.name.empty())
+            file["parts"].push_back({{"name", body.name},
+                                     {"triangles", mesh.faces.size()},
+                                     {"box", tf::bounding_box(mesh.points)},
+                                     {"indexed", indexed}});
     }
-    for (std::size_t i = 0; i < fixed.bodies.size(); ++i) {
-        const body& part = fixed.bodies[i];
-        json& one = entry["fixed"][part.file_number];
-        const bool indexed = fixed.shapes[i].indexes_built() > 0;
-        if (indexed)
-            one["indexed"] = true;
-        else
-            faces += part.faces;
-        if (part.is.name.empty()) continue;
-        one["parts"].push_back({{"name", part.is.name},
-                                {"triangles", part.faces},
-                                {"box", part.box},
-                                {"indexed", indexed}});
+    entry["skipped"].update({{"parts_not_indexed", bodies},
+                             {"primitives_not_indexed", faces},
+                             {"pairs_culled_by_box", p.at.statistics.fixed_culled},
+                             {"face_pairs_in_motion", p.at.statistics.pairs_tested},
+                             {"filter_calls", p.at.statistics.predicates.calls},
+                             {"exact_calls", p.at.statistics.predicates.undecided}});
+}
+
+/// What has become of MOVING.
+std::string sentence(const placing& p) {
+    const tf::placement& at = p.at;
+    const std::string relation = tf::relation_in_words(at, p.moving, p.fixed);
+    if (!at) {
+        const bool why = at.at_place == tf::standing::penetrating && at.nearest;
+        return "not placed: " + p.reason + (why ? " (" + relation + ")" : "");
     }
-    json& skipped = entry["skipped"];
-    skipped["parts_not_indexed"] = fixed.bodies.size() - fixed.indexed();
-    skipped["primitives_not_indexed"] = faces;
-    skipped["pairs_culled_by_box"] = p.statistics.fixed_culled;
-    skipped["face_pairs_in_motion"] = p.statistics.pairs_tested;
-    skipped["filter_calls"] = p.statistics.predicates.calls;
-    skipped["exact_calls"] = p.statistics.predicates.undecided;
+    if (p.settings.mode == place_mode::measure) return relation;
+    if (p.aligned)
+        return (p.aligned->converged ? "fitted " : "not converged ") + p.aligned->message();
+    if (p.laid) return "laid " + p.laid->message() + "; " + relation;
+    if (at.travel == 0.0) return "stays where it is; " + relation;
+    const bool drops = p.settings.mode == place_mode::drop;
+    const char* const moved = drops && at.direction.z > 0.0          ? "lifted by "
+                              : drops                                ? "dropped by "
+                              : p.settings.mode == place_mode::slide ? "slid by "
+                                                                     : "moved by ";
+    return moved + shortest(at.travel) + "; " + relation;
 }
 
 }  // namespace
-
-json rows_of(const tf::transform<3>& matrix) {
-    json rows = json::array();
-    for (const auto& row : matrix.rows) rows.push_back(row);
-    rows.push_back({0.0, 0.0, 0.0, 1.0});
-    return rows;
-}
 
 void enter_blank_report(job& work, const place_settings& settings) {
     json& entry = work.entry;
@@ -137,50 +136,58 @@ void enter_blank_report(job& work, const place_settings& settings) {
     if (!settings.matrix.empty()) entry["matrix_file"] = settings.matrix.string();
 }
 
-void enter_bodies(job& work, const body& moving, const body_set& fixed) {
-    json& entry = work.entry;
+void enter_inputs(json& entry, const tf::body_file& moving, const fixed_meshes& fixed) {
     entry["fixed"] = fixed.entries;
-    entry["faces"] = moving.file->stored_faces;
-    entry["triangles"] = moving.file->mesh.faces.size();
+    entry["faces"] = moving.content.stored_faces;
+    entry["triangles"] = moving.content.mesh.faces.size();
     entry["box"] = moving.box;
-    std::uint64_t non_finite = moving.non_finite;
-    std::vector<std::optional<tf::box3>> boxes(entry["fixed"].size());
-    for (const body& part : fixed.bodies) {
-        json& one = entry["fixed"][part.file_number];
-        one["faces"] = part.file->stored_faces;
-        extend(boxes[part.file_number], part.box);
-        one["box"] = boxes[part.file_number];
-        non_finite += part.non_finite;
-    }
+    std::uint64_t non_finite = moving.left_out;
+    for (const tf::body_file& file : fixed.bodies.files) non_finite += file.left_out;
     entry["skipped"]["non_finite"] = non_finite;
 }
 
-void enter_report(job& work, const body& moving, const outcome& found, const body_set& fixed,
-                  const place_settings& settings, const tf::transform<3>& matrix) {
-    json& entry = work.entry;
-    const tf::placement& p = found.at;
-    enter_skipped(entry, p, fixed);
-    entry["clearance"]["used"] = p.clearance;
-    if (p.bed)
+void enter_place(json& entry, const placing& p) {
+    const tf::placement& at = p.at;
+    enter_skipped(entry, p);
+    entry["clearance"]["used"] = at.clearance;
+    if (at.bed)
         entry["bed"] = {
-            {"given", settings.bed.value_or(0.0)}, {"used", *p.bed}, {"reached", p.on_bed}};
-    entry["placed"] = static_cast<bool>(p);
-    if (!p) entry["reason"] = found.reason;
-    entry["status_at_start"] = name_of(p.at_start);
-    entry["status"] = name_of(p.at_place);
-    entry["contacts"] = contacts_entry(moving, p, fixed);
-    entry["contact_count"] = p.contact_count;
-    if (p.nearest) enter_nearest(entry, moving, *p.nearest, fixed);
-    if (!p) {
-        entry["not_placed"].push_back(work.entry["input"]);
+            {"given", p.settings.bed.value_or(0.0)}, {"used", *at.bed}, {"reached", at.on_bed}};
+    entry["placed"] = static_cast<bool>(at);
+    entry["status_at_start"] = name_of(at.at_start);
+    entry["status"] = name_of(at.at_place);
+    for (const tf::placement_contact& c : at.contacts)
+        entry["contacts"].push_back(contact_entry(p, c));
+    entry["contact_count"] = at.contact_count;
+    if (at.nearest) enter_nearest(entry, p, *at.nearest);
+    if (!at) {
+        entry["reason"] = p.reason;
+        entry["not_placed"].push_back(entry["input"]);
         return;
     }
-    entry["direction"] = or_null(p.travel > 0.0, p.direction);
-    entry["travel"] = p.travel;
-    entry["backed_off"] = p.statistics.backed_off;
-    entry["matrix"] = rows_of(matrix);
-    if (found.laid) enter_lay(entry, found);
-    if (found.aligned) enter_fit(entry, *found.aligned);
+    entry["direction"] = or_null(at.travel > 0.0, at.direction);
+    entry["travel"] = at.travel;
+    entry["backed_off"] = at.statistics.backed_off;
+    entry["matrix"] = p.matrix;
+    if (p.laid) enter_lay(entry, p);
+    if (p.aligned) enter_fit(entry, *p.aligned);
+}
+
+void say_place(job& work, const placing& p) {
+    const tf::placement& at = p.at;
+    work.out.result(work.name + ": " + sentence(p));
+    if (!work.out.shows(level::info)) return;
+    const auto say = [&](const std::string& text) { work.out.info(work.name + ": " + text); };
+    const auto& rows = at.matrix.rows;
+    say("translation " + in_words({rows[0][3], rows[1][3], rows[2][3]}) + ", " +
+        std::to_string(at.statistics.backed_off) + " steps taken back for rounding");
+    if (at.nearest)
+        say("nearest points " + in_words(at.nearest->how.on_a.point) + " and " +
+            in_words(at.nearest->how.on_b.point) + " of " + p.fixed.label(at.nearest->fixed));
+    const std::size_t all = p.fixed.bodies.size();
+    const auto not_indexed = work.entry["skipped"]["parts_not_indexed"].get<std::size_t>();
+    say(counted(all - not_indexed, "fixed part", "fixed parts") + " of " + std::to_string(all) +
+        " indexed, " + grouped(at.statistics.pairs_tested) + " pairs of faces looked at in motion");
 }
 
 }  // namespace tools

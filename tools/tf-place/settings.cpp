@@ -1,6 +1,5 @@
-#include "tools/tf-place/settings.hpp"
-
 #include "tools/common/exit_status.hpp"
+#include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -20,12 +19,10 @@ place_mode parse_mode(std::string_view text) {
     if (text == "pack") return place_mode::arrange;
     if (text == "align") return place_mode::fit;
     if (text == "separate") return place_mode::clear;
-    std::string list;
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-        if (text == modes[i]) return static_cast<place_mode>(i);
-        list += (list.empty() ? "" : ", ") + std::string(modes[i]);
-    }
-    refuse(std::string(text) + ": no mode; expected one of " + list);
+    const auto at = std::find(modes.begin(), modes.end(), text);
+    if (at == modes.end())
+        refuse(std::string(text) + ": no mode; expected one of " + listed(modes));
+    return static_cast<place_mode>(at - modes.begin());
 }
 
 /// "250,210" or "250,210,300", all greater than 0.
@@ -38,39 +35,25 @@ tf::point3 parse_size3(std::string_view text) {
     return size;
 }
 
-tf::point3 parse_point(std::string_view option, std::string_view text) {
-    const auto v = parse_numbers(option, text, 3);
-    return {v[0], v[1], v[2]};
-}
-
-tf::point3 parse_direction(std::string_view option, std::string_view text) {
-    const tf::point3 direction = parse_point(option, text);
-    if (direction == tf::point3{})
-        refuse(std::string(option) + " " + std::string(text) + ": has no direction");
-    return direction;
-}
-
 void add_modes(command_line& line) {
+    const std::initializer_list<std::pair<const char*, const char*>> described{
+        {"drop",
+         "translate down until MOVING rests on the bed or on\n--fixed; from below "
+         "the bed, up to it, if there is no\n--fixed"},
+        {"lay", "turn a flat side down, on the bed"},
+        {"slide", "translate along --direction until contact (less\n--clearance)"},
+        {"mate", "bring the closest points of MOVING and --fixed\ntogether"},
+        {"clear, separate",
+         "out of --fixed, or away from it to --clearance: a\n"
+         "short translation, the shortest of many tried"},
+        {"arrange, pack", "put all MOVING on the bed or in a box without overlap"},
+        {"fit, align", "align by ICP from the present position"},
+        {"measure", "move nothing; report distance, contact or\npenetration"}};
     line.group("Modes");
-    line.mention({.names = "drop",
-                  .text = "translate down until MOVING rests on the bed or on\n--fixed; from below "
-                          "the bed, up to it, if there is no\n--fixed"});
-    line.mention({.names = "lay", .text = "turn a flat side down, on the bed"});
-    line.mention({.names = "slide",
-                  .text = "translate along --direction until contact (less\n--clearance)"});
-    line.mention(
-        {.names = "mate", .text = "bring the closest points of MOVING and --fixed\ntogether"});
-    line.mention({.names = "clear, separate",
-                  .text = "out of --fixed, or away from it to --clearance: a\n"
-                          "short translation, the shortest of many tried"});
-    line.mention({.names = "arrange, pack",
-                  .text = "put all MOVING on the bed or in a box without overlap"});
-    line.mention({.names = "fit, align", .text = "align by ICP from the present position"});
-    line.mention(
-        {.names = "measure", .text = "move nothing; report distance, contact or\npenetration"});
+    for (const auto& [names, text] : described) line.mention({.names = names, .text = text});
 }
 
-void add_lay_options(command_line& line, place_settings& s) {
+void add_options_of_modes(command_line& line, place_settings& s) {
     line.flag(s.largest_side,
               {"--largest-face", "", "lay: on the largest side of the convex hull", "this"});
     line.option({"--face-normal", "X,Y,Z", "lay: on the side whose normal is nearest to this"},
@@ -88,9 +71,6 @@ void add_lay_options(command_line& line, place_settings& s) {
                              "it, and flat afterwards; 0 = exactly in one plane",
                              "0.0001%"});
     line.flag(s.lay.keep_spin, {"--keep-spin", "", "lay: keep the turn about the vertical"});
-}
-
-void add_arrange_and_fit_options(command_line& line, place_settings& s) {
     line.option({"--size", "X,Y[,Z]", "arrange: bed or box size"},
                 [&s](std::string_view text) { s.arrange.size = parse_size3(text); });
     line.option({"--spacing", "DIST", "arrange: between parts", "2"}, [&s](std::string_view text) {
@@ -110,7 +90,12 @@ void add_arrange_and_fit_options(command_line& line, place_settings& s) {
     line.flag(s.fit.scale, {"--scale", "", "fit: allow uniform scale"});
 }
 
-void add_placing_options(command_line& line, place_settings& s, common_options& options) {
+}  // namespace
+
+const char* name_of(place_mode mode) { return modes[static_cast<std::size_t>(mode)]; }
+
+void add_options(command_line& line, place_settings& s, common_options& options) {
+    add_modes(line);
     line.group("Options");
     line.repeatable_option(options.also_read, {"--fixed", "FILE",
                                                "what stays where it is (repeatable); its objects,\n"
@@ -126,13 +111,8 @@ void add_placing_options(command_line& line, place_settings& s, common_options& 
         [&s](std::string_view text) { s.direction = parse_direction("--direction", text); });
     line.option(s.clearance, {"--clearance", "DIST", "gap to leave", "0"});
     line.option(s.max_travel, {"--max-travel", "DIST", "give up beyond this travel (exit 1)"});
-    add_lay_options(line, s);
-    add_arrange_and_fit_options(line, s);
-    line.option({"--start", "FILE", "4x4 matrix applied to MOVING first"},
-                [&s](std::string_view text) { s.start = text; });
-}
-
-void add_what_to_give_back(command_line& line, place_settings& s, common_options& options) {
+    add_options_of_modes(line, s);
+    line.option(s.start, {"--start", "FILE", "4x4 matrix applied to MOVING first"});
     line.group("What to give back");
     line.output(options.output, {"-o, --output", "FILE",
                                  "MOVING at its new place; of measure, where it is;\n"
@@ -147,63 +127,51 @@ void add_what_to_give_back(command_line& line, place_settings& s, common_options
                            "new = M * old, in file coordinates; \"-\" = stdout"});
 }
 
-}  // namespace
-
-const char* name_of(place_mode mode) { return modes[static_cast<std::size_t>(mode)]; }
-
-void add_options(command_line& line, place_settings& settings, common_options& options) {
-    add_modes(line);
-    add_placing_options(line, settings, options);
-    add_what_to_give_back(line, settings, options);
-}
-
 void check_settings(const command_line& line, place_settings& s, common_options& o) {
+    using enum place_mode;
     s.mode = parse_mode(s.mode_text);
+    s.fixed = o.also_read;
+    if (!s.start.empty()) o.also_read.push_back(s.start);
+    const std::string& mode = s.mode_text;
+    const auto is = [&](auto... any) { return ((s.mode == any) || ...); };
     const auto given = [&](std::initializer_list<const char*> names) {
         return std::count_if(names.begin(), names.end(),
                              [&](const char* name) { return line.given(name); });
     };
     const auto sides_chosen = given({"--largest-face", "--face-normal", "--face-point"});
-    const bool along = s.mode == place_mode::drop || s.mode == place_mode::slide;
-    s.fixed = o.also_read;
-    if (!s.start.empty()) o.also_read.push_back(s.start.string());
-    const std::string& mode = s.mode_text;
-    const bool lays = s.mode == place_mode::lay, arranges = s.mode == place_mode::arrange;
-    const bool fits = s.mode == place_mode::fit, measures = s.mode == place_mode::measure;
-    const bool on_bed = s.mode == place_mode::drop || lays || arranges;
     const bool clearance = s.clearance.value > 0.0, mesh = wants_mesh(o);
     const bool form = o.ascii || o.binary || o.precision != "keep" || !o.output_format.empty();
     const std::initializer_list<std::pair<bool, std::string>> refused{
-        {!lays && (sides_chosen > 0 || s.lay.keep_spin || line.given("--tolerance")),
+        {!is(lay) && sides_chosen + given({"--tolerance", "--keep-spin"}) > 0,
          "--largest-face, --face-normal, --face-point, --tolerance and --keep-spin are for lay"},
-        {lays && sides_chosen > 1,
+        {is(lay) && sides_chosen > 1,
          "--largest-face, --face-normal and --face-point exclude each other"},
-        {lays && !s.fixed.empty(), "--fixed: lay puts MOVING on the bed alone"},
-        {lays && clearance, "--clearance: lay puts MOVING on the bed"},
-        {lays && s.max_travel, "--max-travel: lay goes to the bed"},
-        {!arranges && given({"--size", "--spacing", "--rotate", "--seed"}) > 0,
+        {is(lay) && !s.fixed.empty(), "--fixed: lay puts MOVING on the bed alone"},
+        {is(lay) && clearance, "--clearance: lay puts MOVING on the bed"},
+        {is(lay) && s.max_travel, "--max-travel: lay goes to the bed"},
+        {!is(arrange) && given({"--size", "--spacing", "--rotate", "--seed"}) > 0,
          "--size, --spacing, --rotate and --seed are for arrange"},
-        {!fits && (given({"--max-distance", "--overlap"}) > 0 || s.fit.scale),
+        {!is(fit) && given({"--max-distance", "--overlap", "--scale"}) > 0,
          "--max-distance, --overlap and --scale are for fit"},
-        {arranges && !line.given("--size"), "arrange needs --size"},
-        {arranges && !s.fixed.empty(), "--fixed: arrange puts MOVING on an empty plate"},
-        {fits && s.fixed.size() > 1, "fit: one --fixed only"},
-        {(arranges || fits) && (clearance || s.max_travel),
+        {is(arrange) && !line.given("--size"), "arrange needs --size"},
+        {is(arrange) && !s.fixed.empty(), "--fixed: arrange puts MOVING on an empty plate"},
+        {is(fit) && s.fixed.size() > 1, "fit: one --fixed only"},
+        {is(arrange, fit) && (clearance || s.max_travel),
          "--clearance and --max-travel are not for " + mode},
-        {s.fixed.empty() && !on_bed, mode + " needs --fixed"},
-        {s.bed && !on_bed, "--bed: only drop, lay and arrange have one"},
-        {s.direction && !along, "--direction: " + mode + " finds its own"},
+        {!is(drop, lay, arrange) && s.fixed.empty(), mode + " needs --fixed"},
+        {!is(drop, lay, arrange) && s.bed, "--bed: only drop, lay and arrange have one"},
+        {!is(drop, slide) && s.direction, "--direction: " + mode + " finds its own"},
         {s.has_bed() && s.direction && !(s.direction->z < 0.0),
          "--direction: does not lead down to the bed"},
-        {measures && s.max_travel, "--max-travel: measure moves nothing"},
-        {measures && !s.matrix.empty(), "--matrix: measure moves nothing"},
-        {measures && o.in_place, "--in-place: measure moves nothing"},
+        {is(measure) && s.max_travel, "--max-travel: measure moves nothing"},
+        {is(measure) && !s.matrix.empty(), "--matrix: measure moves nothing"},
+        {is(measure) && o.in_place, "--in-place: measure moves nothing"},
         {s.scene && (!mesh || o.in_place), "--scene needs -o or --output-dir"},
         {!mesh && form,
          "--output-format, --ascii, --binary and --precision need -o, --output-dir or --in-place"}};
     for (const auto& [broken, text] : refused)
         if (broken) refuse(text);
-    if (!measures) require_output(line, o);
+    if (!is(measure)) require_output(line, o);
 }
 
 }  // namespace tools

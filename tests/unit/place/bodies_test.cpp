@@ -1,16 +1,23 @@
+#include <treeform/mesh/align.hpp>
 #include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,67 +38,137 @@ tf::mesh_file file_of(tf::mesh mesh) {
 TEST_CASE("bodies: equal corners are one, faces that are not finite are left out") {
     tf::mesh_file file = file_of(test::unjoined(box(1, 1, 1)));
     file.mesh.points[3].x = std::numeric_limits<double>::quiet_NaN();
-    const auto found = tf::whole_body(file);
+    tf::body_set found;
+    CHECK(found.add(file).left_out == 1);
     REQUIRE(found.bodies.size() == 1);
-    CHECK(found.left_out == 1);
     CHECK(found.shapes[0].view().points.size() == 8);
     CHECK(found.shapes[0].view().faces.size() == 11);
     CHECK(found.bodies[0].triangle(0) == 0);
     CHECK(found.bodies[0].triangle(1) == 2);
     CHECK(found.shapes[0].indexes_built() == 0);
-    CHECK(tf::whole_body({}).bodies.empty());
+    CHECK_FALSE(found.add({}).box);
+    CHECK(found.bodies.size() == 1);
+    CHECK(found.files.size() == 2);
 }
 
 TEST_CASE("bodies: a file without faces is a cloud of its finite points") {
-    tf::mesh_file file = file_of({{{0, 0, 0}, {std::nan(""), 0, 0}, {1, 1, 1}}, {}});
-    const auto found = tf::bodies_of(file);
-    REQUIRE(found.cloud);
-    CHECK(found.left_out == 1);
+    tf::body_set found;
+    const tf::body_file& file =
+        found.add_parts(file_of({{{0, 0, 0}, {std::nan(""), 0, 0}, {1, 1, 1}}, {}}));
+    REQUIRE(file.cloud);
+    CHECK(file.left_out == 1);
+    CHECK(file.box->max == tf::point3{1, 1, 1});
     CHECK(found.shapes[0].is_cloud());
     CHECK(found.bodies[0].triangle(1) == 2);
-    tf::put_back(file, found.bodies[0], found.shapes[0],
-                 std::vector<tf::point3>{{5, 5, 5}, {6, 6, 6}}, tf::transform<3>{},
+    tf::put_back(found, 0, std::vector<tf::point3>{{5, 5, 5}, {6, 6, 6}}, tf::transform<3>{},
                  tf::precision::float64);
-    CHECK(file.mesh.points[0] == tf::point3{5, 5, 5});
-    CHECK(file.mesh.points[2] == tf::point3{6, 6, 6});
+    CHECK(file.content.mesh.points[0] == tf::point3{5, 5, 5});
+    CHECK(file.content.mesh.points[2] == tf::point3{6, 6, 6});
 }
 
 TEST_CASE("bodies: each part of a file is the mesh of its faces alone") {
     const tf::mesh both = test::together(moved(box(1, 1, 1), {5, 0, 0}), box(2, 2, 2));
     tf::mesh_file file = file_of(both);
     file.attributes.parts = {{.object = "small", .first_face = 0}, {.first_face = 12}};
-    const auto found = tf::bodies_of(file);
-    REQUIRE(found.bodies.size() == 2);
-    CHECK(found.bodies[0].name == "small");
-    CHECK(found.bodies[1].name == "part 1");
-    for (std::size_t i = 0; i < 2; ++i) {
+    tf::body_set found;
+    found.add(file, "whole.obj");
+    CHECK(found.add_parts(file, "parts.obj").box == found.files[0].box);
+    REQUIRE(found.bodies.size() == 3);
+    CHECK(found.labels() ==
+          std::vector<std::string>{"whole.obj", "parts.obj: small", "parts.obj: part 1"});
+    for (std::size_t i = 1; i < 3; ++i) {
         const tf::mesh expected = tf::select_faces(both, found.bodies[i].triangle_of_face);
         const tf::mesh_view view = found.shapes[i].view();
         CHECK(tf::mesh{{view.points.begin(), view.points.end()},
                        {view.faces.begin(), view.faces.end()}} == expected);
-        CHECK(found.bodies[i].stored_face(file, 0) == 12 * i);
+        CHECK(found.bodies[i].file == 1);
+        CHECK(found.stored_face(i, 0) == 12 * (i - 1));
     }
     file.attributes.parts[1].object = "small";
-    CHECK(tf::bodies_of(file).bodies.size() == 1);
+    found.add_parts(file);
+    CHECK(found.bodies.size() == 4);
+    CHECK(found.label(3).empty());
 }
 
 TEST_CASE("bodies: points go back to where they are in the file, others move along") {
     tf::mesh_file file = file_of(test::unjoined(box(1, 1, 1)));
     file.mesh.points.push_back({0.1, 7, 7});
-    const auto found = tf::whole_body(file);
+    tf::body_set found;
+    tf::mesh_file& there = found.add(std::move(file)).content;
     std::vector<tf::point3> placed(found.shapes[0].view().points.begin(),
                                    found.shapes[0].view().points.end());
     for (tf::point3& p : placed) p.z += 4;
     tf::transform<3> up;
     up.rows[2][3] = 4;
-    tf::put_back(file, found.bodies[0], found.shapes[0], placed, up, tf::precision::float32);
+    tf::put_back(found, 0, placed, up, tf::precision::float32);
     const tf::mesh expected = moved(test::unjoined(box(1, 1, 1)), {0, 0, 4});
     for (std::size_t i = 0; i < expected.points.size(); ++i)
-        CHECK(file.mesh.points[i] == expected.points[i]);
-    CHECK(file.mesh.points.back() == tf::point3{double{0.1F}, 7, 11});
-    CHECK(tf::round_to_float32(file) == 0.0);
-    file.mesh.points.back().x = 0.1;
-    CHECK(tf::round_to_float32(file) == double{0.1F} - 0.1);
+        CHECK(there.mesh.points[i] == expected.points[i]);
+    CHECK(there.mesh.points.back() == tf::point3{double{0.1F}, 7, 11});
+    CHECK(tf::round_to_float32(there) == 0.0);
+    there.mesh.points.back().x = 0.1;
+    CHECK(tf::round_to_float32(there) == double{0.1F} - 0.1);
+}
+
+TEST_CASE("bodies: how they lie to each other, in words, with the numbers of their files") {
+    tf::body_set moving, fixed;
+    tf::mesh_file cube = file_of(box(1, 1, 1));
+    for (std::uint32_t t = 0; t < 12; ++t) cube.stored_face.push_back(50 + t);
+    moving.add(cube, "cube.obj");
+    fixed.add(file_of(moved(box(1, 1, 1), {0.5, 0.5, 1})), "on.obj");
+    fixed.add(file_of({{{0.5, 0.5, 3}}, {}}), "cloud.ply");
+    const auto words = [&](std::size_t first, std::size_t count, double clearance) {
+        const auto among = std::span<const tf::prepared_mesh>(fixed.shapes).subspan(first, count);
+        const auto at = tf::measure_among(moving.shapes[0], among, {.clearance = clearance});
+        return tf::relation_in_words(at, moving, fixed);
+    };
+    const std::string text = words(0, 2, 0);
+    CHECK(text.starts_with("touching on.obj ("));
+    CHECK(text.find("pairs of faces, the first 5") != std::string::npos);
+    CHECK(words(0, 0, 0) == "separate");
+    CHECK(words(0, 0, 1) == "clear");
+    tf::body_set cloud;
+    std::swap(fixed, cloud);
+    fixed.add(cloud.files[1].content, "cloud.ply");
+    CHECK(words(0, 1, 0) == "separate, 2 from cloud.ply");
+    CHECK(words(0, 1, 2.5) == "closer-than-clearance, 2 from cloud.ply");
+    fixed = {};
+    fixed.add(file_of({{{0.5, 0.5, 1}}, {}}), "cloud.ply");
+    CHECK(words(0, 1, 0).find("of a face and a point, the first 5") != std::string::npos);
+    fixed = {};
+    fixed.add(file_of(moved(box(3, 3, 3), {-1, -1, -1})), "around.obj");
+    CHECK(words(0, 1, 0) == "penetrating around.obj, inside it");
+    CHECK(tf::relation_in_words(tf::drop(moving.shapes[0]), moving, {}) == "touching the bed");
+}
+
+TEST_CASE("what has been laid flat or aligned says so in words") {
+    CHECK(tf::lay_flat(box(1, 2, 3))->message() == "on side 0 of 6, of area 6");
+    CHECK(tf::laid_flat{}.message().empty());
+    CHECK(tf::align_result{.rms = 0.5, .overlap = 1, .iterations = 1}.message() ==
+          "after 1 step; rms 0.5, from 0; overlap 1");
+}
+
+TEST_CASE("classes in files: those of bodies, by file, and of clouds only where they are alone") {
+    using tf::contact_class;
+    tf::body_set moving, fixed;
+    moving.add(file_of(box(1, 1, 1)));
+    tf::mesh_file parts =
+        file_of(test::together(moved(box(1, 1, 1), {5, 0, 0}), moved(box(1, 1, 1), {9, 0, 0})));
+    parts.attributes.parts = {{.object = "a", .first_face = 0}, {.object = "b", .first_face = 12}};
+    fixed.add(file_of({{{0, 0, 9}}, {}}));
+    fixed.add_parts(parts);
+    tf::contact_classes met;
+    met.moving.assign(12, contact_class::near);
+    met.fixed = {{contact_class::near}, {}, std::vector(12, contact_class::touching)};
+    CHECK(tf::classes_in_files(met, moving) == met.moving);
+    std::vector<contact_class> expected(36);
+    std::fill_n(expected.begin(), 12, contact_class::near);
+    std::fill_n(expected.begin() + 24, 12, contact_class::touching);
+    CHECK(tf::classes_in_files(met, moving, fixed) == expected);
+    tf::body_set cloud;
+    cloud.add(file_of({{{0, 0, 9}}, {}}));
+    CHECK(tf::classes_in_files({.moving = {contact_class::near}}, cloud) ==
+          std::vector{contact_class::near});
 }
 
 TEST_CASE("contact colors: a stored face has the gravest class of its triangles") {

@@ -79,6 +79,10 @@ void check(const tf::mesh& mesh, const tf::laid_flat& laid, const tf::lay_flat_o
     CHECK(down == laid.on_bed.size());
     CHECK(down >= 3);
     CHECK(laid.corrected <= 16 * unit * largest);
+    CHECK(laid);
+    CHECK(laid.certificate.precision == options.precision);
+    CHECK(laid.certificate.max_displacement <= 16 * unit * largest);
+    CHECK(laid.certificate.max_displacement >= laid.corrected - 16 * unit * largest);
     // a rotation
     const auto& m = laid.matrix.rows;
     for (std::size_t i = 0; i < 3; ++i)

@@ -70,7 +70,7 @@ TEST_CASE("mate: of nothing there is no way, and what meets stays") {
     const auto inside = tf::mate(a, among.prepared);
     CHECK(inside.nearest->fixed == 2);
     CHECK(inside.end == placement_end::starts_penetrating);
-    CHECK(inside.status == tf::status::no_place);
+    CHECK(inside.certificate.status == tf::status::no_place);
     CHECK(tf::mate(prepared_mesh(), among.prepared).end == placement_end::nothing_met);
     for (const double clearance : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
         CHECK_THROWS_AS(static_cast<void>(tf::mate(a, among.prepared, {.clearance = clearance})),
@@ -111,13 +111,13 @@ TEST_CASE("mate: progress goes from 0 to 1, a stop is heard, threads change noth
                                     shares.push_back(done);
                                     return true;
                                 }});
-    CHECK(found.status == tf::status::ok);
+    CHECK(found.certificate.status == tf::status::ok);
     CHECK(std::is_sorted(shares.begin(), shares.end()));
     CHECK(shares.back() == 1.0);
     for (const std::size_t stop_at : {std::size_t{1}, shares.size() / 2}) {
         std::size_t heard = 0;
         CHECK(tf::mate(a, among.prepared, {.progress = [&](double) { return ++heard < stop_at; }})
-                  .status == tf::status::cancelled);
+                  .certificate.status == tf::status::cancelled);
         CHECK(heard == stop_at);
     }
     for (const unsigned threads : {1U, 2U, 8U}) {

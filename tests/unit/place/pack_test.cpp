@@ -1,6 +1,7 @@
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>
+#include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -52,13 +53,17 @@ tf::mesh ring(double outer, double inner, double height, std::uint32_t corners) 
 /// What the header says of what `arrange` returns, by looking at all pairs.
 void check(const std::vector<tf::mesh>& parts, const tf::pack_options& o,
            const tf::packing& found) {
+    REQUIRE(found);
     REQUIRE(found.parts.size() == parts.size());
+    CHECK(found.certificate.precision == o.precision);
+    double moved = 0.0;
     const bool single = o.precision == tf::precision::float32;
     const double unit = single ? 0x1p-24 : 0x1p-53;
     std::vector<std::uint32_t> not_placed;
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
         const tf::packed_part& one = found.parts[i];
         REQUIRE(one.points.size() == parts[i].points.size());
+        moved = std::max(moved, tf::max_displacement(parts[i].points, one.matrix, one.points));
         if (!one.placed) {
             not_placed.push_back(i);
             CHECK(one.points == parts[i].points);
@@ -88,6 +93,7 @@ void check(const std::vector<tf::mesh>& parts, const tf::pack_options& o,
         }
     }
     CHECK(found.not_placed == not_placed);
+    CHECK(found.certificate.max_displacement == moved);
     for (std::size_t i = 0; i < parts.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
             if (!found.parts[i].placed || !found.parts[j].placed) continue;

@@ -54,7 +54,10 @@ struct operations {
 
     [[nodiscard]] std::vector<operation> all() const {
         const auto cancelled = [](const auto& result) {
-            return result.status == tf::status::cancelled;
+            if constexpr (requires { result.certificate; })
+                return result.certificate.status == tf::status::cancelled;
+            else
+                return result.status == tf::status::cancelled;
         };
         const auto measured = [](const auto& result) {
             return result->relation.status == tf::status::cancelled;

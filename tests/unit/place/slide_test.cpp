@@ -1,5 +1,6 @@
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
@@ -46,7 +47,7 @@ TEST_CASE("slide: the first of several ends it, what is beside the way is not in
     for (const double clearance : {0.0, 0.25}) {
         const auto found = tf::slide(a, among.prepared, {0, 0, -3}, {.clearance = clearance});
         REQUIRE(found);
-        CHECK(found.status == tf::status::ok);
+        CHECK(found.certificate.status == tf::status::ok);
         CHECK(found.end == placement_end::contact);
         CHECK(found.travel == 6.0 - clearance);
         CHECK(found.direction == down);
@@ -82,7 +83,7 @@ TEST_CASE("slide: what touches stays, what penetrates or is too near has no plac
     CHECK(tf::slide(on, floor, down, {.clearance = 0.5}).end == placement_end::starts_touching);
     const auto in = tf::slide(moved(on, {0, 0, -0.5}), floor, down);
     CHECK(in.end == placement_end::starts_penetrating);
-    CHECK(in.status == tf::status::no_place);
+    CHECK(in.certificate.status == tf::status::no_place);
     CHECK(tf::slide(moved(on, {0, 0, 0.25}), floor, down, {.clearance = 0.5}).end ==
           placement_end::starts_too_near);
     CHECK(tf::slide(on, tf::mesh{}, down).end == placement_end::nothing_met);
@@ -116,6 +117,11 @@ TEST_CASE("slide: what is returned does not penetrate, and keeps the clearance")
                        .precision = single ? tf::precision::float32 : tf::precision::float64});
         REQUIRE(found);
         CHECK(found.end == placement_end::contact);
+        CHECK(found.certificate.precision ==
+              (single ? tf::precision::float32 : tf::precision::float64));
+        CHECK(found.certificate.max_displacement ==
+              tf::max_displacement(a.points, found.matrix, found.points));
+        CHECK(found.certificate.max_displacement <= (far + 8) * (single ? 0x1p-24 : 0x1p-52));
         stepped_back += found.statistics.backed_off > 0;
         double least = std::numeric_limits<double>::infinity();
         const tf::mesh there{found.points, a.faces};
@@ -231,8 +237,11 @@ TEST_CASE("slide and drop: what cannot be meant is refused, and named") {
         "treeform::slide: fixed 1: face 5 has a corner out of range", std::invalid_argument);
     const tf::mesh huge = moved(a, {1e300, 0, 0});
     const auto out = tf::drop(huge, {.precision = tf::precision::float32});
-    CHECK(out.status == tf::status::out_of_range);
+    CHECK(out.certificate.status == tf::status::out_of_range);
     CHECK(out.points == huge.points);
+    CHECK_FALSE(out);
+    CHECK(out.certificate.precision == tf::precision::float32);
+    CHECK(out.certificate.max_displacement == 0.0);  // of points that stay where they are
 }
 
 TEST_CASE("slide: clouds move, and stand still") {

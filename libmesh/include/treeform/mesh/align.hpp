@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace treeform {
@@ -67,6 +68,8 @@ struct align_result {
     unsigned iterations = 0;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
 
+    /// For people: "after 12 steps; rms 0.01, from 0.3; overlap 1".
+    [[nodiscard]] TREEFORM_API std::string message() const;
     /// The same in the terms of all placements; faces were not looked at.
     [[nodiscard]] TREEFORM_API placement as_placement() const;
 };

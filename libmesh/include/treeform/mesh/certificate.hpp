@@ -44,8 +44,8 @@ struct open_edge {
     std::array<point3, 2> ends{};  ///< ends of the open part of the edge; rounded where it is cut
 };
 
-/// What was checked about a mesh that an operation (`boolean`, `resolve_self_intersections`)
-/// returns: with exact predicates, on the coordinates returned.
+/// What was checked about a mesh that an operation (`boolean`, `resolve_self_intersections`, `slide`,
+/// `pack`) returns or places: with exact predicates, on the coordinates returned.
 struct TREEFORM_API certificate {
     treeform::status status = treeform::status::ok;
     /// Pairs of faces that meet where they should not. A face paired with itself is degenerate or

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace treeform {
@@ -57,8 +58,12 @@ struct laid_flat {
     /// The most that a z was changed, beyond the rotation, to be on the bed or not below it: some
     /// units in the last place; with a tolerance, about as much as that.
     double corrected = 0.0;
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is empty
+    /// ok, or `cancelled`: then the rest is empty. `max_displacement` includes what was corrected.
+    treeform::certificate certificate{};
 
+    explicit operator bool() const { return static_cast<bool>(certificate); }
+    /// For people: "on side 0 of 6, of area 24". Empty where it was cancelled.
+    [[nodiscard]] TREEFORM_API std::string message() const;
     /// The same in the terms of all placements; nothing fixed was looked at.
     [[nodiscard]] TREEFORM_API placement as_placement() const;
 };

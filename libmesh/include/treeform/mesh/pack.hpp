@@ -55,7 +55,11 @@ struct packing {
     /// Pairs of parts whose faces were compared, because their boxes are nearer than the spacing.
     std::uint64_t pairs_measured = 0;
     double bed = 0.0;  ///< z of the lowest point of each placed part, as written
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is empty
+    /// ok: what `pack` promises of the points holds, also where parts have no place. Otherwise
+    /// `cancelled`, and the rest is empty.
+    treeform::certificate certificate{};
+
+    explicit operator bool() const { return static_cast<bool>(certificate); }
 };
 
 /// Puts the parts on the plate, each turned about z by one of `turns` and standing on the bed with

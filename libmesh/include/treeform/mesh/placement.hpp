@@ -74,8 +74,9 @@ struct placement_statistics {
 /// Where a mesh goes. "At the place" is where it goes, or where it is if it does not move.
 struct placement {
     /// ok: the mesh has a place, and `points` were checked exactly as they are. Otherwise
-    /// `no_place`, `not_certified` (no_coordinates), `out_of_range` or `cancelled`.
-    treeform::status status = treeform::status::ok;
+    /// `no_place`, `not_certified` (no_coordinates), `out_of_range` or `cancelled`. It lists no
+    /// faces.
+    treeform::certificate certificate{};
     placement_end end = placement_end::stays;
     std::vector<point3> points{};  ///< [V] at the place, as they are to be written
     /// new = M * old: a translation. `points` are moved by it and rounded once, except for those
@@ -91,12 +92,11 @@ struct placement {
     standing at_place = standing::separate;
     std::optional<nearest_fixed> nearest{};  ///< at the place; none when all are too far to matter
     std::vector<placement_contact> contacts{};
-    std::uint64_t contact_count = 0;                               ///< of all, listed or not
-    std::optional<double> max_travel{};                            ///< that was allowed
-    treeform::precision precision = treeform::precision::float64;  ///< of the points
+    std::uint64_t contact_count = 0;     ///< of all, listed or not
+    std::optional<double> max_travel{};  ///< that was allowed
     placement_statistics statistics{};
 
-    explicit operator bool() const { return status == treeform::status::ok; }
+    explicit operator bool() const { return static_cast<bool>(certificate); }
     /// Why there is no place: half a sentence about the mesh that moves, without a stop at its end.
     /// `names` are those of the fixed meshes. Empty when there is one.
     [[nodiscard]] TREEFORM_API std::string message(std::span<const std::string> names = {}) const;
@@ -142,9 +142,20 @@ struct contact_classes {
                                                              std::span<const prepared_mesh> fixed,
                                                              const placement& at);
 
+/// A file, and what it is called.
+struct body_file {
+    mesh_file content{};
+    std::string label{};        ///< for people: its path
+    std::string name{};         ///< of its faces in a scene (`scene_of`)
+    bool cloud = false;         ///< it has no faces
+    std::size_t left_out = 0;   ///< triangles, or points of a cloud, that are not finite
+    std::optional<box3> box{};  ///< of its bodies; none when it has no finite face or point
+};
+
 /// A body of a file: its whole mesh, a part of it, or a cloud.
 struct file_body {
-    std::string name{};  ///< of the part; empty when the file has only one
+    std::size_t file = 0;  ///< number of the file
+    std::string name{};    ///< of the part; empty when the file has only one
     /// [F] the triangle in the file's mesh, or the point of a cloud, that each face is; empty: the
     /// same number.
     std::vector<std::uint32_t> triangle_of_face{};
@@ -152,54 +163,55 @@ struct file_body {
     [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {
         return triangle_of_face.empty() ? f : triangle_of_face[f];
     }
-    /// The number that face `f` has in the file.
-    [[nodiscard]] std::uint32_t stored_face(const mesh_file& file, std::uint32_t f) const {
-        const std::uint32_t t = triangle(f);
-        return file.stored_face.empty() ? t : file.stored_face[t];
-    }
 };
 
-/// The bodies of a file, ready for placement.
-struct file_bodies {
-    std::vector<file_body> bodies{};  ///< [B]; empty when the file has no finite face or point
+/// Files and their bodies, ready for placement.
+struct TREEFORM_API body_set {
+    std::vector<body_file> files{};
+    std::vector<file_body> bodies{};  ///< [B]
     /// [B] The mesh of each body: the finite triangles of the file, with equal corners joined, and
     /// only the points that they use. For a cloud, its finite points.
     std::vector<prepared_mesh> shapes{};
-    bool cloud = false;        ///< the file has no faces
-    std::size_t left_out = 0;  ///< triangles, or points of a cloud, that are not finite
+
+    /// Adds a file, all of it as one body. Without a finite face or point it has none.
+    ///
+    /// \cost O(V + F)
+    body_file& add(mesh_file file, std::string label = {}, std::string name = {});
+    /// The same with a body for each part of the file (see `scene_parts`) where it has several.
+    body_file& add_parts(mesh_file file, std::string label = {}, std::string name = {});
+
+    [[nodiscard]] const body_file& file_of(std::size_t body) const;
+    /// The number that face `f` of a body has in its file.
+    [[nodiscard]] std::uint32_t stored_face(std::size_t body, std::uint32_t f) const;
+    /// For people: the file, and the part.
+    [[nodiscard]] std::string label(std::size_t body) const;
+    [[nodiscard]] std::vector<std::string> labels() const;  ///< [B] for `placement::message`
 };
 
-/// All of `file` as one body.
-///
-/// \cost   O(V + F)
-/// \same   on any number of threads
-[[nodiscard]] TREEFORM_API file_bodies whole_body(const mesh_file& file);
+/// How the one body of `moving` lies to `fixed` at its place, in words: "touching bed.stl (1 pair
+/// of faces, the first 3 and 7)", "separate, 0.5 from bed.stl". Faces have the numbers of files.
+[[nodiscard]] TREEFORM_API std::string relation_in_words(const placement& at,
+                                                         const body_set& moving,
+                                                         const body_set& fixed);
 
-/// Each part of `file` (see `scene_parts`) as a body; the whole file when it has one part.
-[[nodiscard]] TREEFORM_API file_bodies bodies_of(const mesh_file& file);
+/// "separate", "closer-than-clearance".
+[[nodiscard]] TREEFORM_API const char* name_of(standing how);
 
-/// Moves the points of `file`: those of `body` to `placed` (in the numbering of `shape`), all
-/// others by `matrix`, rounded to float32 if `written_as` says so.
-TREEFORM_API void put_back(mesh_file& file, const file_body& body, const prepared_mesh& shape,
-                           points_view placed, const transform<3>& matrix, precision written_as);
+/// Moves the points of a body's file: those of the body to `placed` (in the numbering of its
+/// shape), all others by `matrix`, rounded to float32 if `written_as` says so.
+TREEFORM_API void put_back(body_set& bodies, std::size_t body, points_view placed,
+                           const transform<3>& matrix, precision written_as);
 
 /// Rounds every point of the file to float32. Returns the largest change of a coordinate.
 TREEFORM_API double round_to_float32(mesh_file& file);
 
-/// A body of a file, and the classes of its faces: none, or [F].
-struct classified_body {
-    const mesh_file* file = nullptr;
-    const file_body* body = nullptr;
-    std::span<const contact_class> classes{};
-};
-
-/// The classes of all triangles of the files that bodies are of, of one cloud of all its points;
-/// for `color_contacts`. Bodies of a file follow each other, and of several files clouds are left
-/// out, as in `scene_of`.
+/// The classes of all triangles of the files, of one cloud of all its points; for
+/// `color_contacts`. With `fixed`, its files follow that of `moving`, which has one body. Clouds
+/// are then left out, as in `scene_of`.
 ///
 /// \cost O(V + F)
 [[nodiscard]] TREEFORM_API std::vector<contact_class> classes_in_files(
-    std::span<const classified_body> bodies);
+    const contact_classes& classes, const body_set& moving, const body_set& fixed = {});
 
 struct contact_color_options {
     /// Make each triangle a face of its own, as pictures need it. Otherwise polygons stay, and have
