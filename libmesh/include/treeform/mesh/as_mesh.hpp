@@ -23,11 +23,11 @@ struct usable_mesh {
     /// [triangles] the file's face that each triangle is part of; empty: numbers are the same.
     std::vector<std::uint32_t> stored_face{};
     std::uint64_t dropped = 0;  ///< triangles with a coordinate that is not finite
-    /// Of `usable_part`: [F] the component of the whole mesh, by vertices, that each face is of.
+    /// From `usable_part`: [F] the connected component of the whole mesh that each face is in.
     std::vector<std::uint32_t> component{};
     std::uint64_t degenerate = 0;             ///< likewise: triangles that are a segment or a point
     std::optional<std::uint64_t> distinct{};  ///< likewise: different points, where they are known
-    std::uint64_t joined = 0;                 ///< likewise: points, beyond equal ones
+    std::uint64_t joined = 0;                 ///< likewise: points merged by tolerance
 
     /// The triangle of the file.
     [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {
@@ -51,19 +51,19 @@ struct usable_mesh {
 [[nodiscard]] TREEFORM_API usable_mesh as_mesh(mesh_file file);
 
 struct part_options {
-    /// Of corners with equal coordinates, one; or corners as they are numbered.
+    /// Whether points with equal coordinates are one vertex.
     vertex_identity vertices = vertex_identity::by_coordinates;
-    /// Greater than 0: equal points are joined, and then points within it of each other, as `weld`
-    /// does.
+    /// If greater than 0, equal points are joined first, then points within this distance, as by
+    /// `weld`.
     double tolerance = 0.0;
     std::optional<box3> box{};  ///< only faces that meet it
     bool details = false;       ///< find `component` and `distinct`, too
 };
 
-/// The faces of a file's mesh to look at, with the way back to the file: those that are finite, in
-/// the box if there is one. Where any are left out, so are the points that no other face uses.
+/// The part of a file's mesh to work on: its finite faces; with a box, only those that meet it. The
+/// result knows the number of each face in the file. Points that only faces left out use go, too.
 ///
-/// `stored_face` is that of the file.
+/// `stored_face` is the file's.
 ///
 /// \throws std::invalid_argument as `faces_in_box`, `weld`
 /// \cost   O(V + F); with a tolerance, as `group_points`
@@ -98,9 +98,9 @@ struct scene_member {
     std::string label{};  ///< in warnings
 };
 
-/// All members together, with the parts of their files, what their corners have, their materials
-/// and textures. Other properties are left out, and so is what their textures are warned of, in
-/// `warnings`. Format and numbers are those of the first.
+/// All members in one file, with their parts, texture coordinates, normals, materials and textures.
+/// Other properties are left out. `warnings` says what could not be kept of textures. The format,
+/// and the type of its numbers, are those of the first member.
 ///
 /// \pre  there is a member
 /// \cost O(size of all files)
