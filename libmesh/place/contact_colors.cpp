@@ -35,9 +35,9 @@ bool has_colors(const mesh_file& file) {
                        [](const element& e) { return find_column(e, "red") != nullptr; });
 }
 
-/// Adds a class for each triangle of the files of `set`; `classes` are by body.
+/// Adds a class for each triangle of the files of `set`; `of_body` are those by body.
 void append_classes(std::vector<contact_class>& all, const body_set& set,
-                    std::span<const std::vector<contact_class>> classes, bool with_clouds) {
+                    std::span<const std::vector<contact_class>> of_body, bool with_clouds) {
     std::size_t first = 0;
     for (std::size_t i = 0; i < set.bodies.size(); ++i) {
         const body_file& file = set.file_of(i);
@@ -47,8 +47,8 @@ void append_classes(std::vector<contact_class>& all, const body_set& set,
             const mesh& content = file.content.mesh;
             all.resize(first + (file.cloud ? content.points.size() : content.faces.size()));
         }
-        for (std::uint32_t f = 0; f < classes[i].size(); ++f)
-            all[first + set.bodies[i].triangle(f)] = classes[i][f];
+        for (std::uint32_t f = 0; f < of_body[i].size(); ++f)
+            all[first + set.bodies[i].triangle(f)] = of_body[i][f];
     }
 }
 
