@@ -55,17 +55,17 @@ struct carried_elements {
 TREEFORM_API void carry(mesh_file& file, std::span<const carry_source> inputs,
                         const carried_elements& made);
 
-/// The same of one input, for what has been made of it alone, as `resolve_result` says: a number
-/// that is `operand_element::none` is of no face or vertex.
+/// The same for what was made of a single input, with sources as in `resolve_result`:
+/// `operand_element::none` stands for no source.
 TREEFORM_API void carry(mesh_file& file, const carry_source& input,
                         std::span<const std::uint32_t> face_source,
                         std::span<const std::uint32_t> vertex_source);
 
-/// [faces of all inputs, one input after the other] Numbers that are equal for faces with equal
-/// values in all columns that are carried and of one material, if `by_values`, and of one input, if
-/// `by_input`; for `boolean_options::face_groups`. With `by_values`, a face whose corners differ in
-/// texture coordinates or normals is like no other: what lies between them is told by the face
-/// alone. Empty when that tells no faces apart.
+/// [F of all inputs, in order] A group for each face, for `boolean_options::face_groups`. With
+/// `by_values`, a group has one material and equal values in all columns that are carried; a face
+/// whose corners differ in texture coordinates or normals is a group of its own. With `by_input`, a
+/// group has faces of one input only. Empty when all faces would be in one group.
+/// \cost O(V + F) for each column
 [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> face_groups(
     std::span<const carry_source> inputs, bool by_values, bool by_input);
 
