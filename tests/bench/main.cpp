@@ -50,8 +50,7 @@ void print_peak(const bench::setting& setting, const std::string& id, const std:
 }
 
 void measure_all(const bench::setting& setting, const std::vector<std::string>& ids,
-                 const std::string& only, const std::string& folder,
-                 const std::vector<std::string>& this_command) {
+                 const std::string& folder, const std::vector<std::string>& this_command) {
     std::filesystem::create_directories(folder);
     bench::write_machine(folder);
     bench::csv_report csv(folder);
@@ -64,8 +63,9 @@ void measure_all(const bench::setting& setting, const std::vector<std::string>& 
         fmt::print("\n== {}  {}\n", workload.id, workload.title);
         std::vector<bench::outcome> outcomes;
         workload.contests(setting, [&](bench::contest contest) {
-            if (!only.empty()) {
-                std::erase_if(contest.contestants, [&](const auto& c) { return c.who != only; });
+            if (!setting.only.empty()) {
+                std::erase_if(contest.contestants,
+                              [&](const auto& c) { return c.who != setting.only; });
                 contest.with_memory = false;
                 if (contest.contestants.empty()) return;
             }
@@ -92,14 +92,13 @@ int run(int argc, char** argv) {
     std::vector<std::string> ids;
     std::string folder = ".";
     std::string peak_of;
-    std::string only;
     bool quick = false;
     bool tiny = false;
     app.add_option("ID", ids,
                    "workloads, such as B1, or B for all of them; all when none is named");
     app.add_flag("--quick", quick, "smaller models, within three minutes");
     app.add_flag("--tiny", tiny, "only see that everything runs");
-    app.add_option("--only", only, "only contestants of this name, such as treeform; no memory");
+    app.add_option("--only", setting.only, "only contestants of this name; their times alone");
     app.add_option("--out", folder, "folder of bench.csv, machine.txt and index.html");
     app.add_option("--models", setting.models_dir, "folder of real models");
     app.add_option("--cache", setting.cache_dir, "folder for models and files made here")
@@ -123,7 +122,7 @@ int run(int argc, char** argv) {
     if (!setting.models_dir.empty())
         this_command.insert(this_command.end(), {"--models", setting.models_dir});
     if (tiny || quick) this_command.emplace_back(tiny ? "--tiny" : "--quick");
-    measure_all(setting, ids, only, folder, this_command);
+    measure_all(setting, ids, folder, this_command);
     return 0;
 }
 

@@ -77,15 +77,16 @@ std::vector<measured> measure(const contest& contest, const setting& setting) {
     for (const contestant& contestant : contest.contestants) {
         const job& job = jobs.emplace_back(contestant.prepare());
         const double first = seconds_of_run(job, contestant.threads);
-        results.push_back({.who = contestant.who,
-                           .threads = contestant.threads,
-                           .median = first,
-                           .low = first,
-                           .high = first,
-                           .runs = 1,
-                           .peak_mb = job.peak_mb(),
-                           .error = job.error(),
-                           .figures = job.figures()});
+        results.push_back(
+            {.who = contestant.who,
+             .threads = contestant.threads,
+             .median = first,
+             .low = first,
+             .high = first,
+             .runs = 1,
+             .peak_mb = job.peak_mb(),
+             .error = setting.only.empty() ? job.error() : std::nullopt,
+             .figures = setting.only.empty() ? job.figures() : std::vector<figure>{}});
         job.discard();
         const int runs = repetitions(setting.effort, first, contest.long_runs);
         if (runs == 0) continue;

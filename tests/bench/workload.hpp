@@ -28,6 +28,7 @@ struct setting {
     bench::effort effort = effort::full;
     std::string models_dir;  ///< real models, laid out as TREEFORM_MODELS_DIR; may be empty
     std::string cache_dir;   ///< for models and files the bench makes; exists
+    std::string only{};      ///< the contestants to measure, unjudged; empty: all, and their errors
 };
 
 /// A further value of an answer, printed and written as a row of its own.
