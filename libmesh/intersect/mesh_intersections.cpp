@@ -45,6 +45,24 @@ void add(const detail::intersect::bad_faces& more, detail::intersect::bad_faces&
     bad.in_b = std::min(bad.in_b, more.in_b);
 }
 
+/// What `search` finds with trees over the faces that reach into the boxes of both meshes.
+/// `function` is what the caller called.
+template <class Search>
+auto in_overlap(const std::string& function, mesh_view a, mesh_view b, const Search& search) {
+    const std::string name_a = function + ": a", name_b = function + ": b";
+    detail::base::check_faces(name_a.c_str(), a.points.size(), a.faces);
+    detail::base::check_faces(name_b.c_str(), b.points.size(), b.faces);
+    try {
+        const auto [tree_a, tree_b] = build_overlap(a.faces, detail::base::face_boxes(a.points),
+                                                    b.faces, detail::base::face_boxes(b.points));
+        return search(tree_a.boxes, tree_b.boxes);
+    } catch (const std::invalid_argument&) {  // a box, and so a face, that is not finite
+        detail::base::check_finite_faces(name_a.c_str(), a);
+        detail::base::check_finite_faces(name_b.c_str(), b);
+        throw;
+    }
+}
+
 /// What the chunks of a search give, in a narrow phase each.
 template <class Source>
 mesh_intersection_result classified(const pair_search<3>& search,
@@ -83,6 +101,15 @@ mesh_intersection_result classified(const pair_search<3>& search,
     return result;
 }
 
+mesh_intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                             const tree<3>& tree_b,
+                                             const mesh_intersection_options& options) {
+    const pair_search<3> search(transformed(tree_a, options.move_a),
+                                transformed(tree_b, options.move_b), turned_boxes::both_ways);
+    return classified<detail::intersect::face_candidates>(
+        search, {{a, tree_a, options.move_a}, {b, tree_b, options.move_b}}, options);
+}
+
 }  // namespace
 
 mesh_intersection_result detail::intersect::mesh_intersections(
@@ -90,10 +117,7 @@ mesh_intersection_result detail::intersect::mesh_intersections(
     const mesh_intersection_options& options) {
     check_tree("treeform::mesh_intersections", "first", a, tree_a);
     check_tree("treeform::mesh_intersections", "second", b, tree_b);
-    const pair_search<3> search(transformed(tree_a, options.move_a),
-                                transformed(tree_b, options.move_b), turned_boxes::both_ways);
-    return classified<detail::intersect::face_candidates>(
-        search, {{a, tree_a, options.move_a}, {b, tree_b, options.move_b}}, options);
+    return classified_by_faces(a, tree_a, b, tree_b, options);
 }
 
 mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepared_mesh& b,
@@ -111,6 +135,10 @@ mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepar
 
 mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
                                             const mesh_intersection_options& options) {
+    if (options.move_a == transform<3>{} && options.move_b == transform<3>{})
+        return in_overlap("mesh_intersections", a, b, [&](const auto& tree_a, const auto& tree_b) {
+            return classified_by_faces(a, tree_a, b, tree_b, options);
+        });
     return detail::intersect::mesh_intersections(a, build_face_tree(a, "mesh_intersections: a"), b,
                                                  build_face_tree(b, "mesh_intersections: b"),
                                                  options);
@@ -148,22 +176,12 @@ bool intersects(const prepared_mesh& a, const prepared_mesh& b, const mesh_posit
 }
 
 bool intersects(mesh_view a, mesh_view b, const mesh_positions& positions) {
-    constexpr const char* name_a = "intersects: a";
-    constexpr const char* name_b = "intersects: b";
     if (positions.move_a != transform<3>{} || positions.move_b != transform<3>{})
-        return detail::intersect::intersects(a, build_face_tree(a, name_a), b,
-                                             build_face_tree(b, name_b), positions);
-    detail::base::check_faces(name_a, a.points.size(), a.faces);
-    detail::base::check_faces(name_b, b.points.size(), b.faces);
-    try {
-        const auto [tree_a, tree_b] = build_overlap(a.faces, detail::base::face_boxes(a.points),
-                                                    b.faces, detail::base::face_boxes(b.points));
-        return detail::intersect::intersects(a, tree_a.boxes, b, tree_b.boxes);
-    } catch (const std::invalid_argument&) {  // a box, and so a face, that is not finite
-        detail::base::check_finite_faces(name_a, a);
-        detail::base::check_finite_faces(name_b, b);
-        throw;
-    }
+        return detail::intersect::intersects(a, build_face_tree(a, "intersects: a"), b,
+                                             build_face_tree(b, "intersects: b"), positions);
+    return in_overlap("intersects", a, b, [&](const auto& tree_a, const auto& tree_b) {
+        return detail::intersect::intersects(a, tree_a, b, tree_b);
+    });
 }
 
 }  // namespace treeform

@@ -42,7 +42,7 @@ pairs by_brute_force(const tf::mesh& a, const tf::mesh& b, const Common& common)
 }
 
 /// The pairs, after the counts and the short answer have been compared with them, and the answer of
-/// the same meshes as models.
+/// the same meshes prepared. Those are indexed whole, the others where their boxes overlap.
 pairs found_in(const tf::mesh& a, const tf::mesh& b,
                const tf::mesh_intersection_options& options = {}) {
     const tf::mesh_intersection_result result = tf::mesh_intersections(a, b, options);
@@ -52,12 +52,11 @@ pairs found_in(const tf::mesh& a, const tf::mesh& b,
     CHECK(result.box_pairs >= result.pairs.size());
     CHECK(result.searched.candidates == result.box_pairs);
     CHECK(tf::intersects(a, b, {options.move_a, options.move_b}) == !result.pairs.empty());
-    const auto of_models =
+    const auto of_prepared =
         tf::mesh_intersections(tf::prepared_mesh::borrow(a), tf::prepared_mesh::borrow(b), options);
-    CHECK(of_models.pairs == result.pairs);
-    CHECK(of_models.counts == result.counts);
-    CHECK(of_models.box_pairs == result.box_pairs);
-    CHECK(of_models.searched == result.searched);
+    CHECK(of_prepared.pairs == result.pairs);
+    CHECK(of_prepared.counts == result.counts);
+    CHECK(of_prepared.box_pairs >= result.box_pairs);
     return result.pairs;
 }
 

@@ -48,7 +48,8 @@ struct mesh_intersection_result {
 /// Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
 /// degenerate: two meshes share no corners, so faces that meet in equal corners are `touching`, and
 /// equal faces `overlap`. Surfaces count, not solids: a mesh inside the other that does not touch
-/// it gives no pair. `a` and `b` may be the same mesh.
+/// it gives no pair. `a` and `b` may be the same mesh. Of meshes that are neither prepared nor
+/// moved, only faces that reach into the intersection of both bounding boxes are indexed.
 ///
 /// \throws std::invalid_argument when a transform is not finite, or naming the mesh and its face
 ///         with a corner out of range or, as moved, not finite
