@@ -81,6 +81,7 @@ void measure_all(const bench::setting& setting, const std::vector<std::string>& 
             table.add(contest, size, results);
             outcomes.push_back({contest.name, size, contest.unit, std::move(results)});
         });
+        if (!setting.only.empty()) continue;  // charts compare
         page.add(workload, outcomes);
         page.write(folder);  // each time: a run that is cut short leaves what it has
     }
