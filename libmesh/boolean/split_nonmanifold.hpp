@@ -10,9 +10,9 @@
 namespace treeform::detail::boolean {
 
 struct manifold_surface {
-    mesh surface;                                ///< vertices of before, then those added
-    std::vector<std::uint32_t> vertex_of_added;  ///< the vertex of before with these coordinates
-    std::uint64_t shared_edges = 0;              ///< edges of more than two faces that are left
+    mesh surface{};                                ///< vertices of before, then those added
+    std::vector<std::uint32_t> vertex_of_added{};  ///< the vertex of before with these coordinates
+    std::uint64_t shared_edges = 0;                ///< edges of more than two faces that are left
 };
 
 /// The surface of a solid as a manifold: where parts of it touch in an edge or at a vertex, each

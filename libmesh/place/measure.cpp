@@ -125,8 +125,8 @@ std::optional<mesh_measure> detail::place::measure_of(const shape& of_a, const s
 
 std::optional<mesh_measure> measure(const prepared_mesh& a, const prepared_mesh& b,
                                     const measure_options& options) {
-    detail::place::check_operand("measure", "a", a.view());
-    detail::place::check_operand("measure", "b", b.view());
+    detail::place::check_operand("measure", "a", a);
+    detail::place::check_operand("measure", "b", b);
     return detail::place::measure_of(detail::place::shape(a, options.vertices),
                                      detail::place::shape(b, options.vertices), options.radius,
                                      options.progress);

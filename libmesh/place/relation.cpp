@@ -146,8 +146,8 @@ mesh_relation_result detail::place::relation_of(const shape& a, const shape& b,
 
 mesh_relation_result relation(const prepared_mesh& a, const prepared_mesh& b,
                               const relation_options& options) {
-    check_operand("relation", "a", a.view());
-    check_operand("relation", "b", b.view());
+    check_operand("relation", "a", a);
+    check_operand("relation", "b", b);
     return detail::place::relation_of(shape(a, options.vertices), shape(b, options.vertices),
                                       options.progress);
 }

@@ -32,6 +32,11 @@ void check_operand(const std::string& function, const std::string& operand, mesh
     base::check_finite_faces(name.c_str(), mesh);
 }
 
+void check_operand(const std::string& function, const std::string& operand,
+                   const prepared_mesh& mesh) {
+    static_cast<void>(build_face_tree(mesh, (function + ": " + operand).c_str()));
+}
+
 void check_motion(const std::string& function, const point3& motion) {
     if (!base::is_finite(motion) || motion == point3{})
         throw std::invalid_argument("treeform::" + function + ": the motion is zero or not finite");

@@ -48,6 +48,10 @@ class shape {
 ///         not finite; `function` is "slide", the message "treeform::slide: fixed 3: face 5 ..."
 void check_operand(const std::string& function, const std::string& operand, mesh_view mesh);
 
+/// The same of a mesh whose tree is wanted: building that checks it, once.
+void check_operand(const std::string& function, const std::string& operand,
+                   const prepared_mesh& mesh);
+
 /// \throws std::invalid_argument for a motion that is zero or not finite
 void check_motion(const std::string& function, const point3& motion);
 

@@ -131,8 +131,8 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
 
 impact time_of_impact(const prepared_mesh& a, const prepared_mesh& b, const point3& motion,
                       const impact_options& options) {
-    detail::place::check_operand("time_of_impact", "a", a.view());
-    detail::place::check_operand("time_of_impact", "b", b.view());
+    detail::place::check_operand("time_of_impact", "a", a);
+    detail::place::check_operand("time_of_impact", "b", b);
     detail::place::check_motion("time_of_impact", motion);
     return detail::place::impact_of(a.view(), build_face_tree(a), b.view(), build_face_tree(b),
                                     motion, options);

@@ -136,8 +136,8 @@ approach detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_vie
 
 approach time_to_distance(const prepared_mesh& a, const prepared_mesh& b, const point3& motion,
                           double distance, const approach_options& options) {
-    detail::place::check_operand("time_to_distance", "a", a.view());
-    detail::place::check_operand("time_to_distance", "b", b.view());
+    detail::place::check_operand("time_to_distance", "a", a);
+    detail::place::check_operand("time_to_distance", "b", b);
     detail::place::check_motion("time_to_distance", motion);
     return detail::place::approach_of(a.view(), build_face_tree(a), b.view(), build_face_tree(b),
                                       motion, distance, options);
