@@ -26,9 +26,15 @@ def times_of(program, options):
                        stdout=subprocess.DEVNULL)
         with open(pathlib.Path(folder) / "bench.csv") as file:
             rows = [row for row in csv.DictReader(file) if float(row["value"] or 0) > 0]
-    return {(row["id"], row["case"], row["size"], row["threads"], row["unit"]):
-            1 / float(row["value"]) if row["unit"].endswith("/s") else float(row["value"])
-            for row in rows if row["unit"] in ("s", "ms", "us", "ns") or row["unit"].endswith("/s")}
+    found = {}
+    for row in rows:
+        key = tuple(row[name] for name in ("id", "case", "size", "threads", "unit"))
+        value = float(row["value"])
+        if row["unit"].endswith("/s"):
+            found[key] = 1 / value
+        elif row["unit"].split("/")[0] in ("s", "ms", "us", "ns"):
+            found[key] = value
+    return found
 
 
 def interval(values):
