@@ -71,8 +71,9 @@ TEST_CASE("bodies: each part of a file is the mesh of its faces alone") {
     tf::mesh_file file = file_of(both);
     file.attributes.parts = {{.object = "small", .first_face = 0}, {.first_face = 12}};
     tf::body_set found;
-    found.add(file, "whole.obj");
-    CHECK(found.add_parts(file, "parts.obj").box == found.files[0].box);
+    const tf::body_file& first = found.add(file, "whole.obj");
+    CHECK(found.add_parts(file, "parts.obj").box == first.box);
+    CHECK(first.label == "whole.obj");
     REQUIRE(found.bodies.size() == 3);
     CHECK(found.labels() ==
           std::vector<std::string>{"whole.obj", "parts.obj: small", "parts.obj: part 1"});

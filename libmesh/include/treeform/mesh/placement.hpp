@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
@@ -167,13 +168,14 @@ struct file_body {
 
 /// Files and their bodies, ready for placement.
 struct TREEFORM_API body_set {
-    std::vector<body_file> files{};
+    std::deque<body_file> files{};  ///< references to them stay valid when one is added
     std::vector<file_body> bodies{};  ///< [B]
     /// [B] The mesh of each body: the finite triangles of the file, with equal corners joined, and
     /// only the points that they use. For a cloud, its finite points.
     std::vector<prepared_mesh> shapes{};
 
-    /// Adds a file, all of it as one body. Without a finite face or point it has none.
+    /// Adds a file, all of it as one body, and returns it. Without a finite face or point it has
+    /// no body.
     ///
     /// \cost O(V + F)
     body_file& add(mesh_file file, std::string label = {}, std::string name = {});
