@@ -24,7 +24,7 @@ std::array<std::uint32_t, filtered_corners<Class>> corners_of(const numbered_fac
 }  // namespace
 
 void own_candidates::offer(const candidate_block& block, narrow_phase<own_candidates>& phase) {
-    block_ = own_.options->component_of_face.empty() ? block : wanted(block);
+    block_ = own_.options->between || own_.options->within ? wanted(block) : block;
     sort_by_class(block_, own_.faces.data(), classes_);
     offer_class<candidate_classes::edge>(phase);
     offer_class<candidate_classes::corner>(phase);

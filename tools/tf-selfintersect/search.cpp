@@ -21,15 +21,13 @@ tf::part_options part_options_of(const job& work, const tf::mesh_file& file,
 
 tf::self_intersection_options search_options(job& work, const findings& result,
                                              const search_settings& settings) {
-    tf::self_intersection_options options;
-    options.vertices = tf::vertex_identity::by_index;  // joined as asked
-    options.first_only = settings.first;
-    options.kinds = settings.looked_for();
-    options.between = settings.between;
-    options.within = settings.within;
-    if (settings.between || settings.within) options.component_of_face = result.part.component;
-    options.progress = work.progress("pairs");
-    return options;
+    return {.vertices = tf::vertex_identity::by_index,  // joined as asked
+            .first_only = settings.first,
+            .kinds = settings.looked_for(),
+            .component_of_face = result.part.component,
+            .between = settings.between,
+            .within = settings.within,
+            .progress = work.progress("pairs")};
 }
 
 }  // namespace
