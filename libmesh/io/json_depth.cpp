@@ -65,7 +65,7 @@ using node_lists = std::vector<std::vector<std::size_t>>;
 /// The children of each node, which glTF names by number.
 [[nodiscard]] node_lists children_of(const source& gltf, std::string_view json) {
     json = json.substr(0, json.find_last_not_of('\0') + 1);
-    const auto scene = nlohmann::json::parse(json, nullptr, false);
+    const auto scene = nlohmann::ordered_json::parse(json, nullptr, false);
     if (scene.is_discarded()) gltf.fail("its JSON has errors");
     if (!scene.is_object() || !scene.contains("nodes") || !scene["nodes"].is_array()) return {};
     const auto& nodes = scene["nodes"];
