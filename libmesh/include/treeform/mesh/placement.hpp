@@ -168,7 +168,7 @@ struct file_body {
 
 /// Files and their bodies, ready for placement.
 struct TREEFORM_API body_set {
-    std::deque<body_file> files{};  ///< references to them stay valid when one is added
+    std::deque<body_file> files{};    ///< references to them stay valid when one is added
     std::vector<file_body> bodies{};  ///< [B]
     /// [B] The mesh of each body: the finite triangles of the file, with equal corners joined, and
     /// only the points that they use. For a cloud, its finite points.
