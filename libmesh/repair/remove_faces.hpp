@@ -2,7 +2,7 @@
 /// \file
 /// Self-intersections resolved by deleting faces and filling the holes.
 
-#include <treeform/mesh/resolve.hpp>
+#include <treeform/mesh/repair.hpp>
 
 namespace treeform::detail::repair {
 

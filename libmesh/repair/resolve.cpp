@@ -3,7 +3,7 @@
 #include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/repair/remove_faces.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/resolve.hpp>
+#include <treeform/mesh/repair.hpp>
 
 #include <algorithm>
 #include <cstddef>

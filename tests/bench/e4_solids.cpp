@@ -10,7 +10,7 @@
 #include "bench/written_surface.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/resolve.hpp>
+#include <treeform/mesh/repair.hpp>
 
 #include <fmt/core.h>
 #include <support/rational_points.hpp>

@@ -4,7 +4,7 @@
 #include "bytes.hpp"
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/resolve.hpp>
+#include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 

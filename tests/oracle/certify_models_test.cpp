@@ -11,7 +11,7 @@
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
-#include <treeform/mesh/resolve.hpp>
+#include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/transform.hpp>
 

@@ -3,7 +3,7 @@
 /// What tf-selfintersect says and writes.
 
 #include "tools/tf-selfintersect/search.hpp"
-#include <treeform/mesh/resolve.hpp>
+#include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>
 
 #include <array>

@@ -27,7 +27,7 @@
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/raycast.hpp>
 #include <treeform/mesh/read.hpp>
-#include <treeform/mesh/resolve.hpp>
+#include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/slide.hpp>

@@ -1,7 +1,7 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
-#include <treeform/mesh/resolve.hpp>
+#include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 

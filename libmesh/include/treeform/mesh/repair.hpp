@@ -1,0 +1,188 @@
+#pragma once
+/// \file
+/// Meshes mended: solids made of dirty meshes, and self-intersections resolved.
+///
+///     tf::mesh solid = tf::repair(mesh).value();
+
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace treeform {
+
+/// What to do with faces that meet.
+enum class resolve_mode : std::uint8_t {
+    split,  ///< cut them along the curves where they meet, and keep every piece
+    outer,  ///< cut them, and keep only the pieces that bound the solid
+    remove  ///< delete them, and fill the holes
+};
+
+struct resolve_options {
+    fill_rule inside = fill_rule::nonzero;  ///< for `outer`: what is solid
+    /// Precision of the coordinates returned. float32 values are stored as doubles.
+    treeform::precision precision = treeform::precision::float64;
+    int rounding_steps = 5;  ///< for `split` and `outer`: see `boolean_options`
+    /// For `remove`: delete faces that only touch (`pair_kind::touching`), too. Otherwise they
+    /// stay.
+    bool touching = false;
+    /// For `remove`: give up after making or widening holes this often.
+    int removal_rounds = 16;
+    progress_callback progress{};
+};
+
+/// Counts of what was done, for reports.
+struct resolve_statistics {
+    std::uint64_t removed = 0;  ///< input faces of which no part is left
+    /// For `split`: input faces that lie entirely on faces of lower numbers. One piece stands for
+    /// all of them, so they are not counted as removed.
+    std::uint64_t covered = 0;
+    std::uint64_t filled = 0;          ///< faces that fill holes
+    std::uint64_t left_open = 0;       ///< for `remove`: edges that lost their second face
+    std::uint64_t exact_faces = 0;     ///< for `split` and `outer`, as in `boolean_statistics`
+    std::uint64_t split_vertices = 0;  ///< for `outer`, as in `boolean_statistics`
+};
+
+/// The mesh without self-intersections, where its parts came from, and what was checked.
+struct TREEFORM_API resolve_result {
+    /// Instead of a source: the face fills a hole, or the vertex is new.
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    treeform::mesh mesh;                       ///< faces in the order of their sources
+    std::vector<std::uint32_t> face_source;    ///< [F'] input face that each lies in, or none
+    std::vector<std::uint32_t> vertex_source;  ///< [V'] input vertex that each is, or none
+    /// Status ok says, checked on the coordinates above: no face is degenerate, and any two faces
+    /// have a corner, an edge or nothing in common. For `outer` also: the mesh is a closed
+    /// manifold, and the inside is behind every face. For `remove`: closed parts are still closed;
+    /// faces that touched before may still touch (`resolve_options::touching`).
+    treeform::certificate certificate{};
+    std::uint64_t vanished_components = 0;  ///< components, by vertices, that have no face left
+    resolve_statistics statistics{};
+
+    /// The mesh.
+    ///
+    /// \throws not_certified_error unless the certificate's status is ok
+    [[nodiscard]] const treeform::mesh& value() const&;
+    [[nodiscard]] treeform::mesh value() &&;
+};
+
+/// `mesh` without self-intersections. Look at the certificate: it says whether this was possible.
+///
+/// `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is inside.
+/// Then they round the points on cuts. Faces that meet nothing stay as they are.
+///
+/// `remove` is for surfaces that bound no solid. It works locally and does not keep the volume. It
+/// deletes the faces that meet or are degenerate. It closes each hole by triangles of the least
+/// total area between the vertices of its rim, but not beyond where the mesh ended. Where the new
+/// triangles meet other faces, the hole is made wider. A part is a set of faces linked by edges:
+/// - In a part that has a border, a hole stays open (`left_open`) where widening does not help, or
+///   where the hole would surround the border. Then of each pair only one face is deleted.
+/// - A closed part stays as it is where a part with a border passes through it.
+/// - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
+///
+/// \throws std::invalid_argument as `boolean`; for `remove`, a coordinate may be beyond 2^1000
+/// \cost   as `boolean`; for `remove`, one `self_intersections` a round, and for a hole of n
+///         vertices O(n^3) when n <= 200, else O(n^2)
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API resolve_result resolve_self_intersections(
+    mesh_view mesh, resolve_mode mode = resolve_mode::outer, const resolve_options& options = {});
+
+/// What is inside, for `repair`.
+enum class repair_rule : std::uint8_t {
+    automatic,  ///< `positive` where every shell is outward after `orient`, else `nonzero`
+    nonzero,
+    odd,
+    positive
+};
+
+struct repair_options {
+    bool join = true;     ///< drop degenerate and repeated faces; close cracks and T-junctions
+    bool orient = true;   ///< make faces agree and shells outward; drop strays
+    bool fill = true;     ///< fill holes
+    bool resolve = true;  ///< cut self-intersections; drop what bounds nothing
+    bool detach = true;   ///< move apart what touches in an edge or a vertex
+    /// Widest crack to close. Where it is not given, the narrowest of 0, a float step, and 1e-6,
+    /// 1e-5, 1e-4, 1e-3 of the diagonal of the bounding box that leaves the fewest open edges.
+    std::optional<double> gap{};
+    /// Fill holes of at most this many edges.
+    std::uint64_t largest_hole = std::numeric_limits<std::uint64_t>::max();
+    /// Loose open pieces below this share of the area are dropped. Where a larger component vanishes
+    /// since it bounds nothing, the status is `excessive_loss`.
+    double strays = 0.001;
+    repair_rule inside = repair_rule::automatic;
+    /// The mesh is an open surface: its border is kept, and nothing is filled.
+    bool sheet = false;
+    /// Precision of the coordinates returned. float32 values are stored as doubles.
+    treeform::precision precision = treeform::precision::float64;
+    int rounding_steps = 5;  ///< as in `boolean_options`
+    progress_callback progress{};
+};
+
+/// What each step has done. Gaps closed, sides chosen and holes filled are guesses.
+struct repair_statistics {
+    std::uint64_t degenerate = 0;           ///< faces without area, dropped
+    std::uint64_t repeated = 0;             ///< faces on others, dropped
+    std::uint64_t closed_edges = 0;         ///< pairs of border edges that became one
+    std::uint64_t split_edges = 0;          ///< border edges split at vertices that lie on them
+    double gap = 0.0;                       ///< widest crack that was looked for
+    double widest = 0.0;                    ///< widest crack that was closed
+    std::uint64_t flipped = 0;              ///< faces turned to agree with their neighbors
+    std::uint64_t turned = 0;               ///< components turned outward
+    std::uint64_t strays = 0;               ///< faces of loose and of inner pieces, dropped
+    std::uint64_t holes = 0;                ///< filled
+    std::uint64_t hole_edges = 0;           ///< around them
+    std::uint64_t filled = 0;               ///< faces that fill them
+    std::uint64_t open_edges = 0;           ///< left after these steps
+    bool resolved = false;                  ///< faces met and were cut
+    std::uint64_t removed = 0;              ///< faces that resolving left nothing of
+    std::uint64_t split_vertices = 0;       ///< as in `boolean_statistics`
+    std::uint64_t detached = 0;             ///< vertices moved apart
+    std::uint64_t touching = 0;             ///< vertices that still have a twin at their place
+    std::uint64_t vanished_components = 0;  ///< larger than `repair_options::strays`
+    /// Of the solid after `join`, `orient` and `fill`, and of the result; 0 where it is no solid.
+    double volume_before = 0.0;
+    double volume_after = 0.0;
+    double area_before = 0.0;
+    double area_after = 0.0;
+};
+
+/// The mended mesh, where its parts came from, and what was checked.
+struct TREEFORM_API repair_result {
+    static constexpr std::uint32_t none = resolve_result::none;
+
+    treeform::mesh mesh;
+    std::vector<std::uint32_t> face_source;    ///< [F'] input face that each lies in, or none
+    std::vector<std::uint32_t> vertex_source;  ///< [V'] input vertex that each is, or none
+    /// Status ok says, checked on the coordinates above: a closed manifold, the inside behind every
+    /// face, and any two faces have a corner, an edge or nothing in common. Status sheet says the
+    /// same of a surface with a border.
+    treeform::certificate certificate{};
+    repair_statistics statistics{};
+
+    /// The mesh.
+    ///
+    /// \throws not_certified_error unless the certificate's status is ok
+    [[nodiscard]] const treeform::mesh& value() const&;
+    [[nodiscard]] treeform::mesh value() &&;
+};
+
+/// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look at
+/// the certificate: it says whether this was possible, and where not.
+///
+/// The steps are those of `repair_options`, in their order. Each leaves alone what needs nothing: a
+/// mesh that is a solid comes back bit for bit. What meets and what is inside is decided exactly.
+/// Which cracks close, which way faces point, and what fills a hole are guesses, and counted.
+/// Points with equal coordinates are one.
+///
+/// \throws std::invalid_argument as `boolean`; for a gap or share that is negative or not finite
+/// \cost   O(V log V + F log F), and as `resolve_self_intersections` where faces meet
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API repair_result repair(mesh_view mesh, const repair_options& options = {});
+
+}  // namespace treeform

@@ -1,0 +1,28 @@
+#pragma once
+/// \file
+/// Solids that touch themselves, moved apart by a few steps of the coordinates.
+
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/mesh.hpp>
+
+#include <cstdint>
+
+namespace treeform::detail::repair {
+
+struct detached {
+    std::uint64_t moved = 0;        ///< vertices
+    std::uint64_t touching = 0;     ///< vertices that still share their coordinates with another
+    double max_displacement = 0.0;  ///< of a coordinate
+};
+
+/// Moves vertices with equal coordinates apart, each towards the inside of the solid behind its
+/// faces, so that programs which join equal coordinates see a manifold. What is moved is checked
+/// exactly; what would break is left, and counted.
+///
+/// \param of precision of the coordinates, before and after
+/// \pre   a closed manifold by numbers, of which no two faces meet (`split_nonmanifold`)
+/// \cost  O(V + F), and as `self_intersections` of the faces moved against all others, a few times
+/// \same  on any number of threads
+detached detach(mesh& solid, precision of);
+
+}  // namespace treeform::detail::repair

@@ -1,0 +1,107 @@
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/repair/drop_strays.hpp>
+#include <libmesh/repair/edge_parts.hpp>
+#include <libmesh/weld/edge_uses.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace treeform::detail::repair {
+namespace {
+
+constexpr double flat = 8.0;
+
+/// Faces linked by edges that two of them have to themselves.
+struct patch {
+    double area = 0.0;
+    double free_length = 0.0;              ///< of edges that no other face has
+    std::vector<std::uint32_t> crowded{};  ///< edges of more than two faces, once for each face
+};
+
+double length(const point3& v) { return std::hypot(v.x, v.y, v.z); }
+
+struct patch_map {
+    std::vector<std::uint32_t> patch_of{};  ///< [F]
+    std::vector<patch> patches{};
+    std::vector<std::uint32_t> count{};  ///< faces at each crowded edge
+    double area = 0.0;
+};
+
+patch_map find_patches(const working_mesh& mesh) {
+    patch_map map;
+    map.patch_of = patches(mesh);
+    std::vector<std::uint32_t> number(mesh.faces.size(), 0);
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+        if (map.patch_of[f] == f) {
+            number[f] = static_cast<std::uint32_t>(map.patches.size());
+            map.patches.emplace_back();
+        }
+        map.patch_of[f] = number[map.patch_of[f]];
+        const auto [a, b, c] = base::triangle_of(mesh.points, mesh.faces[f]);
+        patch& part = map.patches[map.patch_of[f]];
+        const double area = length(base::cross(base::minus(b, a), base::minus(c, a))) / 2.0;
+        part.area += area;
+        map.area += area;
+    }
+    const weld::edge_uses edges(mesh.points.size(), mesh.faces, weld::repeated_corners::left_out);
+    std::vector<std::vector<std::vector<std::uint32_t>>> crowded(edges.chunks());
+    std::vector<std::vector<std::array<std::uint32_t, 3>>> borders(edges.chunks());
+    edges.for_each([&](const weld::used_edge& edge, std::size_t chunk) {
+        if (edge.uses.size() == 1) borders[chunk].push_back({edge.low, edge.high, edge.face(0)});
+        if (edge.uses.size() <= 2) return;
+        std::vector<std::uint32_t>& faces = crowded[chunk].emplace_back();
+        for (std::size_t i = 0; i < edge.uses.size(); ++i) faces.push_back(edge.face(i));
+    });
+    for (const auto& part : borders)
+        for (const auto& [low, high, f] : part)
+            map.patches[map.patch_of[f]].free_length +=
+                length(base::minus(mesh.points[high], mesh.points[low]));
+    for (const auto& part : crowded)
+        for (const std::vector<std::uint32_t>& faces : part) {
+            const auto edge = static_cast<std::uint32_t>(map.count.size());
+            map.count.push_back(static_cast<std::uint32_t>(faces.size()));
+            for (const std::uint32_t f : faces)
+                map.patches[map.patch_of[f]].crowded.push_back(edge);
+        }
+    return map;
+}
+
+/// Whether the edges where it hangs on others have an odd number of faces, and an even one without
+/// it.
+bool is_surplus(const patch& part, const std::vector<std::uint32_t>& count) {
+    const std::vector<std::uint32_t>& edges = part.crowded;  // ascending
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+        while (end < edges.size() && edges[end] == edges[begin]) ++end;
+        const std::size_t all = count[edges[begin]], left = all - (end - begin);
+        if (all % 2 == 0 || left % 2 != 0 || left == 0) return false;
+    }
+    return !edges.empty();
+}
+
+bool is_stray(const patch& part, const patch_map& map, double share, bool is_sheet) {
+    if (part.free_length == 0.0) return is_surplus(part, map.count);
+    if (is_sheet || !(part.area < share * map.area)) return false;
+    return part.crowded.empty() ? part.free_length * part.free_length > flat * part.area
+                                : is_surplus(part, map.count);
+}
+
+}  // namespace
+
+std::uint64_t drop_strays(working_mesh& mesh, double share, bool is_sheet) {
+    patch_map map = find_patches(mesh);
+    std::vector<std::uint32_t> order(map.patches.size());
+    for (std::uint32_t p = 0; p < order.size(); ++p) order[p] = p;
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t p) { return map.patches[p].area; });
+    std::vector<std::uint8_t> dropped(map.patches.size(), 0);
+    for (const std::uint32_t p : order) {
+        if (!is_stray(map.patches[p], map, share, is_sheet)) continue;
+        dropped[p] = 1;
+        for (const std::uint32_t edge : map.patches[p].crowded) --map.count[edge];
+    }
+    std::vector<std::uint32_t>& patch_of = map.patch_of;
+    return mesh.drop([&](std::uint32_t f) { return dropped[patch_of[f]] != 0; });
+}
+
+}  // namespace treeform::detail::repair

@@ -1,0 +1,22 @@
+#pragma once
+/// \file
+/// Pieces of surface that bound nothing.
+
+#include <libmesh/repair/working_mesh.hpp>
+
+#include <cstdint>
+
+namespace treeform::detail::repair {
+
+/// Drops patches that bound nothing; returns how many faces.
+///
+/// - A patch with a free border and less than `share` of the area goes where it is nearly flat (its
+///   border, squared, is more than 8 times its area: a hemisphere has 6.3, a disk 12.6), so that
+///   filling its holes would make next to nothing of it, or where it hangs on others.
+/// - A patch that only ends at other faces, as a wall inside a solid does, goes where each of
+///   these edges has an odd number of faces, and an even one without it; the smallest first.
+///
+/// \param is_sheet keep free borders: only walls go
+std::uint64_t drop_strays(working_mesh& mesh, double share, bool is_sheet);
+
+}  // namespace treeform::detail::repair

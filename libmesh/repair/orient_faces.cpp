@@ -1,0 +1,187 @@
+#include <libmesh/repair/edge_parts.hpp>
+#include <libmesh/repair/orient_faces.hpp>
+#include <libmesh/weld/edge_uses.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/properties.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+namespace treeform::detail::repair {
+namespace {
+
+/// Sets of faces, each known to be turned against its set's root or not.
+class turned_sets {
+  public:
+    explicit turned_sets(std::size_t count)
+        : parent_(count), turned_(count, 0), one_sided_(count, 0) {
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
+
+    struct place {
+        std::uint32_t root;
+        bool turned;
+    };
+
+    [[nodiscard]] place find(std::uint32_t f) {
+        std::uint32_t root = f;
+        bool turned = false;
+        while (parent_[root] != root) {
+            turned ^= turned_[root] != 0;
+            root = parent_[root];
+        }
+        for (bool rest = turned; parent_[f] != root && f != root;) {  // shortens the way
+            const bool own = turned_[f] != 0;
+            const std::uint32_t up = parent_[f];
+            parent_[f] = root;
+            turned_[f] = rest ? 1 : 0;
+            rest ^= own;
+            f = up;
+        }
+        return {root, turned};
+    }
+
+    void join(std::uint32_t f, std::uint32_t g, bool against) {
+        const place a = find(f), b = find(g);
+        const bool turned = a.turned ^ b.turned ^ against;
+        if (a.root == b.root) {
+            if (turned) one_sided_[a.root] = 1;
+            return;
+        }
+        const auto [low, high] = std::minmax(a.root, b.root);
+        parent_[high] = low;
+        turned_[high] = turned ? 1 : 0;
+        one_sided_[low] = std::max(one_sided_[low], one_sided_[high]);
+    }
+
+    [[nodiscard]] bool is_one_sided(std::uint32_t root) const { return one_sided_[root] != 0; }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+    std::vector<std::uint8_t> turned_;  ///< against the parent
+    std::vector<std::uint8_t> one_sided_;
+};
+
+/// A component: its faces, and what is known of it.
+struct component {
+    std::vector<std::uint32_t> faces{};
+    box3 box{};
+    double volume = 0.0;
+    std::optional<prepared_mesh> surface{};
+};
+
+box3 box_of(const working_mesh& mesh, const component& part) {
+    const point3& first = mesh.points[mesh.faces[part.faces[0]][0]];
+    box3 box{first, first};
+    for (const std::uint32_t f : part.faces)
+        for (const std::uint32_t corner : mesh.faces[f])
+            for (std::size_t k = 0; k < 3; ++k) {
+                box.min[k] = std::min(box.min[k], mesh.points[corner][k]);
+                box.max[k] = std::max(box.max[k], mesh.points[corner][k]);
+            }
+    return box;
+}
+
+bool holds(const box3& outer, const box3& inner) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (inner.min[k] < outer.min[k] || inner.max[k] > outer.max[k]) return false;
+    return true;
+}
+
+/// Those that are closed.
+std::vector<component> closed_components(const working_mesh& mesh) {
+    const std::vector<std::uint32_t> part_of = parts_by_edges(mesh);
+    std::vector<component> all(mesh.faces.size());
+    for (std::uint32_t f = 0; f < part_of.size(); ++f) all[part_of[f]].faces.push_back(f);
+    for (const std::uint32_t f : faces_at_unbalanced_edges(mesh)) all[part_of[f]].faces.clear();
+    std::erase_if(all, [](const component& part) { return part.faces.empty(); });
+    std::vector<face> faces;
+    for (component& part : all) {
+        faces.clear();
+        for (const std::uint32_t f : part.faces) faces.push_back(mesh.faces[f]);
+        part.volume = signed_volume({mesh.points, faces});
+        part.box = box_of(mesh, part);
+    }
+    return all;
+}
+
+/// How often `other` winds around the first vertex of `part`.
+int winding_around(const working_mesh& mesh, const component& part, component& other) {
+    if (!holds(other.box, part.box)) return 0;
+    if (!other.surface) other.surface.emplace(select_faces(mesh.view(), other.faces));
+    return winding_number(*other.surface, mesh.points[mesh.faces[part.faces[0]][0]]);
+}
+
+bool is_inside(const working_mesh& mesh, const component& part, component& other) {
+    return winding_around(mesh, part, other) != 0 &&
+           !intersects(*other.surface, prepared_mesh(select_faces(mesh.view(), part.faces)));
+}
+
+}  // namespace
+
+std::uint64_t make_faces_agree(working_mesh& mesh) {
+    const weld::edge_uses edges(mesh.points.size(), mesh.faces, weld::repeated_corners::left_out);
+    struct link {
+        std::uint32_t f, g;
+        bool against;
+    };
+    std::vector<std::vector<link>> links(edges.chunks());
+    edges.for_each([&](const weld::used_edge& edge, std::size_t chunk) {
+        if (edge.uses.size() != 2) return;
+        const std::uint32_t f = edge.face(0), g = edge.face(1);
+        const bool along_f = runs_along(mesh.faces[f], edge.low, edge.high);
+        const bool along_g = runs_along(mesh.faces[g], edge.low, edge.high);
+        links[chunk].push_back({f, g, along_f == along_g});
+    });
+    turned_sets sets(mesh.faces.size());
+    for (const auto& part : links)
+        for (const link& l : part) sets.join(l.f, l.g, l.against);
+    std::vector<std::int64_t> majority(mesh.faces.size(), 0);  // by root: as it is, less turned
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+        const auto [root, turned] = sets.find(f);
+        majority[root] += turned ? -1 : 1;
+    }
+    std::uint64_t flipped = 0;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+        const auto [root, turned] = sets.find(f);
+        if (sets.is_one_sided(root) || turned != (majority[root] >= 0)) continue;
+        mesh.faces[f] = repair::turned(mesh.faces[f]);
+        ++flipped;
+    }
+    return flipped;
+}
+
+std::uint64_t turn_outward(working_mesh& mesh) {
+    std::vector<component> components = closed_components(mesh);
+    std::vector<component*> inward;
+    for (component& part : components) {
+        if (!(part.volume < 0.0)) continue;
+        const bool is_cavity = std::ranges::any_of(components, [&](component& other) {
+            return &other != &part && is_inside(mesh, part, other);
+        });
+        if (!is_cavity) inward.push_back(&part);
+    }
+    for (const component* part : inward)
+        for (const std::uint32_t f : part->faces) mesh.faces[f] = turned(mesh.faces[f]);
+    return inward.size();
+}
+
+bool is_outward(const working_mesh& mesh) {
+    return std::ranges::all_of(closed_components(mesh),
+                               [](const component& part) { return part.volume > 0.0; });
+}
+
+bool is_well_nested(const working_mesh& mesh) {
+    std::vector<component> components = closed_components(mesh);
+    return std::ranges::all_of(components, [&](const component& part) {
+        int around = 0;
+        for (component& other : components)
+            if (&other != &part) around += winding_around(mesh, part, other);
+        return around == (part.volume < 0.0 ? 1 : 0);
+    });
+}
+
+}  // namespace treeform::detail::repair

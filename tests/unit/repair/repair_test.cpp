@@ -1,0 +1,249 @@
+/// \file
+/// `repair`: each kind of dirt on a solid, and the solid that comes back.
+
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/solids.hpp>
+#include <support/soups.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace {
+
+constexpr std::uint32_t none = tf::repair_result::none;
+
+void turn(tf::face& f) { std::swap(f[1], f[2]); }
+
+/// As programs see it that join equal coordinates.
+bool is_manifold_in_coordinates(const tf::mesh& mesh) {
+    const tf::mesh joined = tf::weld(mesh).mesh;
+    const auto counts = tf::count_topology(joined.points.size(), joined.faces);
+    return counts.closed && counts.misoriented_edges == 0 && counts.nonmanifold_points == 0;
+}
+
+void require_solid(const tf::repair_result& result, double volume) {
+    REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+    CHECK(is_manifold_in_coordinates(result.mesh));
+    CHECK(tf::self_intersections(result.mesh).pairs.empty());
+    CHECK(tf::signed_volume(result.mesh) == doctest::Approx(volume));
+    CHECK(result.face_source.size() == result.mesh.faces.size());
+    CHECK(result.vertex_source.size() == result.mesh.points.size());
+}
+
+std::array<tf::point3, 3> triangle(const tf::mesh& mesh, std::size_t f) {
+    const auto [a, b, c] = mesh.faces[f];
+    return {mesh.points[a], mesh.points[b], mesh.points[c]};
+}
+
+/// Each face with corners of its own, moved by up to `by`.
+tf::mesh torn(const tf::mesh& mesh, double by) {
+    test::random source(7);
+    tf::mesh soup;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+        for (const tf::point3& p : triangle(mesh, f))
+            soup.points.push_back(
+                {p.x + source.in(-by, by), p.y + source.in(-by, by), p.z + source.in(-by, by)});
+        soup.faces.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+    }
+    return soup;
+}
+
+}  // namespace
+
+TEST_CASE("repair: a solid comes back bit for bit") {
+    const tf::mesh ball = test::ball(3, 1.0);
+    const tf::repair_result result = tf::repair(ball);
+    require_solid(result, tf::signed_volume(ball));
+    CHECK(result.mesh == ball);
+    CHECK(result.statistics.flipped == 0);
+    CHECK(result.statistics.resolved == false);
+}
+
+TEST_CASE("repair: flipped faces agree again, and an inverted solid is turned") {
+    const tf::mesh ball = test::ball(3, 1.0);
+    tf::mesh dirty = ball;
+    for (const std::uint32_t f : {3U, 50U, 51U, 200U}) turn(dirty.faces[f]);
+    tf::repair_result result = tf::repair(dirty);
+    require_solid(result, tf::signed_volume(ball));
+    CHECK(result.statistics.flipped == 4);
+    CHECK(result.statistics.turned == 0);
+    for (tf::face& f : dirty.faces) turn(f);
+    result = tf::repair(dirty);
+    require_solid(result, tf::signed_volume(ball));
+    CHECK(result.statistics.flipped == 4);
+    CHECK(result.statistics.turned == 1);
+}
+
+TEST_CASE("repair: a cavity stays one, and a body inside a body is not made one") {
+    tf::mesh inner = test::ball(2, 0.5);
+    const tf::mesh outer = test::ball(3, 1.0);
+    const double rest = tf::signed_volume(outer) - tf::signed_volume(inner);
+    tf::repair_result result = tf::repair(test::together(outer, inner));
+    require_solid(result, tf::signed_volume(outer));
+    for (tf::face& f : inner.faces) turn(f);
+    result = tf::repair(test::together(outer, inner));
+    require_solid(result, rest);
+    CHECK(result.statistics.turned == 0);
+}
+
+TEST_CASE("repair: missing faces are filled, and faces around them stay") {
+    const tf::mesh ball = test::ball(3, 1.0);
+    tf::mesh dirty = ball;
+    dirty.faces.erase(dirty.faces.begin() + 10);
+    dirty.faces.erase(dirty.faces.begin() + 100, dirty.faces.begin() + 103);
+    const tf::repair_result result = tf::repair(dirty);
+    REQUIRE(result.certificate);
+    CHECK(result.statistics.holes >= 2);
+    CHECK(result.mesh.faces.size() == ball.faces.size());
+    std::uint64_t filled = 0;
+    for (std::size_t f = 0; f < result.face_source.size(); ++f) {
+        if (result.face_source[f] == none)
+            ++filled;
+        else
+            CHECK(triangle(result.mesh, f) == triangle(dirty, result.face_source[f]));
+    }
+    CHECK(filled == 4);
+    CHECK(filled == result.statistics.filled);
+    CHECK(tf::repair(dirty, {.largest_hole = 2}).certificate.status == tf::status::open_input);
+    CHECK(tf::repair(dirty, {.fill = false}).certificate.open_count > 0);
+}
+
+TEST_CASE("repair: cracks are zipped, however the faces are turned") {
+    const tf::mesh ball = test::ball(3, 1.0);
+    tf::mesh soup = torn(ball, 1e-5);
+    turn(soup.faces[77]);
+    const tf::repair_result result = tf::repair(soup);
+    REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+    CHECK(result.mesh.points.size() == ball.points.size());
+    CHECK(result.mesh.faces.size() == ball.faces.size());
+    CHECK(tf::signed_volume(result.mesh) == doctest::Approx(tf::signed_volume(ball)).epsilon(1e-4));
+    CHECK(result.statistics.closed_edges > ball.faces.size());
+    CHECK(result.statistics.widest <= 4e-5);
+    CHECK(result.statistics.widest > 0.0);
+    CHECK(result.statistics.flipped == 1);
+    CHECK(result.statistics.filled == 0);
+    // A crack wider than the gap stays one.
+    CHECK(tf::repair(soup, {.fill = false, .gap = 1e-7}).certificate.status ==
+          tf::status::open_input);
+}
+
+TEST_CASE("repair: an edge is split at the vertices that lie on it") {
+    tf::mesh dirty = test::box(2, 2, 2);  // the edge from 0 to 1 has a vertex on one side only
+    dirty.points.push_back({1, 0, 0});
+    dirty.faces[0] = {0, 2, 8};
+    dirty.faces.push_back({2, 1, 8});
+    const tf::repair_result result = tf::repair(dirty);
+    require_solid(result, 8.0);
+    CHECK(result.statistics.split_edges == 1);
+    CHECK(result.statistics.widest == 0.0);
+    CHECK(result.mesh.faces.size() == 14);
+}
+
+TEST_CASE("repair: a face without area leaves no hole") {
+    tf::mesh dirty = test::box(2, 2, 2);
+    dirty.points.push_back({1, 0, 0});
+    dirty.faces[0] = {0, 2, 8};
+    dirty.faces.push_back({2, 1, 8});
+    dirty.faces.push_back({0, 8, 1});
+    const tf::repair_result result = tf::repair(dirty);
+    require_solid(result, 8.0);
+    CHECK(result.statistics.degenerate == 1);
+    CHECK(result.statistics.split_edges == 1);
+}
+
+TEST_CASE("repair: faces that are there twice") {
+    const tf::mesh box = test::box(1, 1, 1);
+    require_solid(tf::repair(test::together(box, box)), 1.0);
+    for (const bool is_turned : {false, true}) {
+        tf::mesh dirty = box;
+        dirty.faces.push_back(box.faces[4]);
+        if (is_turned) turn(dirty.faces.back());
+        const tf::repair_result result = tf::repair(dirty);
+        require_solid(result, 1.0);
+        CHECK(result.mesh == box);
+        CHECK(result.statistics.repeated == 1);
+    }
+    // Two boxes face to face: the square between them cancels out.
+    const tf::mesh pair = test::together(box, test::moved(box, {1, 0, 0}));
+    require_solid(tf::repair(pair), 2.0);
+}
+
+TEST_CASE("repair: strays and walls inside go") {
+    const tf::mesh box = test::box(1, 1, 1);
+    tf::mesh dirty = test::together(box, test::moved(box, {3, 0, 0}));
+    const auto first = static_cast<std::uint32_t>(dirty.points.size());
+    dirty.points.insert(dirty.points.end(), {{2, 0, 0}, {2.01, 0, 0}, {2, 0.01, 0}});
+    dirty.faces.push_back({first, first + 1, first + 2});
+    tf::repair_result result = tf::repair(dirty);
+    require_solid(result, 2.0);
+    CHECK(result.statistics.strays == 1);
+
+    dirty = box;
+    dirty.faces.insert(dirty.faces.end(), {{2, 3, 5}, {2, 5, 4}});  // a wall from edge to edge
+    result = tf::repair(dirty);
+    require_solid(result, 1.0);
+    CHECK(result.statistics.strays == 2);
+}
+
+TEST_CASE("repair: solids that overlap become one") {
+    const tf::mesh ball = test::ball(3, 1.0);
+    tf::mesh pair = test::together(ball, test::moved(ball, {0.7, 0.3, 0.1}));
+    const double joined = tf::signed_volume(tf::resolve_self_intersections(pair).value());
+    tf::repair_result result = tf::repair(pair);
+    require_solid(result, joined);
+    CHECK(result.statistics.resolved);
+    // Also where one of them is inside out.
+    for (std::size_t f = ball.faces.size(); f < pair.faces.size(); ++f) turn(pair.faces[f]);
+    result = tf::repair(pair);
+    require_solid(result, joined);
+    CHECK(result.statistics.turned == 1);
+}
+
+TEST_CASE("repair: what touches in an edge or a vertex is moved apart, in floats, too") {
+    const tf::mesh box = test::box(1, 1, 1);
+    for (const tf::point3 by : {tf::point3{1, 1, 0}, tf::point3{1, 1, 1}})
+        for (const tf::precision of : {tf::precision::float64, tf::precision::float32}) {
+            const tf::mesh pair = test::together(box, test::moved(box, by));
+            const tf::repair_result result = tf::repair(pair, {.precision = of});
+            require_solid(result, 2.0);
+            CHECK(result.statistics.detached > 0);
+            CHECK(result.statistics.touching == 0);
+            CHECK(result.certificate.max_displacement > 0.0);
+            CHECK(result.certificate.max_displacement < 1e-5);
+            const tf::repair_result kept = tf::repair(pair, {.detach = false, .precision = of});
+            REQUIRE(kept.certificate);
+            CHECK(kept.certificate.max_displacement == 0.0);
+            CHECK_FALSE(is_manifold_in_coordinates(kept.mesh));
+        }
+}
+
+TEST_CASE("repair: a sheet keeps its border when asked, and is no solid otherwise") {
+    tf::mesh sheet;
+    sheet.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.1}};
+    sheet.faces = {{0, 1, 2}, {0, 3, 2}};
+    const tf::repair_result result = tf::repair(sheet, {.sheet = true});
+    CHECK(result.certificate.status == tf::status::sheet);
+    CHECK(result.statistics.flipped == 1);
+    CHECK(result.mesh.faces.size() == 2);
+    CHECK_THROWS_AS((void)result.value(), tf::not_certified_error);
+}
+
+TEST_CASE("repair: bad arguments") {
+    const tf::mesh box = test::box(1, 1, 1);
+    CHECK_THROWS_AS((void)tf::repair(box, {.gap = -1.0}), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::repair(box, {.strays = std::numeric_limits<double>::infinity()}),
+                    std::invalid_argument);
+    tf::mesh broken = box;
+    broken.faces[3][1] = 8;
+    CHECK_THROWS_AS((void)tf::repair(broken), std::invalid_argument);
+    CHECK(tf::repair(tf::mesh{}).mesh == tf::mesh{});
+}
