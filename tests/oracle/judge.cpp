@@ -66,8 +66,9 @@ std::size_t bad_edges(const surface& s) {
             const std::uint32_t from = f[i], to = f[(i + 1) % 3];
             ++uses[std::minmax(from, to)][from < to ? 0 : 1];
         }
-    return static_cast<std::size_t>(std::ranges::count_if(
-        uses, [](const auto& use) { return use.second != std::array<int, 2>{1, 1}; }));
+    return static_cast<std::size_t>(std::ranges::count_if(uses, [](const auto& use) {
+        return use.second != std::array<int, 2>{1, 1};
+    }));
 }
 
 /// Faces at a vertex are of one fan when they are linked by edges at it.
@@ -139,11 +140,10 @@ std::size_t meeting(const surface& s) {
             boxes.emplace_back(s.points[a].bbox() + s.points[b].bbox() + s.points[c].bbox(), f);
     }
     try {
-        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
-                                      [&](const box& x, const box& y) {
-                                          found += meet(s, s.faces[x.info()], s.faces[y.info()]);
-                                          if (found >= enough) throw stop{};
-                                      });
+        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const box& x, const box& y) {
+            found += meet(s, s.faces[x.info()], s.faces[y.info()]);
+            if (found >= enough) throw stop{};
+        });
     } catch (const stop&) {
     }
     return found;
@@ -152,8 +152,7 @@ std::size_t meeting(const surface& s) {
 void judge(const char* path) {
     const surface s = read(path);
     double volume = 0.0, area = 0.0;
-    const kernel::Vector_3 base =
-        s.points.empty() ? CGAL::NULL_VECTOR : s.points[0] - CGAL::ORIGIN;
+    const kernel::Vector_3 base = s.points.empty() ? CGAL::NULL_VECTOR : s.points[0] - CGAL::ORIGIN;
     for (const corners& f : s.faces) {
         const auto from_base = [&](std::size_t i) { return s.points[f[i]] - base - CGAL::ORIGIN; };
         const kernel::Vector_3 a = from_base(0), b = from_base(1), c = from_base(2);
