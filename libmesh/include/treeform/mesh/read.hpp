@@ -20,6 +20,10 @@ namespace treeform {
 /// double. NaN and infinity are kept, so that the caller can report them (`find_defects`).
 ///
 /// - OBJ: `vt` and `vn` are in `attributes::corners`.
+/// - STL: a binary file with a wrong count of triangles is read where all of it is whole triangles,
+///   and one with bytes behind those of the header. Text may have zero bytes between words, and
+///   words after `endloop` and `endfacet`. `mesh_file::warnings` says so.
+/// - PLY: triangle strips, the element "tristrips", come as faces, those that repeat a vertex too.
 /// - PLY: the list "texcoord" of faces is in `attributes::corners` when it has two numbers a
 ///   corner, or none. Lines `comment TextureFile NAME` are in `attributes::texture_files`.
 /// - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
