@@ -19,7 +19,13 @@ std::string place_of(const point3& p) {
 }
 
 std::string open_message(const certificate& c) {
-    std::string text = "its surface ends at " + counted(c.open_count, "edge", "edges");
+    std::string text = "its surface ";
+    if (c.boundary_edges > 0) text += "ends at " + counted(c.boundary_edges, "edge", "edges");
+    if (c.boundary_edges > 0 && c.misoriented_edges > 0) text += " and ";
+    if (c.misoriented_edges > 0)
+        text += "is inconsistently oriented at " + counted(c.misoriented_edges, "edge", "edges");
+    if (c.boundary_edges == 0 && c.misoriented_edges == 0)
+        text += "is open at " + counted(c.open_count, "piece of an edge", "pieces of edges");
     if (c.open.empty()) return text;
     const open_edge& first = c.open.front();
     text += ", the first from " + place_of(first.ends[0]) + " to " + place_of(first.ends[1]) +

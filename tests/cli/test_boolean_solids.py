@@ -187,6 +187,8 @@ class Solids(BooleanTest):
         entry = self.entry("union", "a.obj", "open.obj", "-o", "out.obj", status=1)
         self.assertEqual([i["closed"] for i in entry["inputs"]], [True, False])
         self.assertEqual(entry["inputs"][1]["open"]["count"], 3)
+        self.assertEqual(entry["inputs"][1]["open"]["boundary_edges"], 3)
+        self.assertEqual(entry["inputs"][1]["open"]["misoriented_edges"], 0)
         self.assertEqual(len(entry["inputs"][1]["open"]["list"]), 3)
         self.assertIn("ends at 3 edges", entry["inputs"][1]["reason"])
         self.assertIsNone(entry["output"])
