@@ -8,13 +8,13 @@
 namespace treeform {
 namespace {
 
+using detail::base::brief;
 using detail::base::counted;
-using detail::base::shortest;
 
 std::string place_of(const point3& p) {
     std::string text = "(";
     for (std::size_t axis = 0; axis < 3; ++axis)
-        text.append(axis == 0 ? "" : ", ").append(shortest(p[axis]));
+        text.append(axis == 0 ? "" : ", ").append(brief(p[axis]));
     return text + ")";
 }
 

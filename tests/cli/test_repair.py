@@ -55,6 +55,7 @@ class Repair(ToolTest):
         entry = self.repaired(part, "--repair", "-o", "out.stl")
         self.assertEqual(entry["repair"]["precision_out"], "float")
         self.assertGreater(entry["repair"]["max_move"]["largest"], 1e-12)
+        self.assertEqual(entry["output"]["max_move"], entry["repair"]["max_move"]["largest"])
         self.assertEqual(len(self.read_bytes("out.stl")), 84 + 50 * entry["repair"]["faces"])
         self.no_pairs("out.stl")
         entry = self.repaired(part, "--repair", "-o", "out.ply")

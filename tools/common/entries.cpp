@@ -6,8 +6,7 @@
 namespace tools {
 
 std::string in_words(const tf::point3& p) {
-    return std::string("(").append(shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z)) +
-           ")";
+    return std::string("(").append(brief(p.x) + ", " + brief(p.y) + ", " + brief(p.z)) + ")";
 }
 
 const char* name_of(tf::precision precision) {

@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -112,7 +113,11 @@ void job::call_ended(bool cancelled) {
 }
 
 void job::warn(const std::string& code, const std::string& text) {
-    out.warning(text.starts_with(name + ": ") ? text : name + ": " + text);
+    const auto& inputs = options.inputs;  // one of which the text may be about
+    const bool named = std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
+        return text.starts_with(name_of_input(input) + ": ");
+    });
+    out.warning(named ? text : name + ": " + text);
     entry["warnings"].push_back({{"code", code}, {"text", text}});
 }
 

@@ -62,7 +62,7 @@ void look_again(const std::filesystem::path& path, const std::string& format,
 
 /// `check` looks at what was written before it has its name.
 tf::write_result write(job& work, const tf::mesh_file& file, const tf::write_options& options,
-                       const std::filesystem::path& path, const auto& check) {
+                       const std::filesystem::path& path, double moved, const auto& check) {
     const common_options& o = work.options;
     output_place place(path, o.force || o.in_place, work.keeper);
     tf::write_result written;
@@ -73,7 +73,7 @@ tf::write_result write(job& work, const tf::mesh_file& file, const tf::write_opt
         throw failure(bad_output, "output", place.said_of_path(error.what()));
     }
     place.commit();
-    enter_output(work, path, written);
+    enter_output(work, path, written, moved);
     return written;
 }
 
@@ -95,16 +95,16 @@ void warn_of_moves(job& work, tf::points_view points, const tf::certificate& kno
     const double step = tf::coordinate_step(points, known.precision);
     const double moved = known.max_displacement;
     if (!(moved > step)) return;
-    work.warn("moved", "so that no faces meet when rounded, points moved by up to " +
-                           shortest(moved) + ", " + shortest(std::ceil(moved / step)) +
-                           " steps of the " + numbers_of(known.precision) +
+    work.warn("moved", "so that no faces meet when rounded, points moved by up to " + brief(moved) +
+                           ", " + brief(std::ceil(moved / step)) + " steps of the " +
+                           numbers_of(known.precision) +
                            " numbers there; --max-move DIST sets a limit");
 }
 
 void warn_of_rounding(job& work, double max_displacement, const std::string& whose) {
     if (max_displacement > 0.0)
         work.warn("rounded", whose + "written in single precision: coordinates move by up to " +
-                                 shortest(max_displacement));
+                                 brief(max_displacement));
 }
 
 void warn_of_folds(job& work, const tf::rounding_defects& defects, tf::precision precision) {
@@ -129,17 +129,18 @@ void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision p
     if (lost.noticeable && precision == tf::precision::float32)
         warn_of_rounding(work, lost.max_displacement);
     else if (lost.noticeable)
-        work.warn("rounded", "coordinates move by up to " + shortest(lost.max_displacement));
+        work.warn("rounded", "coordinates move by up to " + brief(lost.max_displacement));
     if (lost.compared)
         warn_of_folds(work, {.collapsed = lost.collapsed, .meeting = lost.meeting}, precision);
 }
 
-void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written) {
+void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written,
+                  double moved) {
     json& output = work.entry["output"];
     output["file"] = path.string();
     output["format"] = written.format;
     output["precision_out"] = name_of(written.written_as);
-    output.emplace("max_move", written.max_displacement);
+    output.emplace("max_move", std::max(moved, written.max_displacement));
     work.warn(written.warnings);
 }
 
@@ -151,19 +152,19 @@ tf::mesh_file file_of(tf::mesh&& surface, const tf::certificate& known) {
 }
 
 tf::write_result write_mesh(job& work, const tf::mesh_file& file, const tf::write_options& options,
-                            const std::filesystem::path& path) {
-    return write(work, file, options, path, [](const auto&, const auto&) {});
+                            const std::filesystem::path& path, double moved) {
+    return write(work, file, options, path, moved, [](const auto&, const auto&) {});
 }
 
 void write_certified(job& work, const tf::mesh_file& file, const written_form& form,
-                     const std::filesystem::path& path) {
+                     const std::filesystem::path& path, double moved) {
     const auto look = [&](const std::filesystem::path& there, const tf::write_result& written) {
         look_again(there, form.format, file.mesh);
         if (written.max_displacement > 0.0)
             throw std::logic_error("coordinates were rounded that had been certified");
     };
     write(work, file, {.format = form.format, .ascii = form.ascii, .precision = file.stored_as},
-          path, look);
+          path, moved, look);
 }
 
 }  // namespace tools
