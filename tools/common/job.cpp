@@ -79,8 +79,11 @@ tf::mesh_file job::read(const std::string& input, json& about) {
         file = tf::read(bytes, label, options.format);
     } else {
         std::error_code error;
+        const bool listed = std::count(options.inputs.begin(), options.inputs.end(), input) > 0;
         if (std::filesystem::is_directory(input, error))
-            throw failure(bad_input, "read", input + ": is a folder");
+            throw failure(
+                bad_input, "read",
+                input + ": is a folder" + (listed ? ", with no file in it that is read" : ""));
         if (options.detailed()) digest = sha256_of_file(input);
         file = tf::read(input, options.format);
     }

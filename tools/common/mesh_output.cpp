@@ -3,60 +3,32 @@
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace tools {
 namespace {
 
-bool same_corners(const tf::mesh& a, const tf::mesh& b) {
-    if (a.faces.size() != b.faces.size()) return false;
-    for (std::size_t f = 0; f < a.faces.size(); ++f)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (!(a.points[a.faces[f][k]] == b.points[b.faces[f][k]])) return false;
-    return true;
-}
-
-/// The faces by their corners' coordinates, each from its least corner on, ascending.
-std::vector<std::array<std::array<double, 3>, 3>> sorted_corners(const tf::mesh& mesh) {
-    std::vector<std::array<std::array<double, 3>, 3>> all(mesh.faces.size());
-    for (std::size_t f = 0; f < all.size(); ++f) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const tf::point3& p = mesh.points[mesh.faces[f][k]];
-            all[f][k] = {p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 is 0
-        }
-        std::rotate(all[f].begin(), std::min_element(all[f].begin(), all[f].end()), all[f].end());
-    }
-    std::sort(all.begin(), all.end());
-    return all;
-}
-
-/// GLB is read by others, which renumber points, and has faces by color. Builds without a reader
-/// for it have nothing to look with.
-void look_again_at_glb(const std::filesystem::path& path, const tf::mesh& surface) {
-    if (!tf::reads_scenes()) return;
-    if (sorted_corners(tf::read(path, "glb").mesh) != sorted_corners(surface))
-        throw std::logic_error("the file written does not hold what was certified");
-}
-
-/// What was certified is what is on the disk now.
+/// What was certified is what is on the disk now. GLB is read by others, which renumber points, and
+/// has faces by color; builds without a reader for it have nothing to look with.
 void look_again(const std::filesystem::path& path, const std::string& format,
                 const tf::mesh& surface) {
     std::error_code error;
+    const bool scene = format == "glb";
     if (path == "-" || !std::filesystem::is_regular_file(path, error)) return;
-    if (format == "glb") return look_again_at_glb(path, surface);
+    if (scene && !tf::reads_scenes()) return;
     const tf::mesh_file written = tf::read(path, format);
-    if (!same_corners(written.mesh, surface) ||
-        (written.indexed && written.mesh.faces != surface.faces))
+    const bool numbered = !scene && written.indexed;
+    if (!tf::same_triangles(written.mesh, surface,
+                            scene ? tf::face_order::any : tf::face_order::kept) ||
+        (numbered && written.mesh.faces != surface.faces))
         throw std::logic_error("the file written does not hold what was certified");
 }
 

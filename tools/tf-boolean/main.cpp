@@ -232,7 +232,8 @@ int main(int argc, char** argv) {
     common_options options;
     options.suffix = "-boolean";
     options.joined = true;
-    line.inputs(options.inputs, "STL OBJ PLY OFF GLB/glTF 3MF files; \"-\" = stdin");
+    options.words.assign(tools::operations.begin(), tools::operations.end());
+    line.inputs(options.inputs, tools::mesh_inputs);
     add_operations(line);
     add_options(line, s);
     add_what_to_give_back(line, s, options);

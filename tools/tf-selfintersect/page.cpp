@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t most_regions = 1000;
 
 std::vector<face_kind> kinds_of(const findings& result) {
-    std::vector<face_kind> kinds{{"other", tf::mark_colors[0], 0}};
-    kinds[0].count = result.part.mesh.faces.size() - result.faces_hit();
+    const std::size_t others = result.part.mesh.faces.size() - result.marks.marked();
+    std::vector<face_kind> kinds{{"other", tf::mark_colors[0], others}};
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k)
         kinds.push_back({name_of(static_cast<tf::pair_kind>(k)), tf::mark_colors[k + 1], 0});
     for (const tf::face_pair& pair : result.found.pairs)

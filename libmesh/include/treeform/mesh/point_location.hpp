@@ -8,6 +8,7 @@
 #include <treeform/tree/tree.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -40,6 +41,16 @@ struct point_location {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<std::array<std::uint32_t, 2>> find_open_edge(
     mesh_view mesh);
+
+/// The number of the first of `tolerances` with which joining points closes `mesh`, as `usable_part` joins them:
+/// it has faces, and no open edge. None where equal points joined do so already, or nothing does.
+///
+/// \pre    the coordinates of corners are finite
+/// \throws std::invalid_argument as `usable_part`
+/// \cost   as `usable_part` for each tolerance that is tried, and a copy of the mesh
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API std::optional<std::size_t> closing_tolerance(
+    mesh_view mesh, std::span<const double> tolerances);
 
 /// Where a point is with respect to a closed mesh.
 ///

@@ -6,9 +6,12 @@
 #include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace treeform {
 
@@ -39,6 +42,18 @@ namespace treeform {
 /// The same for bytes in memory. Errors say `name` in place of the path.
 [[nodiscard]] TREEFORM_API mesh_file read(std::span<const std::byte> bytes, std::string_view name,
                                           std::string_view format);
+
+/// Which files of a folder are meant.
+enum class file_content : std::uint8_t {
+    meshes,            ///< STL, OBJ, PLY, OFF, and where scenes can be read GLB, glTF, 3MF
+    meshes_and_points  ///< also PCD, XYZ, CSV, PTS, ASC
+};
+
+/// `paths` with each folder replaced by the files in it of such a format, by extension, in the order
+/// of their names. What is in folders of the folder is not looked at. A folder without such files
+/// stays, and so does "-".
+[[nodiscard]] TREEFORM_API std::vector<std::string> files_of(std::span<const std::string> paths,
+                                                             file_content content);
 
 /// Whether scenes (GLB, 3MF, DAE, ...) can be read: true unless treeform was built without assimp.
 [[nodiscard]] TREEFORM_API bool reads_scenes();
