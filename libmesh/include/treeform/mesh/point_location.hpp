@@ -43,7 +43,7 @@ struct point_location {
     mesh_view mesh);
 
 /// The number of the first of `tolerances` with which joining points closes `mesh`, as `usable_part` joins them:
-/// it has faces, and no open edge. None where equal points joined do so already, or nothing does.
+/// faces with three corners are left, and no open edge. None where equal points joined do so already, or nothing does.
 ///
 /// \pre    the coordinates of corners are finite
 /// \throws std::invalid_argument as `usable_part`
