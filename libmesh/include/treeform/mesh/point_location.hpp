@@ -42,8 +42,9 @@ struct point_location {
 [[nodiscard]] TREEFORM_API std::optional<std::array<std::uint32_t, 2>> find_open_edge(
     mesh_view mesh);
 
-/// The number of the first of `tolerances` with which joining points closes `mesh`, as `usable_part` joins them:
-/// faces with three corners are left, and no open edge. None where equal points joined do so already, or nothing does.
+/// The number of the first of `tolerances` that closes `mesh` when points are joined as by
+/// `usable_part`: faces with three corners are left, and no open edge. None where joining equal
+/// points does so already, or nothing does.
 ///
 /// \pre    the coordinates of corners are finite
 /// \throws std::invalid_argument as `usable_part`
