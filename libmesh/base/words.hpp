@@ -18,8 +18,8 @@ namespace treeform::detail::base {
     return {digits, std::to_chars(digits, digits + sizeof digits, value, form, large ? 0 : 6).ptr};
 }
 
-/// The shortest decimal text that reads back as `value`: where it may be typed back, as a limit that
-/// a rounded one would not meet.
+/// The shortest decimal text that reads back as `value`: where it may be typed back, as a limit
+/// that a rounded one would not meet.
 [[nodiscard]] inline std::string shortest(double value) {
     char digits[32];
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};

@@ -17,7 +17,8 @@ struct open_input_edges {
 };
 
 /// How many there are; none where a corner at one of them lies within another one of its operand,
-/// for such edges may fit together piece by piece. The operand `sheet` may be open, and is left out.
+/// for such edges may fit together piece by piece. The operand `sheet` may be open, and is left
+/// out.
 ///
 /// \pre  no two points of `joined` are equal; its coordinates are finite
 /// \cost O(F + E log E) time for E such edges

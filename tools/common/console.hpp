@@ -56,8 +56,8 @@ class console {
 [[nodiscard]] std::string grouped(std::uint64_t number);
 /// Six digits, and no fewer than stand ahead of the point: for sentences. The report has all.
 [[nodiscard]] std::string brief(double value);
-/// The shortest decimal text that reads back as `value`: for files, and for numbers that people type
-/// back as a limit, which a rounded one would not meet.
+/// The shortest decimal text that reads back as `value`: for files, and for numbers that people
+/// type back as a limit, which a rounded one would not meet.
 [[nodiscard]] std::string shortest(double value);
 /// "1 pair", "2 pairs".
 [[nodiscard]] std::string counted(std::uint64_t number, std::string_view one,

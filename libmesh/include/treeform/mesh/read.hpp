@@ -49,8 +49,8 @@ enum class file_content : std::uint8_t {
     meshes_and_points  ///< also PCD, XYZ, CSV, PTS, ASC
 };
 
-/// `paths` with each folder replaced by the files in it of such a format, by extension, in the order
-/// of their names. What is in folders of the folder is not looked at. A folder without such files
+/// `paths` with each folder replaced by the files in it of such a format, by extension, in the
+/// order of their names. What is in folders of the folder is not looked at. A folder without such files
 /// stays, and so does "-".
 [[nodiscard]] TREEFORM_API std::vector<std::string> files_of(std::span<const std::string> paths,
                                                              file_content content);
