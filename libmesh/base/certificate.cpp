@@ -8,18 +8,24 @@
 namespace treeform {
 namespace {
 
+using detail::base::brief;
 using detail::base::counted;
-using detail::base::shortest;
 
 std::string place_of(const point3& p) {
     std::string text = "(";
     for (std::size_t axis = 0; axis < 3; ++axis)
-        text.append(axis == 0 ? "" : ", ").append(shortest(p[axis]));
+        text.append(axis == 0 ? "" : ", ").append(brief(p[axis]));
     return text + ")";
 }
 
 std::string open_message(const certificate& c) {
-    std::string text = "its surface ends at " + counted(c.open_count, "edge", "edges");
+    std::string text = "its surface ";
+    if (c.boundary_edges > 0) text += "ends at " + counted(c.boundary_edges, "edge", "edges");
+    if (c.boundary_edges > 0 && c.misoriented_edges > 0) text += " and ";
+    if (c.misoriented_edges > 0)
+        text += "is inconsistently oriented at " + counted(c.misoriented_edges, "edge", "edges");
+    if (c.boundary_edges == 0 && c.misoriented_edges == 0)
+        text += "is open at " + counted(c.open_count, "piece of an edge", "pieces of edges");
     if (c.open.empty()) return text;
     const open_edge& first = c.open.front();
     text += ", the first from " + place_of(first.ends[0]) + " to " + place_of(first.ends[1]) +

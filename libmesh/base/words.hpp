@@ -3,13 +3,23 @@
 /// Numbers in sentences for people.
 
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
 namespace treeform::detail::base {
 
-/// The shortest decimal text that reads back as `value`.
+/// Six digits, and no fewer than stand ahead of the point: enough for a person.
+[[nodiscard]] inline std::string brief(double value) {
+    char digits[32];
+    const bool large = std::abs(value) >= 1e6 && std::abs(value) < 1e15;
+    const auto form = large ? std::chars_format::fixed : std::chars_format::general;
+    return {digits, std::to_chars(digits, digits + sizeof digits, value, form, large ? 0 : 6).ptr};
+}
+
+/// The shortest decimal text that reads back as `value`: where it may be typed back, as a limit
+/// that a rounded one would not meet.
 [[nodiscard]] inline std::string shortest(double value) {
     char digits[32];
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};

@@ -9,6 +9,7 @@
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/mended_operands.hpp>
 #include <libmesh/boolean/merged_faces.hpp>
+#include <libmesh/boolean/open_input_edges.hpp>
 #include <libmesh/boolean/operand_tree.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/boolean/sound_operand.hpp>
@@ -61,11 +62,16 @@ mesh_view input_of(const mesh_arrangement& cut, const joined_operands& joined) {
 }
 
 certificate open_input(const arrangement_cells& cells, const mesh_arrangement& cut,
-                       const joined_operands& joined) {
+                       const joined_operands& joined, std::uint32_t sheet = operand_element::none) {
     certificate result{.status = status::open_input, .open_count = cells.open_count};
     for (const open_arrangement_edge& e : cells.open)
         result.open.push_back({joined.face_source(e.face),
                                {rounded(cut.point(e.points[0])), rounded(cut.point(e.points[1]))}});
+    if (const auto known = detail::boolean::count_open_input_edges(
+            input_of(cut, joined), joined.operand_of_face(), sheet)) {
+        result.boundary_edges = known->boundary;
+        result.misoriented_edges = known->misoriented;
+    }
     return result;
 }
 
@@ -290,7 +296,7 @@ unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet
     const arrangement_cells cells =
         detail::arrange::cells_of(input_of(cut, joined), cut, operand_of_face, operands.size());
     if (!cells.open.empty()) {
-        result.certificate = open_input(cells, cut, joined);
+        result.certificate = open_input(cells, cut, joined, sheet);
         return made;
     }
     result.statistics.cells = cells.winding.size() / operands.size();

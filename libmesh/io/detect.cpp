@@ -33,11 +33,15 @@ namespace {
                static_cast<std::ptrdiff_t>(head.size());
 }
 
-void refuse_unless_text(const source& in) {
+void refuse_utf16(const source& in) {
     const std::string_view head = head_of(in);
     if (head.starts_with("\xfe\xff") || head.starts_with("\xff\xfe"))
         in.fail_byte(in.begin(), "UTF-16 text; convert it to UTF-8 or ASCII");
-    if (!is_text(head)) in.fail("binary data where text should stand");
+}
+
+void refuse_unless_text(const source& in) {
+    refuse_utf16(in);
+    if (!is_text(head_of(in))) in.fail("binary data where text should stand");
 }
 
 [[nodiscard]] bool is_off_word(std::string_view word) {
@@ -79,13 +83,24 @@ void refuse_unless_text(const source& in) {
     return std::nullopt;
 }
 
-/// STL that is not binary by its size: text, or binary whose count is wrong.
+[[nodiscard]] bool holds_word(std::string_view head, std::string_view word) {
+    const auto same = [](char a, char b) { return to_lower(a) == b; };
+    return std::search(head.begin(), head.end(), word.begin(), word.end(), same) != head.end();
+}
+
+/// STL that is not binary by its size: text, maybe with zero bytes, or binary whose count is wrong.
+/// Coordinates are not read from any other text.
 [[nodiscard]] detected stl_kind(const source& in) {
+    const std::string_view head = head_of(in);
     text t(in);
     t.skip_spaces();
     const bool worded =
         starts_with_word(t.at, t.end, "solid") || starts_with_word(t.at, t.end, "facet");
-    return {worded && is_text(head_of(in)) ? file_kind::stl_text : file_kind::stl_binary};
+    if (worded && (is_text(head) || (holds_word(head, "facet") && holds_word(head, "vertex"))))
+        return {file_kind::stl_text};
+    refuse_utf16(in);
+    if (is_text(head)) in.fail("text that does not start with 'solid', and no binary STL");
+    return {file_kind::stl_binary};
 }
 
 [[nodiscard]] std::optional<file_kind> text_kind(std::string_view extension) {

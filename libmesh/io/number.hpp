@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Decimal text to doubles and integers, with no locale and no allocation.
+/// Text to doubles and integers, with no locale and no allocation.
 
 #include <charconv>
 #include <cstdint>
@@ -15,6 +15,7 @@ template <class T>
 struct parsed {
     T value{};
     const char* end = nullptr;
+    bool hexadecimal = false;  ///< written as 0x1.8p1
 };
 
 [[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -48,6 +49,20 @@ template <class T>
     if (starts_with_word(at, end, "infinity")) return {std::numeric_limits<T>::infinity(), at + 8};
     if (starts_with_word(at, end, "inf")) return {std::numeric_limits<T>::infinity(), at + 3};
     return {};
+}
+
+/// "0x1.8p1", which is 3, without a sign. One beyond the range of T is no number.
+template <class T>
+[[nodiscard]] parsed<T> parse_hexadecimal(const char* at, const char* end) {
+    const auto starts_digits = [](char c) {
+        return is_digit(c) || (to_lower(c) >= 'a' && to_lower(c) <= 'f') || c == '.';
+    };
+    if (!starts_with_word(at, end, "0x") || end - at < 3 || !starts_digits(at[2])) return {};
+    parsed<T> n{.hexadecimal = true};
+    const auto [stop, error] = std::from_chars(at + 2, end, n.value, std::chars_format::hex);
+    if (error != std::errc{}) return {};
+    n.end = stop;
+    return n;
 }
 
 /// Digits, point and exponent of an unsigned decimal number.
@@ -97,8 +112,9 @@ template <class T>
 }
 
 /// The number that starts at `at`, rounded once to the nearest T (ties to even): [+-] digits with
-/// an optional point and exponent, or nan, inf, infinity in any case. Beyond the range it is
-/// infinity or zero. What follows the number is the caller's affair.
+/// an optional point and exponent, or nan, inf, infinity in any case, or hexadecimal digits behind
+/// 0x, as strtod takes them. Beyond the range decimal text is infinity or zero. What follows the
+/// number is the caller's affair.
 ///
 /// Exact short cut for doubles: with at most 19 digits the integer is exact in 64 bits; when it is
 /// at most 2^53 and the power of ten at most 10^22, both are doubles and one correctly rounded
@@ -122,6 +138,8 @@ template <class T = double>
         if (error == std::errc::result_out_of_range)
             result.value = out_of_range_value<T>(at, d.end, d);
     }
+    if (d.digits == 0 && d.end != nullptr && d.end != end && to_lower(*d.end) == 'x')
+        if (const parsed<T> n = parse_hexadecimal<T>(at, end); n.end != nullptr) result = n;
     if (negative) result.value = -result.value;
     return result;
 }

@@ -183,8 +183,8 @@ class ply_header_reader {
         for (element& e : header_.elements) {
             for (column& c : e.columns) {
                 if (e.name == "vertex" && !c.list_length) take_axis(e, c);
-                if (e.name == "face" && c.list_length && is_integer(c.type) &&
-                    (c.name == "vertex_indices" || c.name == "vertex_index"))
+                if ((e.name == "face" || (e.name == "tristrips" && e.rows > 0)) && c.list_length &&
+                    is_integer(c.type) && (c.name == "vertex_indices" || c.name == "vertex_index"))
                     take_role(e, c, column_role::corners);
             }
         }

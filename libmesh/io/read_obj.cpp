@@ -89,6 +89,7 @@ class obj_reader {
             file_.warnings.push_back(
                 {"skipped-elements",
                  std::to_string(skipped_elements_) + " point and line elements were not read"});
+        text_.remark(file_.warnings);
         file_.attributes.corners = corners_.take();
         file_.stored_as = fits_single(file_.mesh.points) ? precision::float32 : precision::float64;
         return std::move(file_);

@@ -65,6 +65,7 @@ class off_reader {
             store_list();
         if (!text_.text_done())
             file_.warnings.push_back({"trailing-bytes", "there is more after the last face"});
+        text_.remark(file_.warnings);
         if (file_.mesh.faces.size() > std::numeric_limits<std::uint32_t>::max())
             text_.file.fail("more triangles than 32-bit numbers can name");
         file_.stored_as = fits_single(file_.mesh.points) ? precision::float32 : precision::float64;

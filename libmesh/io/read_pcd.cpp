@@ -43,7 +43,10 @@ void look_behind(bool more, warnings& said) {
         const std::size_t rows = std::min(most, left);
         append_vertices(values, vertices, points, rows);
         left -= rows;
-        if (rows == 0) look_behind(!values.only_blanks_left(), said);
+        if (rows == 0) {
+            look_behind(!values.only_blanks_left(), said);
+            values.remark(said);
+        }
         return rows;
     };
 }

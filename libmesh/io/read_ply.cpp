@@ -41,6 +41,7 @@ template <class Values>
 void look_behind(Values& values, std::vector<io_warning>& warnings) {
     if (!values.only_blanks_left())
         warnings.push_back({"trailing-bytes", "there is more after the last element"});
+    values.remark(warnings);
 }
 
 template <class Values>
@@ -59,10 +60,13 @@ class body_reader {
                 read_vertices(e);
             else if (e.name == "face")
                 read_faces(e);
+            else if (e.name == "tristrips")
+                read_strips(e);
             else
                 read_rows(e);
         }
         look_behind(values_, file_.warnings);
+        if (from_strips_) store_strips();
         if (file_.mesh.faces.size() > most_numbers)
             in_.fail("more triangles than 32-bit numbers can name");
         take_face_texture(file_);
@@ -78,7 +82,12 @@ class body_reader {
             with_role(*faces, column_role::corners) == nullptr)
             in_.fail("element 'face' has no list of vertex_indices");
         const element* strips = find_element(file_.attributes, "tristrips");
-        if (strips != nullptr && strips->rows > 0) in_.fail("triangle strips are not read");
+        from_strips_ = strips != nullptr && strips->rows > 0;
+        if (!from_strips_) return;
+        if (with_role(*strips, column_role::corners) == nullptr)
+            in_.fail("element 'tristrips' has no list of vertex_indices");
+        if (faces != nullptr && faces->rows > 0)
+            in_.fail("faces and triangle strips in one file are not read");
     }
 
     void read_rows(element& e) {
@@ -113,13 +122,54 @@ class body_reader {
         const std::size_t count = values_.length(c);
         if (count < 3) values_.fail("face with " + std::to_string(count) + " corners");
         faces_.begin();
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::int64_t vertex = values_.index(c);
-            if (vertex < 0 || vertex >= vertex_count_)
-                values_.fail("vertex index " + std::to_string(vertex) + " is out of range");
-            faces_.add(static_cast<std::uint32_t>(vertex));
-        }
+        for (std::size_t i = 0; i < count; ++i) faces_.add(vertex(values_.index(c)));
         faces_.finish();
+    }
+
+    [[nodiscard]] std::uint32_t vertex(std::int64_t index) const {
+        if (index < 0 || index >= vertex_count_)
+            values_.fail("vertex index " + std::to_string(index) + " is out of range");
+        return static_cast<std::uint32_t>(index);
+    }
+
+    void read_strips(element& e) {
+        for (std::size_t row = 0; row < e.rows; ++row) {
+            values_.begin_row();
+            for (column& c : e.columns) {
+                if (c.role == column_role::corners)
+                    read_strip_list(c);
+                else
+                    read_data(values_, c);
+            }
+            values_.end_row();
+        }
+    }
+
+    /// Each vertex from the third on is that of a triangle with the two before it; every second
+    /// triangle is turned over. -1 ends a strip. Triangles that repeat a vertex, by which strips
+    /// are joined, stay: other readers number the faces so, too.
+    void read_strip_list(const column& c) {
+        std::uint32_t a = 0, b = 0;  // the two before
+        std::size_t place = 0;       // in its strip
+        for (std::size_t left = values_.length(c); left > 0; --left) {
+            const std::int64_t index = values_.index(c);
+            if (index == -1) {
+                place = 0;
+                continue;
+            }
+            const std::uint32_t v = vertex(index);
+            if (place >= 2) faces_.add_triangle(place % 2 == 0 ? face{a, b, v} : face{b, a, v});
+            a = b;
+            b = v;
+            ++place;
+        }
+    }
+
+    /// What is written of them are faces.
+    void store_strips() {
+        std::erase_if(file_.attributes.elements,
+                      [](const element& e) { return e.name == "tristrips" || e.name == "face"; });
+        file_.warnings.push_back({"triangle-strips", "the faces are those of triangle strips"});
     }
 
     const source& in_;
@@ -127,6 +177,7 @@ class body_reader {
     mesh_file& file_;
     face_sink faces_;
     std::int64_t vertex_count_ = 0;
+    bool from_strips_ = false;
 };
 
 /// Calls f with the values of the body, and with the name of their format.

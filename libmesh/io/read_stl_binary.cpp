@@ -5,6 +5,8 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace treeform::detail::io {
 
@@ -19,23 +21,35 @@ T little(const char* at) {
     return load<T, std::endian::little>(at);
 }
 
-/// Checked before anything is allocated.
-std::uint32_t facet_count(const source& in) {
-    if (in.size() < header_bytes)
-        in.fail("shorter than the 84 bytes ahead of a binary STL, and not the text of one");
-    const auto stated = little<std::uint32_t>(in.begin() + 80);
+/// Header and size disagree. A size of whole facets is believed, for many programs write the count
+/// before they know it; else the header, where its facets are there and bytes follow.
+std::size_t facet_count(const source& in, std::size_t stated, std::vector<io_warning>& warnings) {
     const std::size_t body = in.size() - header_bytes;
     const std::size_t whole = body / record_bytes;
-    if (whole < stated)
-        in.fail_byte(in.begin() + 80, "header says " + std::to_string(stated) +
-                                          " triangles, file holds " + std::to_string(whole));
-    if (body != stated * record_bytes)
-        in.fail_byte(in.begin() + header_bytes + stated * record_bytes,
-                     "trailing " + std::to_string(body - stated * record_bytes) +
-                         " bytes after the stated triangles");
-    if (stated > std::numeric_limits<std::uint32_t>::max() / 3)
-        in.fail("more corners than 32-bit numbers can name");
+    const std::string says =
+        "header says " + std::to_string(stated) + " triangles, file holds " + std::to_string(whole);
+    if (whole > 0 && body % record_bytes == 0) {
+        warnings.push_back({"wrong-count", says + "; these were read"});
+        return whole;
+    }
+    if (stated == 0 || whole < stated) in.fail_byte(in.begin() + 80, says + ": damaged or cut off");
+    const std::size_t behind = body - stated * record_bytes;
+    warnings.push_back({"trailing-bytes", std::to_string(behind) +
+                                              (behind == 1 ? " byte" : " bytes") + " after the " +
+                                              std::to_string(stated) +
+                                              " triangles of the header not read"});
     return stated;
+}
+
+/// No more than the file holds; found before anything is allocated.
+std::uint32_t facet_count(const source& in, std::vector<io_warning>& warnings) {
+    if (in.size() < header_bytes)
+        in.fail("shorter than the 84 bytes ahead of a binary STL, and not the text of one");
+    std::size_t count = little<std::uint32_t>(in.begin() + 80);
+    if (in.size() != header_bytes + count * record_bytes) count = facet_count(in, count, warnings);
+    if (count > std::numeric_limits<std::uint32_t>::max() / 3)
+        in.fail("more corners than 32-bit numbers can name");
+    return static_cast<std::uint32_t>(count);
 }
 
 /// The 16 bits after each facet, kept only when one of them is not zero.
@@ -64,11 +78,13 @@ class facet_bits {
 }  // namespace
 
 mesh_file read_stl_binary(const source& in) {
-    const std::uint32_t count = facet_count(in);
+    std::vector<io_warning> warnings;
+    const std::uint32_t count = facet_count(in, warnings);
     mesh_file file{.stored_faces = count,
                    .indexed = false,
                    .stored_as = precision::float32,
-                   .format = "stl-binary"};
+                   .format = "stl-binary",
+                   .warnings = std::move(warnings)};
     file.attributes.header.assign(in.begin(), 80);
     reserve_large(file.mesh.points, std::size_t{count} * 3);
     reserve_large(file.mesh.faces, count);

@@ -2,6 +2,8 @@
 #include <libmesh/io/reserve.hpp>
 #include <libmesh/io/text.hpp>
 
+#include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <string>
 
@@ -25,24 +27,48 @@ class stl_text_reader {
         if (file_.attributes.parts.size() == 1 && file_.attributes.parts[0].object.empty())
             file_.attributes.parts.clear();
         file_.stored_faces = file_.mesh.faces.size();
+        remark();
         file_.stored_as = fits_single(file_.mesh.points) ? precision::float32 : precision::float64;
         return std::move(file_);
     }
 
   private:
+    /// Between words, zero bytes are blanks: some programs write those behind their strings. Within
+    /// a line of coordinates they may be digits that were lost, and are refused.
+    [[nodiscard]] static bool separates(char c) { return is_space(c) || c == '\0'; }
+    void skip_to_word() {
+        for (; text_.at < text_.end && separates(*text_.at); ++text_.at)
+            zero_bytes_ += *text_.at == '\0' ? 1U : 0U;
+    }
+
     [[nodiscard]] bool next_is_end() {
-        text_.skip_spaces();
+        skip_to_word();
         return text_.done();
     }
 
-    /// Moves behind `keyword` when it stands here as a word, in any case.
-    [[nodiscard]] bool accept(std::string_view keyword) {
-        text_.skip_spaces();
+    /// Whether `keyword` stands here as a word, in any case.
+    [[nodiscard]] bool at_word(std::string_view keyword) const {
         if (!starts_with_word(text_.at, text_.end, keyword)) return false;
         const char* const behind = text_.at + keyword.size();
-        if (behind != text_.end && !is_space(*behind)) return false;
-        text_.at = behind;
+        return behind == text_.end || separates(*behind);
+    }
+
+    /// Moves behind `keyword` when it is the next word.
+    [[nodiscard]] bool accept(std::string_view keyword) {
+        skip_to_word();
+        if (!at_word(keyword)) return false;
+        text_.at += keyword.size();
         return true;
+    }
+
+    /// Leaves out the words that follow in this line, up to one of `expected`.
+    void leave_out_up_to(std::initializer_list<std::string_view> expected) {
+        const auto here = [&](std::string_view keyword) { return at_word(keyword); };
+        for (text_.skip_blanks(); !text_.done() && !separates(*text_.at); text_.skip_blanks()) {
+            if (std::any_of(expected.begin(), expected.end(), here)) return;
+            if (stray_words_++ == 0) first_stray_ = text_.at;
+            while (!text_.done() && !separates(*text_.at)) ++text_.at;
+        }
     }
 
     void expect(std::string_view keyword) {
@@ -56,14 +82,22 @@ class stl_text_reader {
     void solid() {
         expect("solid");
         file_.attributes.parts.push_back(
-            {.object = std::string(text_.rest_of_line()),
-             .first_face = static_cast<std::uint32_t>(file_.mesh.faces.size())});
+            {.object = name(), .first_face = static_cast<std::uint32_t>(file_.mesh.faces.size())});
         while (!accept("endsolid")) facet();
-        text_.skip_line();
+        (void)name();
+    }
+
+    /// What follows in the line; up to a zero byte, where some programs end their strings.
+    [[nodiscard]] std::string name() {
+        const std::string_view rest = text_.rest_of_line();
+        const std::size_t length = std::min(rest.find('\0'), rest.size());
+        zero_bytes_ += static_cast<std::size_t>(
+            std::count(rest.begin() + static_cast<std::ptrdiff_t>(length), rest.end(), '\0'));
+        return std::string(rest.substr(0, length));
     }
 
     void facet() {
-        text_.skip_spaces();
+        skip_to_word();
         if (text_.done()) text_.fail("the file ends without 'endsolid': cut off?");
         expect("facet");
         // The normal follows from the corners; files hold anything there, even -nan(ind).
@@ -78,7 +112,9 @@ class stl_text_reader {
             vertex();
         }
         if (corners != 3) text_.fail("facet with " + std::to_string(corners) + " vertices");
+        leave_out_up_to({"endfacet"});
         expect("endfacet");
+        leave_out_up_to({"facet", "endsolid"});
         const std::size_t count = file_.mesh.points.size();
         if (count > std::numeric_limits<std::uint32_t>::max())
             text_.fail("more corners than 32-bit numbers can name");
@@ -100,8 +136,26 @@ class stl_text_reader {
         return text_.number("a coordinate");
     }
 
+    void remark() {
+        text_.remark(file_.warnings);
+        if (stray_words_ > 0)
+            file_.warnings.push_back(
+                {"stray-words", std::to_string(stray_words_) +
+                                    (stray_words_ == 1 ? " word" : " words") +
+                                    " after 'endloop' or 'endfacet' not read, the first in line " +
+                                    std::to_string(text_.file.line_of(first_stray_))});
+        if (zero_bytes_ > 0)
+            file_.warnings.push_back(
+                {"zero-bytes", std::to_string(zero_bytes_) +
+                                   (zero_bytes_ == 1 ? " zero byte" : " zero bytes") +
+                                   " between words read as blanks"});
+    }
+
     text text_;
     mesh_file file_{};
+    std::size_t zero_bytes_ = 0;
+    std::size_t stray_words_ = 0;
+    const char* first_stray_ = nullptr;
 };
 
 }  // namespace

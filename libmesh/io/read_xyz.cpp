@@ -30,7 +30,12 @@ class xyz_reader {
         if (declared_.columns.empty()) return {};
         return {declared_};
     }
-    [[nodiscard]] std::vector<io_warning> warnings() const { return warnings_; }
+    /// Of what was read so far.
+    [[nodiscard]] std::vector<io_warning> warnings() const {
+        std::vector<io_warning> all = warnings_;
+        text_.remark(all);
+        return all;
+    }
     /// False when the further columns differ between the lines read so far.
     [[nodiscard]] bool even() const { return keep_more_; }
 
@@ -170,10 +175,7 @@ class xyz_reader {
 
     [[nodiscard]] double number(std::string_view what) {
         const parsed<double> n = parse_number(text_.at, text_.end);
-        if (n.end != nullptr && n.end != text_.end && *n.end == separator_) {
-            text_.at = n.end;
-            return n.value;
-        }
+        if (n.end != nullptr && n.end != text_.end && *n.end == separator_) return text_.take(n);
         return text_.number(what);
     }
 

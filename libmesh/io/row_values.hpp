@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Values of rows, one at a time, from text and from bytes. Both readers have the same calls:
-/// begin_row, length, scalar, end_row.
+/// begin_row, length, scalar, end_row, remark.
 
 #include <libmesh/io/byte_order.hpp>
 #include <libmesh/io/is_value_of.hpp>
@@ -66,8 +66,7 @@ class text_values {
                 if (text_.done() || is_newline(*text_.at)) text_.fail("the row ends too early");
                 text_.fail(quoted(text_.at, text_.end) + " is no value for " + c.name);
             }
-            text_.at = n.end;
-            append(c.values, n.value);
+            append(c.values, text_.take(n));
         });
     }
 
@@ -82,6 +81,7 @@ class text_values {
         text_.skip_spaces();
         return text_.done();
     }
+    void remark(std::vector<io_warning>& warnings) const { text_.remark(warnings); }
     [[noreturn]] void fail(const std::string& reason) const { text_.fail(reason); }
 
   private:
@@ -99,7 +99,7 @@ class text_values {
             // Some files write whole numbers with a point: 255.0.
             const parsed<double> n = parse_number(text_.at, text_.end);
             if (n.end == nullptr || !is_value_of<T>(n.value)) return {};
-            return {static_cast<T>(n.value), n.end};
+            return {static_cast<T>(n.value), n.end, n.hexadecimal};
         }
     }
 
@@ -156,6 +156,7 @@ class byte_values {
     }
 
     [[nodiscard]] bool only_blanks_left() const { return at_ == file_.end(); }
+    void remark(std::vector<io_warning>&) const {}
     [[noreturn]] void fail(const std::string& reason) const { file_.fail_byte(at_, reason); }
 
   private:

@@ -173,12 +173,16 @@ std::size_t source::count_newlines() const {
     return count;
 }
 
-void source::fail_line(const char* at, std::string_view reason) const {
+std::size_t source::line_of(const char* at) const {
     std::size_t line = 1;
     for (const char* p = begin_; p < at; ++p)
         // A carriage return ends a line unless a line feed does so right after it.
         line += *p == '\n' || (*p == '\r' && (p + 1 == end() || p[1] != '\n')) ? 1U : 0U;
-    throw io_error(name_ + ':' + std::to_string(line) + ": " + std::string(reason));
+    return line;
+}
+
+void source::fail_line(const char* at, std::string_view reason) const {
+    throw io_error(name_ + ':' + std::to_string(line_of(at)) + ": " + std::string(reason));
 }
 
 void source::fail_byte(const char* at, std::string_view reason) const {

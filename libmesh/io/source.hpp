@@ -46,7 +46,10 @@ class source {
     /// How many line feeds there are; a pass of its own, several times as fast as parsing.
     [[nodiscard]] std::size_t count_newlines() const;
 
-    /// Throws io_error "name:line: reason" for the line that holds `at`, which is counted only now.
+    /// Number of the line that holds `at`, from 1, which is counted only now.
+    [[nodiscard]] std::size_t line_of(const char* at) const;
+
+    /// Throws io_error "name:line: reason" for the line that holds `at`.
     [[noreturn]] void fail_line(const char* at, std::string_view reason) const;
     /// Throws io_error "name: byte N: reason".
     [[noreturn]] void fail_byte(const char* at, std::string_view reason) const;

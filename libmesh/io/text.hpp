@@ -4,11 +4,13 @@
 
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/source.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace treeform::detail::io {
 
@@ -25,6 +27,7 @@ struct text {
     const source& file;
     const char* at;
     const char* end;
+    bool hexadecimal = false;  ///< a number was
 
     explicit text(const source& s) : file(s), at(s.begin()), end(s.end()) {
         if (starts_with("\xef\xbb\xbf")) at += 3;  // byte order mark of UTF-8
@@ -80,7 +83,13 @@ struct text {
     [[nodiscard]] double number(std::string_view what) {
         const parsed<double> n = parse_number(at, end);
         if (n.end == nullptr || !delimited(n.end)) fail_number(what, n.end);
+        return take(n);
+    }
+    /// The value of what was parsed at this place; moves behind it.
+    template <class T>
+    T take(const parsed<T>& n) {
         at = n.end;
+        hexadecimal = hexadecimal || n.hexadecimal;
         return n.value;
     }
     [[nodiscard]] std::int64_t integer(std::string_view what) {
@@ -88,6 +97,12 @@ struct text {
         if (n.end == nullptr || !delimited(n.end)) fail_number(what, n.end);
         at = n.end;
         return n.value;
+    }
+
+    /// What is unusual about the numbers read so far.
+    void remark(std::vector<io_warning>& warnings) const {
+        if (hexadecimal)
+            warnings.push_back({"hexadecimal", "numbers are written in hexadecimal, as 0x1.8p1"});
     }
 
     [[noreturn]] void fail(std::string_view reason) const { file.fail_line(at, reason); }

@@ -10,6 +10,7 @@
 namespace treeform {
 namespace {
 
+using detail::base::brief;
 using detail::base::counted;
 using detail::base::shortest;
 
@@ -60,8 +61,7 @@ std::string relation_in_words(const placement& at, const body_set& moving, const
     if (!at.nearest) return how;
     if (at.at_place == standing::touching || at.at_place == standing::penetrating)
         return meeting_in_words(at, moving, fixed);
-    return how + ", " + shortest(at.nearest->how.distance) + " from " +
-           fixed.label(at.nearest->fixed);
+    return how + ", " + brief(at.nearest->how.distance) + " from " + fixed.label(at.nearest->fixed);
 }
 
 std::string placement::message(std::span<const std::string> names) const {
@@ -96,14 +96,14 @@ std::string placement::message(std::span<const std::string> names) const {
 }
 
 std::string align_result::message() const {
-    return "after " + counted(iterations, "step", "steps") + "; rms " + shortest(rms) + ", from " +
-           shortest(rms_at_start) + "; overlap " + shortest(overlap);
+    return "after " + counted(iterations, "step", "steps") + "; rms " + brief(rms) + ", from " +
+           brief(rms_at_start) + "; overlap " + brief(overlap);
 }
 
 std::string laid_flat::message() const {
     if (sides.empty()) return {};
     return "on side " + std::to_string(chosen) + " of " + std::to_string(sides.size()) +
-           ", of area " + shortest(sides[chosen].area);
+           ", of area " + brief(sides[chosen].area);
 }
 
 placement laid_flat::as_placement() const {

@@ -187,11 +187,34 @@ class Solids(BooleanTest):
         entry = self.entry("union", "a.obj", "open.obj", "-o", "out.obj", status=1)
         self.assertEqual([i["closed"] for i in entry["inputs"]], [True, False])
         self.assertEqual(entry["inputs"][1]["open"]["count"], 3)
+        self.assertEqual(entry["inputs"][1]["open"]["boundary_edges"], 3)
+        self.assertEqual(entry["inputs"][1]["open"]["misoriented_edges"], 0)
         self.assertEqual(len(entry["inputs"][1]["open"]["list"]), 3)
         self.assertIn("ends at 3 edges", entry["inputs"][1]["reason"])
         self.assertIsNone(entry["output"])
         self.assertNotIn("out.obj", self.listing())
         self.run_tool("union", "open.obj", "--exit-zero", "-n", status=0)
+
+    def test_inputs_are_counted_once_in_a_sentence(self):
+        points, faces = box((0, 0, 0), (2, 2, 2))
+        self.mesh("open.obj", (points, faces[1:]))
+        said = lambda *names, status: self.run_tool("--check", *names, status=status)
+        self.assertEqual(said("a.obj", "b.obj", status=0).text, "2 inputs: all bound solids\n")
+        self.assertEqual(said("a.obj", status=0).text, "a.obj: bounds a solid\n")
+        self.assertEqual(said("open.obj", status=1).text, "open.obj: bounds no solid\n")
+        run = said("a.obj", "open.obj", status=1)
+        self.assertEqual(run.text, "2 inputs: 1 of 2 bounds no solid\n")
+        self.assertTrue(run.err.startswith("tf-boolean: warning: open.obj: no solid: its surface "
+                                           "ends at 3 edges, the first from ("), msg=run.err)
+
+    def test_sentences_have_six_digits_and_reports_all(self):
+        self.mesh("third.obj", box((0, 0, 0), (1 / 3, 1, 1)))
+        self.mesh("large.obj", box((0, 0, 0), (200, 200, 30.86425)))
+        run = self.run_tool("union", "third.obj", "-n", "-r", "r.json", status=0)
+        self.assertIn("volume 0.333333\n", run.text)
+        self.assertAlmostEqual(json.loads(self.read("r.json"))["files"][0]["output"]["volume"],
+                               1 / 3, 15)
+        self.assertIn("volume 1234570\n", self.run_tool("union", "large.obj", "-n").text)
 
     def test_check_only_looks(self):
         points, faces = box((0, 0, 0), (2, 2, 2))

@@ -128,7 +128,14 @@ class Outputs(ToolTest):
         self.run_tool("a.obj", "--output-dir", "out", "--suffix", "_x", "--output-format", "glb",
                       status=1)
         self.assertIn("a_x.glb", os.listdir(self.path("out")))
-        self.run_tool("a.obj", "--output-dir", "none", status=4)
+        self.run_tool("a.obj", "--output-dir", "new/one", status=1)
+        self.assertEqual(os.listdir(self.path("new/one")), ["a-selfintersect.ply"])
+        self.run_tool("a.obj", "--output-dir", "none", "-n", status=1)
+        self.run_tool("a.obj", "--output-dir", "none", "--repair=all", status=2)
+        self.run_tool("a.obj", "--output-dir", "none", "--repair", "--first", status=2)
+        self.assertNotIn("none", self.listing())
+        self.put("file", "")
+        self.assertIn("no folder file", self.run_tool("a.obj", "--output-dir", "file", status=4).err)
         os.mkdir(self.path("other"))
         write(self.path("other/a.obj"), CLEAN)
         self.run_tool("a.obj", "other/a.obj", "--output-dir", "out", "-f", status=2)
@@ -217,6 +224,22 @@ class Page(ToolTest):
         self.assertEqual((scene["faces"], scene["points"]), (26, 21))
         self.assertGreater(scene["segments"], 0)
         self.assertEqual(page.rows, len(self.report(self.path("part.obj"))["files"][0]["regions"]))
+
+    def test_the_legend_says_what_it_counts(self):
+        text, page = self.page(write(self.path("part.obj"), together(TWO_CUBES, PIERCE)))
+        counts = self.report(self.path("part.obj"))["files"][0]
+        self.assertIn(f">other ({26 - counts['faces_hit']} faces)<", text.replace("</span>", ">"))
+        self.assertIn(f"crossing ({counts['pairs']['crossing']} pairs)", text)
+        self.assertIn("pierce (1 pair)", text)
+
+    def test_components_are_in_the_order_of_their_numbers(self):
+        bar = ([(-1, 0.25, 0.25), (40, 0.25, 0.25), (40, 0.75, 0.25), (-1, 0.5, 0.75)],
+               [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
+        cubes = [cube((3 * i, 0, 0)) for i in range(12)]
+        text, page = self.page(write(self.path("part.obj"), together(*cubes, bar)))
+        self.assertIn("<td>" + ", ".join(map(str, range(13))) + "</td>", text)
+        regions = self.report(self.path("part.obj"))["files"][0]["regions"]
+        self.assertEqual([r["components"] for r in regions], [list(range(13))])
 
     def test_the_scene_unpacks_to_the_mesh(self):
         mesh = TWO_CUBES

@@ -55,6 +55,7 @@ class Repair(ToolTest):
         entry = self.repaired(part, "--repair", "-o", "out.stl")
         self.assertEqual(entry["repair"]["precision_out"], "float")
         self.assertGreater(entry["repair"]["max_move"]["largest"], 1e-12)
+        self.assertEqual(entry["output"]["max_move"], entry["repair"]["max_move"]["largest"])
         self.assertEqual(len(self.read_bytes("out.stl")), 84 + 50 * entry["repair"]["faces"])
         self.no_pairs("out.stl")
         entry = self.repaired(part, "--repair", "-o", "out.ply")
@@ -214,6 +215,19 @@ class Repair(ToolTest):
             self.run_tool(part, *options, status=2)
         # A word after --repair is an input, not its mode.
         self.run_tool("--repair", part, "-n", status=0)
+
+    def test_what_to_type_is_said_of_words_at_the_wrong_place(self):
+        part = write(self.path("part.obj"), TWO_CUBES)
+        for mode in ("outer", "split", "remove"):
+            for words in (["--repair", mode, part], [part, "--repair", mode, "-o", "out.stl"]):
+                self.assertEqual(self.run_tool(*words, status=2).err,
+                                 f"tf-selfintersect: error: --repair {mode}: type --repair={mode}\n")
+        run = self.run_tool("--repair", part, "fixed.stl", status=2)
+        self.assertEqual(run.err, "tf-selfintersect: error: fixed.stl: no such file; for the "
+                                  "result to go there, type -o fixed.stl\n")
+        self.run_tool("--repair", part, "fixed.stl", "-n", status=3)  # an input
+        self.put("outer", "")
+        self.run_tool("--repair", "outer", "-n", status=3)
 
 
 main()

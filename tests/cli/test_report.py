@@ -143,7 +143,10 @@ class Report(ToolTest):
         write(self.path("nan.stl"), ([(nan, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
         self.assertIn("no triangle with finite coordinates",
                       self.run_tool("nan.stl", status=3).err)
-        self.assertIn("is a folder", self.run_tool(self.folder, status=3).err)
+        os.mkdir(self.path("empty"))
+        self.assertEqual(self.run_tool("empty", status=3).err, "tf-selfintersect: error: empty: is "
+                         "a folder, with no file in it that is read\n")
+        self.assertEqual(self.report("empty")["files"][0]["error"]["code"], "read")
 
     def test_quiet_verbose_and_log(self):
         part = write(self.path("part.obj"), CROSSING)

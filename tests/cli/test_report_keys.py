@@ -157,6 +157,8 @@ class Reports(PlaceTest):
         write(self.path("two.obj"), TWO_CUBES)
         write(self.path("two.stl"), together(TWO_CUBES, CROSSING))
         self.mesh("open.obj", (TWO_CUBES[0], TWO_CUBES[1][1:]))
+        points, faces = cube()  # open, and an edge in two on one side only
+        self.mesh("pieces.obj", (points + [(0.5, 0, 0)], [(0, 2, 8), (8, 2, 1), *faces[2:]]))
         self.mesh("large.obj", together(box((0, 0, 0), (1e39, 1e39, 1e39)),
                                         box((1e38, 1e38, 1e38), (2e39, 2e39, 2e39))))
         self.mesh("huge.obj", box((0, 0, 0), (1e299, 1e299, 1e299)))
@@ -175,6 +177,7 @@ class Reports(PlaceTest):
                 (["two.obj", "--repair=split", "-n", "--max-move", "0"], (0, 1)),
                 (["two.obj", "--repair=remove", "-o", "removed.ply"], 0),
                 (["open.obj", "--repair", "-n"], 1),
+                (["pieces.obj", "--repair", "-n"], 1),
                 (["large.obj", "--repair", "-o", "large.stl"], 1),
                 (["huge.obj", "--repair", "-n"], 0)]:
             yield arguments, status

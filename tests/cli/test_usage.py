@@ -87,6 +87,32 @@ class Usage(ToolTest):
         for option, name in (("-o", "m.ply"), ("--pairs", "p.csv"), ("--html", "h.html")):
             self.refused(self.part, other, option, name)
 
+    def test_a_folder_stands_for_the_models_in_it(self):
+        os.makedirs(self.path("in/sub"))
+        for name in ("in/b.stl", "in/a.obj", "in/a10.obj", "in/sub/c.obj"):
+            write(self.path(name), CLEAN)
+        os.rename(self.path("in/b.stl"), self.path("in/b.STL"))
+        for name in ("in/notes.txt", "in/points.xyz", "in/model"):
+            self.put(name, "0 0 0\n")
+        os.mkdir(self.path("in/folder.obj"))
+        meshes = ["in/a.obj", "in/a10.obj", "in/b.STL"]
+        report = self.report(self.part, "in", status=1)
+        self.assertEqual([f["input"] for f in report["files"]], [self.part] + meshes)
+        self.assertIn("3 inputs", self.refused("in", "--html", "h.html"))
+        self.tool = WELD
+        report = self.report("in/", "--check", status=1)
+        self.assertEqual([f["input"] for f in report["files"]], meshes + ["in/points.xyz"])
+        self.tool = BOOLEAN
+        os.rename(self.path("in"), self.path("union"))  # also a word
+        self.assertEqual(self.run_tool("union", "union", "-n", status=0).text.split(":")[0],
+                         "3 inputs")
+        self.tool = PLACE
+        report = self.report("drop", "union", "-n", status=0)
+        self.assertEqual([f["input"] for f in report["files"]],
+                         [name.replace("in/", "union/", 1) for name in meshes + ["in/points.xyz"]])
+        self.assertIn("union: is a folder\n",
+                      self.run_tool("measure", self.part, "--fixed", "union", status=3).err)
+
     def test_formats_that_are_not_written_are_refused(self):
         self.assertIn("ply glb", self.refused(self.part, "-o", "m.stl"))
         self.refused(self.part, "-o", "m.ply", "--output-format", "stl")

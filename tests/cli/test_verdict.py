@@ -109,6 +109,28 @@ class Verdict(ToolTest):
         warnings = self.report(part)["files"][0]["warnings"]
         self.assertEqual([w["code"] for w in warnings], ["near-corners"])
 
+    def test_a_hint_says_which_tolerance_closes_the_surface(self):
+        points, faces = cube()
+        def hint(gap):  # a cube in a cube that is open by `gap` along a corner
+            apart = [tuple(x + gap * (p == points[7]) for x in p) for p in points]
+            odd = (points + [apart[7]], [tuple(8 if c == 7 and f == faces[11] else c for c in f)
+                                         for f in faces])
+            part = self.model(together(odd, cube((0.5, 0.5, 0.5))))
+            entry = self.report(part)["files"][0]
+            return part, [w["text"] for w in entry["warnings"]]
+        for gap, step in ((1e-6, "0.0001%"), (1e-5, "0.001%"), (1e-4, "0.01%")):
+            part, texts = hint(gap)
+            self.assertEqual(len(texts), 1)
+            self.assertTrue(texts[0].startswith("1 vertex lies within "), msg=texts[0])
+            self.assertTrue(texts[0].endswith(f"; -t {step} joins them and closes the surface"))
+            self.run_tool("--repair", part, "-t", step, "-n", status=0)
+            self.run_tool("--repair", part, "-n", status=1)
+        self.assertEqual(hint(1e-3)[1], [])
+        # What is open for another reason is not said to become closed.
+        fold = self.model((FOLD[0] + [(4, 1e-9, 0)], FOLD[1] + [(0, 4, 2)]))
+        warning, = self.report(fold)["files"][0]["warnings"]
+        self.assertTrue(warning["text"].endswith("; -t 0.0001% would join them"))
+
     def test_the_box_takes_the_faces_that_meet_it(self):
         part = self.model(together(CROSSING, ([(p[0] + 100, p[1], p[2]) for p in CROSSING[0]],
                                               CROSSING[1])))

@@ -21,6 +21,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -139,6 +140,28 @@ tf::mesh_file with_corner_values(tf::mesh mesh) {
     return file;
 }
 
+/// Files that are read though they are not as their format says: target, name, content.
+std::vector<std::array<std::string, 3>> odd_files() {
+    using namespace std::string_literals;
+    const tf::mesh_file file{.mesh = stress_mesh(static_cast<stress_family>(0), 12, 1)};
+    std::string counted = write_to_memory(file, {.format = "stl"});
+    std::string text = write_to_memory(file, {.format = "stl", .ascii = true});
+    std::vector<std::array<std::string, 3>> all{{"read_stl", "trailing", counted + "x"}};
+    ++counted[80];
+    all.push_back({"read_stl", "wrong-count", counted});
+    text.insert(text.find("endloop") + 7, " 3");
+    all.push_back({"read_stl", "stray-words", text});
+    text.insert(text.find("endfacet"), "\0\0"s);
+    all.push_back({"read_stl", "zero-bytes", text + std::string(64, '\0')});
+    all.push_back(
+        {"read_obj", "hexadecimal", "v 0x1.8p1 -0x.1 0X1P-3\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"});
+    all.push_back({"read_ply", "strips",
+                   "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                   "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+                   "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 3 2 1\n"});
+    return all;
+}
+
 void write_seeds(const std::filesystem::path& folder) {
     const auto folder_of = [&](const std::string& target) {
         std::filesystem::create_directories(folder / "new" / target);
@@ -161,6 +184,8 @@ void write_seeds(const std::filesystem::path& folder) {
                 write(to / (ascii ? "textured-ascii" : "textured"),
                       write_to_memory(textured, {.format = format, .ascii = ascii}));
     }
+    for (const auto& [target, name, content] : odd_files())
+        write(folder_of(target) / name, content);
     for (const char* const target : deciders) {
         const auto to = folder_of(target);
         for (std::size_t f = 0; f < tf::test::stress_family_count; ++f) {

@@ -83,10 +83,15 @@ void command_line::option(option_text text, std::function<void(std::string_view)
     mention(std::move(text));
 }
 
-void command_line::flag_with_value(option_text text, const std::string& bare,
-                                   std::function<void(std::string_view)> accept) {
+void command_line::flag_with_value(option_text text, std::span<const char* const> words,
+                                   const std::string& bare,
+                                   std::function<void(std::size_t)> accept) {
+    const std::string name = long_name(text);
+    for (const char* word : words) values_apart_.emplace_back(name, word);
     CLI::Option* flag = parser_->app.add_flag(names_of(text) + "{" + bare + "}");
-    flag->each([accept = std::move(accept)](const std::string& value) { accept(value); });
+    flag->each([accept = std::move(accept), name, words](const std::string& value) {
+        accept(parse_choice(name, value, words));
+    });
     mention(std::move(text));
 }
 
@@ -139,6 +144,10 @@ void command_line::version_text(const std::string& text) {
 bool command_line::given(const std::string& name) const { return parser_->app.count(name) > 0; }
 
 command_line::outcome command_line::parse(int argc, const char* const* argv) {
+    for (int i = 2; i < argc; ++i)
+        for (const auto& [name, value] : values_apart_)  // which would be inputs
+            if (argv[i - 1] == name && argv[i] == value && !std::filesystem::exists(value))
+                tools::refuse(name + " " + value + ": type " + name + "=" + value);
     try {
         parser_->app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

@@ -44,10 +44,10 @@ class command_line {
     }
     /// `accept` parses the value; what it throws ends the run.
     void option(option_text text, std::function<void(std::string_view)> accept);
-    /// An option whose value, if any, follows "=": --name or --name=VALUE. `bare` is accepted for
-    /// the first.
-    void flag_with_value(option_text text, const std::string& bare,
-                         std::function<void(std::string_view)> accept);
+    /// An option whose value, one of `words`, follows "=" if there is one: --name or --name=VALUE.
+    /// `bare` is meant by the first. `accept` gets its number.
+    void flag_with_value(option_text text, std::span<const char* const> words,
+                         const std::string& bare, std::function<void(std::size_t)> accept);
     /// The value is the name of a file to write; "-" is standard output.
     void output(std::filesystem::path& target, option_text text);
     /// An option of other tools of the family that makes no sense here, and why.
@@ -88,6 +88,7 @@ class command_line {
     std::string epilogue_;
     std::vector<option_group> groups_;
     std::vector<const std::filesystem::path*> outputs_;
+    std::vector<std::pair<std::string, std::string>> values_apart_;  ///< "--name", "VALUE"
     std::unique_ptr<parser> parser_;
 };
 

@@ -4,7 +4,6 @@
 #include "tools/common/file_names.hpp"
 #include "tools/common/parse_value.hpp"
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -43,7 +42,8 @@ void add_output_options(command_line& line, common_options& o, const common_feat
         line.refuse("--in-place", false, "all inputs together give one result; use -o");
         return;
     }
-    line.option({"--output-dir", "DIR", "one result per INPUT, named STEM+SUFFIX.EXT"},
+    line.option({"--output-dir", "DIR",
+                 "one result per INPUT, named STEM+SUFFIX.EXT;\nDIR is made where it is not there"},
                 [&o](std::string_view value) { o.output_dir = value; });
     line.option(o.suffix, {"--suffix", "TEXT", "SUFFIX for --output-dir", o.suffix});
     line.flag(o.in_place, {.names = "--in-place",
@@ -163,6 +163,14 @@ void add_common_options(command_line& line, common_options& target,
     add_run_options(line, o);
 }
 
+void list_folders(common_options& o) {
+    const auto first = o.inputs.begin();
+    const bool word = std::count(o.words.begin(), o.words.end(), *first) > 0;
+    const auto files = tf::files_of({first + (word ? 1 : 0), o.inputs.end()}, o.content);
+    o.inputs.resize(word ? 1 : 0);
+    o.inputs.insert(o.inputs.end(), files.begin(), files.end());
+}
+
 void check_common_options(const command_line& line, const common_options& options) {
     if (options.ascii && options.binary) refuse("--ascii and --binary exclude each other");
     if (options.quiet && (options.verbose > 0 || options.progress))
@@ -202,6 +210,10 @@ void check_files(const command_line& line, const common_options& options) {
 void require_output(const command_line& line, const common_options& options,
                     const std::string& instead) {
     if (wants_mesh(options) || options.dry_run || !line.outputs().empty()) return;
+    const std::string& last = options.inputs.back();
+    std::error_code ignored;
+    if (options.inputs.size() > 1 && last != "-" && !fs::exists(last, ignored))
+        refuse(last + ": no such file; for the result to go there, type -o " + last);
     refuse("nothing to give back: -o FILE writes the result, " + instead);
 }
 

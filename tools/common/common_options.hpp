@@ -3,6 +3,8 @@
 /// The options that all tools share.
 
 #include "tools/common/command_line.hpp"
+#include <treeform/mesh/read.hpp>
+#include <treeform/tf.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +16,8 @@ namespace tools {
 
 struct common_options {
     std::vector<std::string> inputs;
+    tf::file_content content = tf::file_content::meshes;  ///< of a folder among the inputs
+    std::vector<std::string> words;      ///< one of which may stand ahead of the inputs
     std::vector<std::string> also_read;  ///< files that are read beside the inputs, of any kind
     std::filesystem::path output;
     std::filesystem::path output_dir;
@@ -50,9 +54,17 @@ struct common_features {
     bool one_result = false;                  ///< of all inputs: then --output-dir makes none
 };
 
+/// What most tools read.
+inline constexpr const char* mesh_inputs =
+    "STL OBJ PLY OFF GLB/glTF 3MF files, or folders of\n"
+    "them; \"-\" = stdin";
+
 /// Adds them to `line` as a group of their own; `target` must outlive the parsing.
 void add_common_options(command_line& line, common_options& target,
                         const common_features& features);
+
+/// Replaces folders among the inputs by the files in them.
+void list_folders(common_options& options);
 
 /// What only shows when all options are known, such as options that exclude each other.
 /// \throws failure (bad_usage)

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <system_error>
 
 namespace tools {
@@ -86,6 +87,13 @@ std::string grouped(std::uint64_t number) {
         text.insert(i, 1, ',');
     }
     return text;
+}
+
+std::string brief(double value) {
+    char text[32];
+    const bool large = std::abs(value) >= 1e6 && std::abs(value) < 1e15;
+    const auto form = large ? std::chars_format::fixed : std::chars_format::general;
+    return {text, std::to_chars(text, text + sizeof text, value, form, large ? 0 : 6).ptr};
 }
 
 std::string shortest(double value) {

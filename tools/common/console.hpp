@@ -54,7 +54,10 @@ class console {
 
 /// 26306 as "26,306".
 [[nodiscard]] std::string grouped(std::uint64_t number);
-/// The shortest decimal text that reads back as `value`.
+/// Six digits, and no fewer than stand ahead of the point: for sentences. The report has all.
+[[nodiscard]] std::string brief(double value);
+/// The shortest decimal text that reads back as `value`: for files, and for numbers that people
+/// type back as a limit, which a rounded one would not meet.
 [[nodiscard]] std::string shortest(double value);
 /// "1 pair", "2 pairs".
 [[nodiscard]] std::string counted(std::uint64_t number, std::string_view one,

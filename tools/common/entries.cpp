@@ -6,8 +6,7 @@
 namespace tools {
 
 std::string in_words(const tf::point3& p) {
-    return std::string("(").append(shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z)) +
-           ")";
+    return std::string("(").append(brief(p.x) + ", " + brief(p.y) + ", " + brief(p.z)) + ")";
 }
 
 const char* name_of(tf::precision precision) {
@@ -23,7 +22,11 @@ json open_entry(const tf::certificate& known, const face_numbers& stored_face) {
     for (const tf::open_edge& edge : known.open)
         list.push_back(
             {{"face", stored_face(edge.face.index)}, {"from", edge.ends[0]}, {"to", edge.ends[1]}});
-    return {{"count", known.open_count}, {"list", list}};
+    const bool told = known.boundary_edges + known.misoriented_edges > 0 || known.open.empty();
+    return {{"count", known.open_count},
+            {"boundary_edges", or_null(told, known.boundary_edges)},
+            {"misoriented_edges", or_null(told, known.misoriented_edges)},
+            {"list", list}};
 }
 
 json meeting_entry(const tf::certificate& known) {

@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -78,8 +79,11 @@ tf::mesh_file job::read(const std::string& input, json& about) {
         file = tf::read(bytes, label, options.format);
     } else {
         std::error_code error;
+        const bool listed = std::count(options.inputs.begin(), options.inputs.end(), input) > 0;
         if (std::filesystem::is_directory(input, error))
-            throw failure(bad_input, "read", input + ": is a folder");
+            throw failure(
+                bad_input, "read",
+                input + ": is a folder" + (listed ? ", with no file in it that is read" : ""));
         if (options.detailed()) digest = sha256_of_file(input);
         file = tf::read(input, options.format);
     }
@@ -112,7 +116,11 @@ void job::call_ended(bool cancelled) {
 }
 
 void job::warn(const std::string& code, const std::string& text) {
-    out.warning(text.starts_with(name + ": ") ? text : name + ": " + text);
+    const auto& inputs = options.inputs;  // one of which the text may be about
+    const bool named = std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
+        return text.starts_with(name_of_input(input) + ": ");
+    });
+    out.warning(named ? text : name + ": " + text);
     entry["warnings"].push_back({{"code", code}, {"text", text}});
 }
 

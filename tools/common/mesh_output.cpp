@@ -3,66 +3,38 @@
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace tools {
 namespace {
 
-bool same_corners(const tf::mesh& a, const tf::mesh& b) {
-    if (a.faces.size() != b.faces.size()) return false;
-    for (std::size_t f = 0; f < a.faces.size(); ++f)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (!(a.points[a.faces[f][k]] == b.points[b.faces[f][k]])) return false;
-    return true;
-}
-
-/// The faces by their corners' coordinates, each from its least corner on, ascending.
-std::vector<std::array<std::array<double, 3>, 3>> sorted_corners(const tf::mesh& mesh) {
-    std::vector<std::array<std::array<double, 3>, 3>> all(mesh.faces.size());
-    for (std::size_t f = 0; f < all.size(); ++f) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const tf::point3& p = mesh.points[mesh.faces[f][k]];
-            all[f][k] = {p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 is 0
-        }
-        std::rotate(all[f].begin(), std::min_element(all[f].begin(), all[f].end()), all[f].end());
-    }
-    std::sort(all.begin(), all.end());
-    return all;
-}
-
-/// GLB is read by others, which renumber points, and has faces by color. Builds without a reader
-/// for it have nothing to look with.
-void look_again_at_glb(const std::filesystem::path& path, const tf::mesh& surface) {
-    if (!tf::reads_scenes()) return;
-    if (sorted_corners(tf::read(path, "glb").mesh) != sorted_corners(surface))
-        throw std::logic_error("the file written does not hold what was certified");
-}
-
-/// What was certified is what is on the disk now.
+/// What was certified is what is on the disk now. GLB is read by others, which renumber points, and
+/// has faces by color; builds without a reader for it have nothing to look with.
 void look_again(const std::filesystem::path& path, const std::string& format,
                 const tf::mesh& surface) {
     std::error_code error;
+    const bool scene = format == "glb";
     if (path == "-" || !std::filesystem::is_regular_file(path, error)) return;
-    if (format == "glb") return look_again_at_glb(path, surface);
+    if (scene && !tf::reads_scenes()) return;
     const tf::mesh_file written = tf::read(path, format);
-    if (!same_corners(written.mesh, surface) ||
-        (written.indexed && written.mesh.faces != surface.faces))
+    const bool numbered = !scene && written.indexed;
+    if (!tf::same_triangles(written.mesh, surface,
+                            scene ? tf::face_order::any : tf::face_order::kept) ||
+        (numbered && written.mesh.faces != surface.faces))
         throw std::logic_error("the file written does not hold what was certified");
 }
 
 /// `check` looks at what was written before it has its name.
 tf::write_result write(job& work, const tf::mesh_file& file, const tf::write_options& options,
-                       const std::filesystem::path& path, const auto& check) {
+                       const std::filesystem::path& path, double moved, const auto& check) {
     const common_options& o = work.options;
     output_place place(path, o.force || o.in_place, work.keeper);
     tf::write_result written;
@@ -73,7 +45,7 @@ tf::write_result write(job& work, const tf::mesh_file& file, const tf::write_opt
         throw failure(bad_output, "output", place.said_of_path(error.what()));
     }
     place.commit();
-    enter_output(work, path, written);
+    enter_output(work, path, written, moved);
     return written;
 }
 
@@ -95,16 +67,16 @@ void warn_of_moves(job& work, tf::points_view points, const tf::certificate& kno
     const double step = tf::coordinate_step(points, known.precision);
     const double moved = known.max_displacement;
     if (!(moved > step)) return;
-    work.warn("moved", "so that no faces meet when rounded, points moved by up to " +
-                           shortest(moved) + ", " + shortest(std::ceil(moved / step)) +
-                           " steps of the " + numbers_of(known.precision) +
+    work.warn("moved", "so that no faces meet when rounded, points moved by up to " + brief(moved) +
+                           ", " + brief(std::ceil(moved / step)) + " steps of the " +
+                           numbers_of(known.precision) +
                            " numbers there; --max-move DIST sets a limit");
 }
 
 void warn_of_rounding(job& work, double max_displacement, const std::string& whose) {
     if (max_displacement > 0.0)
         work.warn("rounded", whose + "written in single precision: coordinates move by up to " +
-                                 shortest(max_displacement));
+                                 brief(max_displacement));
 }
 
 void warn_of_folds(job& work, const tf::rounding_defects& defects, tf::precision precision) {
@@ -129,17 +101,18 @@ void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision p
     if (lost.noticeable && precision == tf::precision::float32)
         warn_of_rounding(work, lost.max_displacement);
     else if (lost.noticeable)
-        work.warn("rounded", "coordinates move by up to " + shortest(lost.max_displacement));
+        work.warn("rounded", "coordinates move by up to " + brief(lost.max_displacement));
     if (lost.compared)
         warn_of_folds(work, {.collapsed = lost.collapsed, .meeting = lost.meeting}, precision);
 }
 
-void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written) {
+void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written,
+                  double moved) {
     json& output = work.entry["output"];
     output["file"] = path.string();
     output["format"] = written.format;
     output["precision_out"] = name_of(written.written_as);
-    output.emplace("max_move", written.max_displacement);
+    output.emplace("max_move", std::max(moved, written.max_displacement));
     work.warn(written.warnings);
 }
 
@@ -151,19 +124,19 @@ tf::mesh_file file_of(tf::mesh&& surface, const tf::certificate& known) {
 }
 
 tf::write_result write_mesh(job& work, const tf::mesh_file& file, const tf::write_options& options,
-                            const std::filesystem::path& path) {
-    return write(work, file, options, path, [](const auto&, const auto&) {});
+                            const std::filesystem::path& path, double moved) {
+    return write(work, file, options, path, moved, [](const auto&, const auto&) {});
 }
 
 void write_certified(job& work, const tf::mesh_file& file, const written_form& form,
-                     const std::filesystem::path& path) {
+                     const std::filesystem::path& path, double moved) {
     const auto look = [&](const std::filesystem::path& there, const tf::write_result& written) {
         look_again(there, form.format, file.mesh);
         if (written.max_displacement > 0.0)
             throw std::logic_error("coordinates were rounded that had been certified");
     };
     write(work, file, {.format = form.format, .ascii = form.ascii, .precision = file.stored_as},
-          path, look);
+          path, moved, look);
 }
 
 }  // namespace tools

@@ -33,19 +33,20 @@ void warn_of_folds(job& work, const tf::rounding_defects& defects, tf::precision
 void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision precision);
 
 /// Enters file, format, numbers and what these have moved as "output", beside what is there, and
-/// says what the writer warns of.
-void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written);
+/// says what the writer warns of. `moved` is how far rounding had moved coordinates before.
+void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written,
+                  double moved = 0.0);
 
 /// A file of coordinates that were checked.
 [[nodiscard]] tf::mesh_file file_of(tf::mesh&& surface, const tf::certificate& known);
 
-/// Writes `file` to `path` and enters it. \throws failure (bad_output)
+/// Writes `file` to `path` and enters it; `moved` as above. \throws failure (bad_output)
 tf::write_result write_mesh(job& work, const tf::mesh_file& file, const tf::write_options& options,
-                            const std::filesystem::path& path);
+                            const std::filesystem::path& path, double moved = 0.0);
 
 /// The same for a mesh that was checked in the coordinates of `file`: it is read again, and only
 /// then has its name. \throws std::logic_error when the file does not hold what was checked
 void write_certified(job& work, const tf::mesh_file& file, const written_form& form,
-                     const std::filesystem::path& path);
+                     const std::filesystem::path& path, double moved);
 
 }  // namespace tools

@@ -163,9 +163,13 @@ int run(command_line& line, common_options& options, const std::vector<std::stri
     const outcome result = attempt([&] {
         line.version_text(version_text(line.name()));
         if (line.parse(argc, argv) == command_line::outcome::help_shown) return done;
+        list_folders(options);
         check_common_options(line, options);
         check_options();
         check_files(line, options);
+        std::error_code ignored;  // where it cannot be made, each file that goes there says so
+        if (!options.output_dir.empty() && !options.dry_run)
+            std::filesystem::create_directories(options.output_dir, ignored);
         return static_cast<exit_status>(run_parsed(line, options, steps, argc, argv, body, out));
     });
     if (!result.text.empty()) out.error(result.text);

@@ -144,23 +144,27 @@ std::string remedy_for_floats(tools::job& work, const boolean_settings& s,
            "holds it: " + tools::counted(result.mesh.faces.size(), "face", "faces");
 }
 
+/// "1 of 2 bounds no solid"
+std::string open_in_words(std::size_t open, std::size_t all) {
+    if (all == 1) return "bounds no solid";
+    return tools::grouped(open) + " of " + tools::grouped(all) +
+           (open == 1 ? " bounds no solid" : " bound no solid");
+}
+
 exit_status check_only(tools::job& work, const std::vector<tools::solid>& solids) {
     const std::vector<std::uint32_t> open_ones = tools::check_solids(work, solids);
     tools::warn_of_open(work, solids, open_ones);
     const std::size_t open = open_ones.size();
-    const std::string all = tools::counted(solids.size(), "input", "inputs");
-    work.out.result(work.name + ": " +
-                    (open == 0 ? all + (solids.size() == 1 ? " bounds a solid" : " bound solids")
-                               : tools::grouped(open) + " of " + all + " bound no solid"));
+    const char* const sound = solids.size() == 1 ? "bounds a solid" : "all bound solids";
+    work.out.result(work.name + ": " + (open == 0 ? sound : open_in_words(open, solids.size())));
     return open == 0 ? tools::done : tools::found;
 }
 
 exit_status refuse_open(tools::job& work, const std::vector<tools::solid>& solids,
                         const std::vector<std::uint32_t>& open, const std::string& remark) {
     tools::warn_of_open(work, solids, open);
-    work.out.result(work.name + ": " + tools::grouped(open.size()) + " of " +
-                    tools::counted(solids.size(), "input", "inputs") + " bound no solid; " +
-                    remark + "nothing written");
+    work.out.result(work.name + ": " + open_in_words(open.size(), solids.size()) + "; " + remark +
+                    "nothing written");
     return tools::found;
 }
 
@@ -228,7 +232,8 @@ int main(int argc, char** argv) {
     common_options options;
     options.suffix = "-boolean";
     options.joined = true;
-    line.inputs(options.inputs, "STL OBJ PLY OFF GLB/glTF 3MF files; \"-\" = stdin");
+    options.words.assign(tools::operations.begin(), tools::operations.end());
+    line.inputs(options.inputs, tools::mesh_inputs);
     add_operations(line);
     add_options(line, s);
     add_what_to_give_back(line, s, options);

@@ -133,7 +133,7 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     if (!settings.no_attributes && form.format == "obj")
         warn_of_ambiguous_materials(work, files_of(solids));
     if (holds_sources(form.format)) add_sources(file, settings, solids, result);
-    write_certified(work, file, form, o.output);
+    write_certified(work, file, form, o.output, result.certificate.max_displacement);
 }
 
 void write_curves(job& work, const boolean_settings& settings, const std::vector<solid>& solids) {

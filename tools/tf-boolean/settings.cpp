@@ -11,9 +11,6 @@
 namespace tools {
 namespace {
 
-constexpr std::array<const char*, 5> operations{"union", "intersection", "difference", "xor",
-                                                "split"};
-
 bool is_operation(const std::string& word) {
     return std::find(operations.begin(), operations.end(), word) != operations.end();
 }

@@ -15,6 +15,9 @@
 
 namespace tools {
 
+inline constexpr std::array<const char*, 5> operations{"union", "intersection", "difference", "xor",
+                                                       "split"};
+
 struct boolean_settings {
     std::string operation{};                  ///< the word, as typed; empty where there is none
     std::string expression{};                 ///< of --expr

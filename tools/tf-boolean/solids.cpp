@@ -78,7 +78,10 @@ std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
         for (const char* key : {"format", "sha256", "precision_in", "matrix", "faces", "triangles",
                                 "volume", "closed", "reason"})
             about[key] = nullptr;
-        about["open"] = {{"count", nullptr}, {"list", json::array()}};
+        about["open"] = {{"count", nullptr},
+                         {"boundary_edges", nullptr},
+                         {"misoriented_edges", nullptr},
+                         {"list", json::array()}};
         about["skipped"] = {{"non_finite", nullptr}};
         solids.push_back(read_solid(work, path, settings.matrix_files[i], about));
         forget_sources(solids.back().file, settings.source);

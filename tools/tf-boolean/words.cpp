@@ -15,14 +15,14 @@ std::string verdict(const job& work, const boolean_settings& settings,
     std::string text = settings.name() + ": " + counted(result.mesh.faces.size(), "face", "faces");
     if (result.certificate && result.mesh.faces.empty()) return text + ", nothing is left";
     if (!volume.is_null() && !result.mesh.faces.empty() && std::isfinite(volume.get<double>()))
-        text += ", volume " + shortest(volume.get<double>());
+        text += ", volume " + brief(volume.get<double>());
     if (result.certificate.status == tf::status::vanished)
         return text + " are left of the exact result's " + grouped(result.statistics.exact_faces) +
                " when rounded to " + name_of(result.certificate.precision);
     if (!result.certificate) return text + ", but " + result.certificate.message();
     if (result.certificate.max_displacement > 0.0)
-        text += ", rounding moved points by " + shortest(result.certificate.max_displacement) +
-                " at most";
+        text +=
+            ", rounding moved points by " + brief(result.certificate.max_displacement) + " at most";
     return text;
 }
 

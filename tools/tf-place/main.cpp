@@ -55,8 +55,9 @@ int main(int argc, char** argv) {
     });
     line.inputs(options.inputs,
                 "meshes: STL OBJ PLY OFF GLB/glTF 3MF; points: PLY\n"
-                "PCD XYZ CSV; \"-\" = stdin",
+                "PCD XYZ CSV; or folders of them; \"-\" = stdin",
                 "MOVING");
+    options.content = tf::file_content::meshes_and_points;
     tools::add_options(line, s, options);
     line.group("Common options");
     tools::add_common_options(line, options,

@@ -40,7 +40,11 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
     const tf::precision precision = met.certificate.precision;
     const bool picture = settings.mode == place_mode::measure;
     const bool scene = settings.scene || settings.mode == place_mode::arrange;
-    if (!picture) enter_rounding(work, rounding_of(work, moving, placed, precision), precision);
+    tf::rounding_effects lost;
+    if (!picture) {
+        lost = rounding_of(work, moving, placed, precision);
+        enter_rounding(work, lost, precision);
+    }
     if (work.options.dry_run) return;
     std::vector<const tf::mesh_file*> files;
     std::vector<tf::scene_member> members;
@@ -70,8 +74,9 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
                   : tf::classes_in_files(classes, moving),
             {.split_polygons = picture && !scene, .keep_colors = !picture && !scene});
     }
-    const auto written = write_mesh(
-        work, file, {.format = form.format, .ascii = form.ascii, .precision = precision}, *path);
+    const auto written =
+        write_mesh(work, file, {.format = form.format, .ascii = form.ascii, .precision = precision},
+                   *path, lost.max_displacement);
     work.entry["output"]["scene"] = scene;
     warn_of_rounding(work, written.max_displacement);  // of measure, and of what is fixed
 }

@@ -121,7 +121,7 @@ std::string sentence(const placing& p) {
                               : drops                                ? "dropped by "
                               : p.settings.mode == place_mode::slide ? "slid by "
                                                                      : "moved by ";
-    return moved + shortest(at.travel) + "; " + relation;
+    return moved + brief(at.travel) + "; " + relation;
 }
 
 }  // namespace

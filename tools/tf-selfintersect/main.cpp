@@ -88,10 +88,9 @@ void add_repair(command_line& line, request& r) {
                                   "remove: delete the faces and fill the holes",
                           .fallback = "outer",
                           .label = "--repair[=MODE]"},
-                         "outer", [&r](std::string_view text) {
+                         tools::repair_modes, "outer", [&r](std::size_t mode) {
                              r.repairs = true;
-                             r.repair.mode = static_cast<tf::resolve_mode>(
-                                 tools::parse_choice("--repair", text, tools::repair_modes));
+                             r.repair.mode = static_cast<tf::resolve_mode>(mode);
                          });
     line.option(r.repair.max_move,
                 {"--max-move", "DIST", "fail (exit 1) if any point would move further", "0.1%"});
@@ -187,7 +186,7 @@ int main(int argc, char** argv) {
     request r;
     common_options options;
     options.suffix = "-selfintersect";
-    line.inputs(options.inputs, "STL OBJ PLY OFF GLB/glTF 3MF files; \"-\" = stdin");
+    line.inputs(options.inputs, tools::mesh_inputs);
     add_what_counts(line, r.search);
     add_what_to_give_back(line, r, options);
     add_repair(line, r);

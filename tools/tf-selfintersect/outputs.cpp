@@ -61,7 +61,7 @@ void enter_report(job& work, const findings& result, const search_settings& sett
                           {"joined", result.part.joined}};
     entry["pairs"] = counts_entry(result, settings);
     entry["complete"] = !(settings.first && !result.found.pairs.empty());
-    entry["faces_hit"] = result.faces_hit();
+    entry["faces_hit"] = result.marks.marked();
     entry["regions"] = json::array();
     for (std::size_t id = 0; id < result.regions.regions.size(); ++id)
         entry["regions"].push_back(region_entry(result, id));

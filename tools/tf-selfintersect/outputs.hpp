@@ -16,7 +16,7 @@ namespace tools {
 /// "crossing", as in reports and CSV files.
 [[nodiscard]] const char* name_of(tf::pair_kind kind);
 
-/// The verdict: "41 self-intersecting pairs of 26,306 faces: 41 crossing, in 3 regions".
+/// "41 self-intersecting pairs of 26,306 faces: 41 crossing, in 3 regions".
 [[nodiscard]] std::string verdict(const findings& result, const search_settings& settings);
 
 /// What -v and -vv add to the verdict.
@@ -32,8 +32,7 @@ void write_pairs(const job& work, const std::filesystem::path& path, const findi
 /// The curves as line segments: OBJ `v` and `l`, or PLY with an element `edge`.
 void write_curves(const job& work, const std::filesystem::path& path, const findings& result);
 
-/// The mesh of `file` with its faces colored by the kind of pair they are in, and the properties
-/// tf_class and tf_region. Enters what was written in `work.entry`.
+/// Writes `file` with its faces marked (`tf::color_marks`), and enters that in `work.entry`.
 void write_marked(job& work, tf::mesh_file& file, const findings& result,
                   const std::filesystem::path& path);
 

@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t most_regions = 1000;
 
 std::vector<face_kind> kinds_of(const findings& result) {
-    std::vector<face_kind> kinds{{"other faces", tf::mark_colors[0], 0}};
-    kinds[0].count = result.part.mesh.faces.size() - result.faces_hit();
+    const std::size_t others = result.part.mesh.faces.size() - result.marks.marked();
+    std::vector<face_kind> kinds{{"other", tf::mark_colors[0], others}};
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k)
         kinds.push_back({name_of(static_cast<tf::pair_kind>(k)), tf::mark_colors[k + 1], 0});
     for (const tf::face_pair& pair : result.found.pairs)
@@ -57,8 +57,8 @@ std::vector<place_row> rows_of(const findings& result) {
                                   {kinds_text},
                                   {grouped(region.pairs), true},
                                   {grouped(region.faces.size()), true},
-                                  {in_brief(region.center())},
-                                  {in_brief(region.min) + " to " + in_brief(region.max)},
+                                  {in_words(region.center())},
+                                  {in_words(region.min) + " to " + in_words(region.max)},
                                   {components}},
                         .low = region.min,
                         .high = region.max});
@@ -85,7 +85,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const job& work, const
             {"degenerate", counted(result.part.degenerate, "face", "faces") + ", " +
                                counted(result.found.counts[degenerate], "pair", "pairs")},
             {"tolerance",
-             settings.tolerance.given + " (" + shortest(result.tolerance_used) + " in file units)"},
+             settings.tolerance.given + " (" + brief(result.tolerance_used) + " in file units)"},
             {"program", std::string("tf-selfintersect ") + tf::version_string()}};
 }
 

@@ -109,7 +109,7 @@ void say_result(job& work, const repair_settings& settings, const tf::resolve_re
     if (did.filled > 0) text += ", " + grouped(did.filled) + " filled in";
     if (did.left_open > 0) text += ", " + counted(did.left_open, "edge", "edges") + " left open";
     if (repaired.certificate.max_displacement > 0.0)
-        text += ", rounding moved points by " + shortest(repaired.certificate.max_displacement) +
+        text += ", rounding moved points by " + brief(repaired.certificate.max_displacement) +
                 " at most";
     work.out.result(text);
     if (repaired.vanished_components > 0)
@@ -173,7 +173,7 @@ bool repair_and_write(job& work, tf::mesh_file& input, const findings& result,
     tf::mesh_file file = file_of(std::move(repaired.mesh), repaired.certificate);
     carry(work, file, input, result, repaired);
     add_source_faces(file, result, repaired.face_source);
-    write_certified(work, file, *form, *output);
+    write_certified(work, file, *form, *output, repaired.certificate.max_displacement);
     return true;
 }
 

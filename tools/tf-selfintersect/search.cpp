@@ -1,9 +1,10 @@
 #include "tools/tf-selfintersect/search.hpp"
 
+#include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
-#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace tools {
@@ -41,11 +42,6 @@ tf::pair_kinds search_settings::counted() const {
 
 tf::pair_kinds search_settings::looked_for() const {
     return first ? counted() : counted() + tf::pair_kind::degenerate;
-}
-
-std::uint64_t findings::faces_hit() const {
-    const auto& kinds = marks.kind;
-    return kinds.size() - static_cast<std::uint64_t>(std::count(kinds.begin(), kinds.end(), 0));
 }
 
 std::set<std::uint32_t> findings::components_of(const tf::intersection_region& region) const {
@@ -93,15 +89,19 @@ findings search(job& work, tf::mesh_file& file, const search_settings& settings,
 
 void hint_at_near_points(job& work, const findings& result) {
     constexpr std::size_t most = 1'000'000;
-    const tf::points_view points = result.part.mesh.points;
-    if (!result.box || result.tolerance_used > 0.0 || points.size() > most) return;
-    const double within = 1e-6 * tf::diagonal(*result.box);
-    const std::uint64_t near = tf::count_nearly_equal(points, within);
-    if (near > 0)
+    constexpr std::array<const char*, 3> steps{"0.0001%", "0.001%", "0.01%"};
+    const tf::mesh& mesh = result.part.mesh;
+    if (!result.box || result.tolerance_used > 0.0 || mesh.points.size() > most) return;
+    std::array<double, steps.size()> lengths{};
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        lengths[i] = parse_distance("-t", steps[i]).used(tf::diagonal(*result.box));
+    const auto closing = tf::closing_tolerance(mesh, lengths);
+    const std::size_t step = closing.value_or(0);
+    if (const auto near = tf::count_nearly_equal(mesh.points, lengths[step]); near > 0)
         work.warn("near-corners",
-                  counted(near, "vertex lies", "vertices lie") + " within " + shortest(within) +
-                      " of another without being equal to it; -t 0.0001% would join "
-                      "them");
+                  counted(near, "vertex lies", "vertices lie") + " within " + brief(lengths[step]) +
+                      " of another without being equal to it; -t " + steps[step] +
+                      (closing ? " joins them and closes the surface" : " would join them"));
 }
 
 }  // namespace tools

@@ -43,8 +43,6 @@ struct findings {
     std::uint64_t points_stored = 0;
     double tolerance_used = 0.0;
 
-    /// Faces in at least one pair.
-    [[nodiscard]] std::uint64_t faces_hit() const;
     /// Empty where none were asked for.
     [[nodiscard]] std::set<std::uint32_t> components_of(const tf::intersection_region& r) const;
 };
@@ -54,8 +52,7 @@ struct findings {
 [[nodiscard]] findings search(job& work, tf::mesh_file& file, const search_settings& settings,
                               bool keep_mesh);
 
-/// Warns of points within a millionth of the diagonal of another one without being equal to it,
-/// unless this would take long to find out.
+/// Warns of points next to others that are not equal; with a -t that closes the surface, if any.
 void hint_at_near_points(job& work, const findings& result);
 
 }  // namespace tools

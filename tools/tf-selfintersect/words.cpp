@@ -47,7 +47,7 @@ void say_details(job& work, const findings& result) {
              " searched, " + grouped(result.part.degenerate) + " degenerate");
     if (result.tolerance_used > 0.0)
         out.info(work.name + ": " + counted(result.part.joined, "vertex", "vertices") +
-                 " joined within " + shortest(result.tolerance_used));
+                 " joined within " + brief(result.tolerance_used));
     for (std::size_t id = 0; id < result.regions.regions.size(); ++id) {
         const tf::intersection_region& region = result.regions.regions[id];
         out.info(work.name + ": region " + std::to_string(id) + ": " +

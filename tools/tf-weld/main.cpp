@@ -156,7 +156,8 @@ int main(int argc, char** argv) {
     bool exact = true;
     line.inputs(options.inputs,
                 "points: PLY PCD XYZ CSV; meshes: STL OBJ PLY OFF\n"
-                "GLB/glTF 3MF; \"-\" = stdin");
+                "GLB/glTF 3MF; or folders of them; \"-\" = stdin");
+    options.content = tf::file_content::meshes_and_points;
     line.flag(options.joined, {"--join", "", "treat all INPUTs as one set", "each on its own"});
     add_what_is_merged(line, r.settings, exact);
     line.group("Which one stays");

@@ -9,7 +9,7 @@ namespace {
 /// "within 0.132, 0.01% of the diagonal"
 std::string reach(const welding& w, const weld_settings& settings) {
     if (!(w.tolerance > 0.0)) return "equal";
-    return "within " + shortest(w.tolerance) +
+    return "within " + brief(w.tolerance) +
            (settings.tolerance.relative ? ", " + settings.tolerance.given + " of the diagonal"
                                         : "");
 }
@@ -71,7 +71,7 @@ void say_details(job& work, const welding& w) {
     if (!work.out.shows(level::info)) return;
     const tf::weld_statistics& r = w.result.statistics;
     work.out.info(work.name + ": " + counted(r.groups, "group", "groups") +
-                  " of two points or more, largest move " + shortest(r.max_displacement));
+                  " of two points or more, largest move " + brief(r.max_displacement));
     if (w.triangles == 0) return;
     work.out.info(work.name + ": " + counted(r.nonmanifold_after, "edge", "edges") +
                   " of more than two faces, " + grouped(r.nonmanifold_before) + " before; " +

@@ -365,6 +365,47 @@ TEST_CASE("boolean: open operands are named with the place") {
     CHECK(tf::check_solid({}).open.empty());
 }
 
+TEST_CASE("boolean: open edges are counted as the operand has them, and by what is wrong there") {
+    // A box without a face, and a wall through two of its open edges: they are cut, and stay two.
+    tf::mesh open = box(2, 2, 2);
+    open.faces.erase(open.faces.begin());  // 0, 2, 1
+    const tf::certificate plain = tf::check_solid(open);
+    CHECK(plain.boundary_edges == 3);
+    CHECK(plain.misoriented_edges == 0);
+    CHECK(plain.message() ==
+          "its surface ends at 3 edges, the first from (0, 0, 0) to (2, 0, 0) at face 3 of "
+          "operand a");
+    const tf::mesh wall = moved(box(0.5, 4, 4), {0.5, -1, -1});
+    const tf::mesh both = together(open, wall);
+    const tf::certificate cut = tf::check_solid(both);
+    CHECK(cut.open_count > 3);
+    CHECK(cut.boundary_edges == 3);
+    CHECK(cut.message().starts_with("its surface ends at 3 edges, the first from "));
+
+    tf::mesh odd = box(2, 2, 2);
+    std::swap(odd.faces[0][1], odd.faces[0][2]);
+    const tf::certificate flipped = tf::check_solid(odd);
+    CHECK(flipped.boundary_edges == 0);
+    CHECK(flipped.misoriented_edges == 3);
+    CHECK(flipped.message().starts_with(
+        "its surface is inconsistently oriented at 3 edges, the first from (0, 0, 0) to "));
+    CHECK(
+        tf::check_solid(together(open, moved(odd, {5, 5, 5})))
+            .message()
+            .starts_with("its surface ends at 3 edges and is inconsistently oriented at 3 edges"));
+
+    // A point on an open edge that its face does not know: what fits together cannot be told.
+    tf::mesh split = box(2, 2, 2);
+    split.faces.erase(split.faces.begin() + 1);  // 1, 2, 3
+    split.points.push_back({1, 0, 0});
+    split.faces[0] = {0, 2, 8};
+    split.faces.push_back({8, 2, 1});
+    const tf::certificate unknown = tf::check_solid(split);
+    CHECK(unknown.open_count == 3);
+    CHECK(unknown.boundary_edges == 0);
+    CHECK(unknown.message().starts_with("its surface is open at 3 pieces of edges, the first "));
+}
+
 TEST_CASE("boolean: edges that fit together piece by piece leave nothing open") {
     tf::mesh b = box(2, 2, 2);  // the face 0 2 1 in two, at the middle of edge 0 1
     b.points.push_back({1, 0, 0});

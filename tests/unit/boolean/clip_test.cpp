@@ -140,6 +140,7 @@ TEST_CASE("clip: another open operand is named, and a union refused") {
     open.faces.pop_back();
     const auto result = clipped({sheet(2, 0, 0, 5), open}, "a-b");
     CHECK(result.certificate.open_count == 3);
+    CHECK(result.certificate.boundary_edges == 3);  // of the solid alone
     CHECK(result.certificate.open[0].face.operand == 1);
     CHECK(result.mesh == tf::mesh{});
     const tf::mesh b = box(1, 1, 1);

@@ -26,6 +26,14 @@ std::vector<test::truth_row> truth(const std::filesystem::path& folder) {
     return rows;
 }
 
+/// Malformed, but all that is there is whole triangles: read with a warning.
+bool is_whole(const test::truth_row& r) {
+    const std::string file = r.text("file");
+    return file == "hostile/h_stl_count_max.stl" || file == "hostile/truncated.stl" ||
+           file == "hostile/halfdonut_trailing_byte.stl" ||
+           file == "hostile/invalid_triangle_count.stl";
+}
+
 bool same_bits(const std::vector<tf::point3>& a, const std::vector<tf::point3>& b) {
     if (a.size() != b.size()) return false;
     for (std::size_t v = 0; v < a.size(); ++v)
@@ -48,6 +56,12 @@ TEST_CASE("models: counts are those of the truth, and malformed files are refuse
     for (const test::truth_row& r : truth(folder)) {
         const auto path = folder / r.text("file");
         CAPTURE(path.string());
+        if (is_whole(r)) {
+            const tf::mesh_file file = tf::read(path);
+            CHECK(file.stored_faces == static_cast<std::size_t>(r.number("faces_stored")));
+            CHECK(file.warnings.size() == 1);
+            continue;
+        }
         if (r.text("status") == "malformed") {
             try {
                 (void)tf::read(path);

@@ -85,7 +85,11 @@ TEST_CASE("numbers: what starts no number is refused, and a number ends where it
     CHECK(length("1e+") == 1);
     CHECK(length("1,5") == 1);
     CHECK(length("1.5.2") == 3);
-    CHECK(length("0x10") == 1);
+    CHECK(length("0x10") == 4);
+    CHECK(length("0x1.8p") == 5);
+    CHECK(length("0xg") == 1);
+    CHECK(length("0x") == 1);
+    CHECK(length("0x1p5000") == 1);  // beyond the range: no number in hexadecimal
     CHECK(length("infinit") == 3);
 }
 
@@ -127,6 +131,17 @@ TEST_CASE("numbers: random doubles come back from seventeen digits and from the 
         const auto end = std::to_chars(text, text + 32, value).ptr;
         if (!same_bits(number(std::string(text, end)), value)) REQUIRE(value == 0.0);
     }
+}
+
+TEST_CASE("numbers: random doubles come back from hexadecimal") {
+    std::mt19937_64 random(3);
+    for (int i = 0; i < 100'000; ++i) {
+        const double value = random_double(random);
+        REQUIRE(same_bits(number(printed("%a", value)), value));
+    }
+    CHECK(same_bits(number("-0x0p0"), -0.0));
+    CHECK(number("0x1.00000000000008p0") == 1.0);  // halfway: to even
+    CHECK(number("0x1.00000000000018p0") == 0x1.0000000000002p0);
 }
 
 TEST_CASE("numbers: text as files have it is rounded as std::from_chars does") {

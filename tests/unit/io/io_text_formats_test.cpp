@@ -265,7 +265,7 @@ TEST_CASE("detection: a binary STL is one by its size, whatever its header says"
     stl[80] = 1;
     CHECK(read(stl, "a.stl").format == "stl-binary");
     CHECK(read(stl, "stdin").mesh.faces.size() == 1);
-    CHECK(holds(complaint(stl + "x", "a.stl"), "byte 134: trailing 1 bytes"));
+    CHECK(read(stl + "x", "a.stl").format == "stl-binary");
     stl.resize(stl.size() - 1);
     CHECK(holds(complaint(stl, "a.stl"), "header says 1 triangles, file holds 0"));
 }

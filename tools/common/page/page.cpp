@@ -6,8 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <charconv>
-
 namespace tools {
 namespace {
 
@@ -55,9 +53,12 @@ std::string legend(const page& contents) {
     for (std::size_t k = 0; k < contents.kinds.size(); ++k) {
         const face_kind& kind = contents.kinds[k];
         if (k > 0 && kind.count == 0) continue;
-        text += "<label><input type=\"checkbox\" checked data-kind=\"" + std::to_string(k) +
-                "\"><span class=\"swatch\" style=\"background:" + kind.color + "\"></span>" +
-                escaped(kind.name) + " (" + grouped(kind.count) + ")</label>\n";
+        text +=
+            "<label><input type=\"checkbox\" checked data-kind=\"" + std::to_string(k) +
+            "\"><span class=\"swatch\" style=\"background:" + kind.color + "\"></span>" +
+            escaped(kind.name) + " (" +
+            (k == 0 ? counted(kind.count, "face", "faces") : counted(kind.count, "pair", "pairs")) +
+            ")</label>\n";
     }
     text +=
         "<label><input type=\"checkbox\" checked data-curves> curves</label>\n"
@@ -115,18 +116,6 @@ std::string facts(const page& contents) {
 }
 
 }  // namespace
-
-std::string in_brief(const tf::point3& p) {
-    std::string text = "(";
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        char digits[32];
-        const auto end =
-            std::to_chars(digits, digits + sizeof digits, p[axis], std::chars_format::general, 7)
-                .ptr;
-        text.append(axis == 0 ? "" : ", ").append(digits, end);
-    }
-    return text += ')';
-}
 
 std::string escaped(std::string_view text) {
     std::string out;

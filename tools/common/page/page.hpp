@@ -45,9 +45,6 @@ struct page {
     std::vector<std::pair<std::string, std::string>> facts;
 };
 
-/// For a column of a table: seven digits.
-[[nodiscard]] std::string in_brief(const tf::point3& p);
-
 /// The text of the page, UTF-8. All texts are escaped here.
 [[nodiscard]] std::string html(const page& contents);
 

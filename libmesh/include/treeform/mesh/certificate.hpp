@@ -38,7 +38,7 @@ struct operand_element {
     friend bool operator==(const operand_element&, const operand_element&) = default;
 };
 
-/// A place where a surface ends.
+/// A place where a surface ends, or where its faces do not agree in their orientation.
 struct open_edge {
     operand_element face{};        ///< a face at the edge
     std::array<point3, 2> ends{};  ///< ends of the open part of the edge; rounded where it is cut
@@ -53,9 +53,16 @@ struct TREEFORM_API certificate {
     std::uint64_t meeting_count = 0;
     std::vector<std::array<std::uint32_t, 2>> meeting{};
     std::vector<point3> meeting_at{};  ///< a corner of the first face of each pair in `meeting`
-    /// Edges whose signed face count is not zero. The first 100 of `open_count`.
+    /// Edges whose signed face count is not zero, in pieces where faces cut them. The first 100 of
+    /// `open_count`.
     std::uint64_t open_count = 0;
     std::vector<open_edge> open{};
+    /// The same edges as the operands have them, with equal coordinates joined: those of an odd
+    /// number of faces, where the surface ends, and those of an even number, where faces run the
+    /// same way. Both are 0 where a corner at one lies within another one, for such edges may
+    /// fit together piece by piece.
+    std::uint64_t boundary_edges = 0;
+    std::uint64_t misoriented_edges = 0;
     /// Rounding moved no coordinate of a vertex further than this.
     double max_displacement = 0.0;
     treeform::precision precision = treeform::precision::float64;  ///< of the coordinates

@@ -7,6 +7,7 @@
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/detail/export.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,11 @@ namespace treeform {
 struct face_marks {
     std::vector<std::uint8_t> kind;    ///< [F] 0: in no pair; else 1 + the gravest `pair_kind`
     std::vector<std::int32_t> region;  ///< [F] -1: in no pair
+
+    /// Faces in at least one pair.
+    [[nodiscard]] std::uint64_t marked() const {
+        return kind.size() - static_cast<std::uint64_t>(std::count(kind.begin(), kind.end(), 0));
+    }
 };
 
 /// The marks of `face_count` faces. Crossing is the gravest kind, then pierce, overlap, fold,

@@ -8,6 +8,7 @@
 #include <treeform/tree/tree.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -40,6 +41,17 @@ struct point_location {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<std::array<std::uint32_t, 2>> find_open_edge(
     mesh_view mesh);
+
+/// The number of the first of `tolerances` that closes `mesh` when points are joined as by
+/// `usable_part`: faces with three corners are left, and no open edge. None where joining equal
+/// points does so already, or nothing does.
+///
+/// \pre    the coordinates of corners are finite
+/// \throws std::invalid_argument as `usable_part`
+/// \cost   as `usable_part` for each tolerance that is tried, and a copy of the mesh
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API std::optional<std::size_t> closing_tolerance(
+    mesh_view mesh, std::span<const double> tolerances);
 
 /// Where a point is with respect to a closed mesh.
 ///

@@ -98,4 +98,14 @@ struct topology_counts {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API mesh select_faces(mesh_view mesh, std::span<const std::uint32_t> faces);
 
+/// Whether faces are compared in their order, each from its first corner on.
+enum class face_order : std::uint8_t { kept, any };
+
+/// Whether two meshes have the same faces, by the coordinates of their corners (-0 equals +0, NaN
+/// equals nothing), turned the same way.
+///
+/// \pre  every corner is a point
+/// \cost O(F), and O(F log F) in any order
+[[nodiscard]] TREEFORM_API bool same_triangles(mesh_view a, mesh_view b, face_order order);
+
 }  // namespace treeform

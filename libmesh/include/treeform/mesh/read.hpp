@@ -6,9 +6,12 @@
 #include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace treeform {
 
@@ -20,6 +23,10 @@ namespace treeform {
 /// double. NaN and infinity are kept, so that the caller can report them (`find_defects`).
 ///
 /// - OBJ: `vt` and `vn` are in `attributes::corners`.
+/// - STL: a binary file with a wrong count of triangles is read where all of it is whole triangles,
+///   and one with bytes behind those of the header. Text may have zero bytes between words, and
+///   words after `endloop` and `endfacet`. `mesh_file::warnings` says so.
+/// - PLY: triangle strips, the element "tristrips", come as faces, those that repeat a vertex too.
 /// - PLY: the list "texcoord" of faces is in `attributes::corners` when it has two numbers a
 ///   corner, or none. Lines `comment TextureFile NAME` are in `attributes::texture_files`.
 /// - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
@@ -35,6 +42,18 @@ namespace treeform {
 /// The same for bytes in memory. Errors say `name` in place of the path.
 [[nodiscard]] TREEFORM_API mesh_file read(std::span<const std::byte> bytes, std::string_view name,
                                           std::string_view format);
+
+/// Which files of a folder are meant.
+enum class file_content : std::uint8_t {
+    meshes,            ///< STL, OBJ, PLY, OFF, and where scenes can be read GLB, glTF, 3MF
+    meshes_and_points  ///< also PCD, XYZ, CSV, PTS, ASC
+};
+
+/// `paths` with each folder replaced by the files in it of such a format, by extension, in the
+/// order of their names. What is in folders of the folder is not looked at. A folder without such files
+/// stays, and so does "-".
+[[nodiscard]] TREEFORM_API std::vector<std::string> files_of(std::span<const std::string> paths,
+                                                             file_content content);
 
 /// Whether scenes (GLB, 3MF, DAE, ...) can be read: true unless treeform was built without assimp.
 [[nodiscard]] TREEFORM_API bool reads_scenes();

@@ -1,0 +1,56 @@
+#include <treeform/mesh/read.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using names = std::vector<std::string>;
+using enum tf::file_content;
+
+/// A folder that goes with the object.
+class scratch {
+  public:
+    scratch()
+        : path_(std::filesystem::temp_directory_path() /
+                ("io_files_of_test." + std::to_string(::getpid()))) {
+        std::filesystem::create_directories(path_);
+    }
+    scratch(const scratch&) = delete;
+    scratch& operator=(const scratch&) = delete;
+    ~scratch() { std::filesystem::remove_all(path_); }
+
+    [[nodiscard]] std::string operator/(const std::string& name) const {
+        return (path_ / name).string();
+    }
+    void touch(const std::string& name) const { std::ofstream(path_ / name) << "x"; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+}  // namespace
+
+TEST_CASE("files of a folder: those of a format, by name, and none of what is deeper") {
+    const scratch in;
+    for (const char* const name : {"b.obj", "a.STL", "c.xyz", "notes.txt", "obj", "a10.ply"})
+        in.touch(name);
+    std::filesystem::create_directories(in / "deep.obj");
+    std::filesystem::create_directories(in / "empty");
+    in.touch("deep.obj/d.obj");
+    const names folder{in / ""};
+    CHECK(tf::files_of(folder, meshes) == names{in / "a.STL", in / "a10.ply", in / "b.obj"});
+    CHECK(tf::files_of(folder, meshes_and_points) ==
+          names{in / "a.STL", in / "a10.ply", in / "b.obj", in / "c.xyz"});
+    // Files are as they are named, and in the order in which they are.
+    const names mixed{"-", in / "notes.txt", in / "deep.obj", "missing.stl", in / "empty"};
+    CHECK(tf::files_of(mixed, meshes) ==
+          names{"-", in / "notes.txt", in / "deep.obj/d.obj", "missing.stl", in / "empty"});
+    CHECK(tf::files_of({}, meshes).empty());
+}
