@@ -47,6 +47,8 @@ class part_reader {
         : xml_(xml),
           number_(number),
           core_(prefix_of(xml.root().name())),
+          item_(core_ + "item"),
+          component_(core_ + "component"),
           vertex_(core_ + "vertex"),
           triangle_(core_ + "triangle"),
           model_(model),
@@ -109,7 +111,7 @@ class part_reader {
     }
 
     void read_build(pugi::xml_node root) {
-        for (const pugi::xml_node item : child(root, "build").children((core_ + "item").c_str()))
+        for (const pugi::xml_node item : child(root, "build").children(item_.c_str()))
             model_.items.push_back(read_reference(item));
     }
 
@@ -193,7 +195,7 @@ class part_reader {
         if (!mesh && !components) xml_.fail(node, "has neither a mesh nor components");
         if (mesh && components) xml_.fail(node, "has both a mesh and components");
         if (mesh) read_mesh(node, mesh, object);
-        for (const pugi::xml_node c : components.children((core_ + "component").c_str()))
+        for (const pugi::xml_node c : components.children(component_.c_str()))
             object.components.push_back(read_reference(c));
     }
 
@@ -231,6 +233,8 @@ class part_reader {
     const xml_part& xml_;
     std::uint32_t number_;
     std::string core_;  ///< prefix of the core namespace
+    std::string item_;  ///< names of elements with it
+    std::string component_;
     std::string vertex_;
     std::string triangle_;
     std::map<std::uint32_t, pugi::xml_node> object_of_{};

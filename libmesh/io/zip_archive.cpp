@@ -16,6 +16,7 @@ namespace treeform::detail::io {
 struct zip_archive::stream {
     const source* bytes;
     std::uint64_t at = 0;
+    bool cut_short = false;
 
     static voidpf open(voidpf self, const void*, int) { return self; }
     static uLong read(voidpf self, voidpf, void* to, uLong size) {
@@ -23,6 +24,7 @@ struct zip_archive::stream {
         const std::uint64_t count = std::min<std::uint64_t>(size, s.bytes->size() - s.at);
         if (count > 0) std::memcpy(to, s.bytes->begin() + s.at, count);
         s.at += count;
+        s.cut_short = count < size;
         return static_cast<uLong>(count);
     }
     static uLong write(voidpf, voidpf, const void*, uLong) { return 0; }
@@ -38,7 +40,8 @@ struct zip_archive::stream {
         return 0;
     }
     static int close(voidpf, voidpf) { return 0; }
-    static int error(voidpf, voidpf) { return 0; }
+    /// The library takes what is missing at the end for zeros unless this says otherwise.
+    static int error(voidpf self, voidpf) { return static_cast<stream*>(self)->cut_short ? 1 : 0; }
 };
 
 namespace {
@@ -147,7 +150,7 @@ bool zip_archive::holds(std::string_view name) const {
     return members_.contains(package_name(name));
 }
 
-void zip_archive::check(const std::string& name, const member& m) {
+void zip_archive::check(std::string_view name, const member& m) {
     if ((m.flags & encrypted_flag) != 0) fail(name, "encrypted");
     if (m.method != 0 && m.method != deflated)
         fail(name, "packed by method " + std::to_string(m.method) + "; only deflate is read");
@@ -163,11 +166,11 @@ void zip_archive::check(const std::string& name, const member& m) {
 std::string zip_archive::read(std::string_view name) {
     const auto found = members_.find(package_name(name));
     if (found == members_.end()) fail(name, "is not in the archive");
-    const auto& [plain, m] = *found;
-    check(plain, m);
+    const member& m = found->second;
+    check(name, m);
     const unz64_file_pos place{.pos_in_zip_directory = m.directory_place, .num_of_file = m.number};
     if (unzGoToFilePos64(file_, &place) != UNZ_OK || unzOpenCurrentFile(file_) != UNZ_OK)
-        fail(plain, "its header does not fit the directory of the archive");
+        fail(name, "its header does not fit the directory of the archive");
     std::string bytes;
     // Text of numbers becomes a fifth to a tenth when packed.
     bytes.reserve(static_cast<std::size_t>(std::min(m.size, m.packed * 10)));
@@ -179,10 +182,10 @@ std::string zip_archive::read(std::string_view name) {
         bytes.append(piece.data(), static_cast<std::size_t>(got));
     }
     const int closed = unzCloseCurrentFile(file_);
-    if (got < 0) fail(plain, "cannot be unpacked: damaged");
+    if (got < 0) fail(name, "cannot be unpacked: damaged");
     if (bytes.size() != m.size)
-        fail(plain, "unpacks to other than the " + std::to_string(m.size) + " bytes announced");
-    if (closed != UNZ_OK) fail(plain, "its checksum does not fit: damaged");
+        fail(name, "unpacks to other than the " + std::to_string(m.size) + " bytes announced");
+    if (closed != UNZ_OK) fail(name, "its checksum does not fit: damaged");
     return bytes;
 }
 

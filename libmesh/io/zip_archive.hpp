@@ -49,7 +49,7 @@ class zip_archive {
 
     void list();
     void add_current();
-    void check(const std::string& name, const member& m);
+    void check(std::string_view name, const member& m);
     [[noreturn]] void fail(std::string_view name, std::string_view reason) const;
 
     const source& in_;
