@@ -40,11 +40,12 @@ std::vector<std::array<std::array<double, 3>, 3>> sorted_corners(const tf::mesh&
     return all;
 }
 
-/// GLB is read by others, which renumber points, and has faces by color. Builds without a reader
-/// for it have nothing to look with.
-void look_again_at_glb(const std::filesystem::path& path, const tf::mesh& surface) {
-    if (!tf::reads_scenes()) return;
-    if (sorted_corners(tf::read(path, "glb").mesh) != sorted_corners(surface))
+/// GLB is read by others, which renumber points, and has faces by color; 3MF has them by part.
+/// Builds without a reader for GLB have nothing to look with.
+void look_again_at_scene(const std::filesystem::path& path, const std::string& format,
+                         const tf::mesh& surface) {
+    if (format == "glb" && !tf::reads_scenes()) return;
+    if (sorted_corners(tf::read(path, format).mesh) != sorted_corners(surface))
         throw std::logic_error("the file written does not hold what was certified");
 }
 
@@ -53,7 +54,7 @@ void look_again(const std::filesystem::path& path, const std::string& format,
                 const tf::mesh& surface) {
     std::error_code error;
     if (path == "-" || !std::filesystem::is_regular_file(path, error)) return;
-    if (format == "glb") return look_again_at_glb(path, surface);
+    if (format == "glb" || format == "3mf") return look_again_at_scene(path, format, surface);
     const tf::mesh_file written = tf::read(path, format);
     if (!same_corners(written.mesh, surface) ||
         (written.indexed && written.mesh.faces != surface.faces))

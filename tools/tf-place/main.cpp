@@ -59,8 +59,8 @@ int main(int argc, char** argv) {
                 "MOVING");
     tools::add_options(line, s, options);
     line.group("Common options");
-    tools::add_common_options(line, options,
-                              {.output_formats = {"ply", "obj", "stl", "off", "glb", "xyz"}});
+    tools::add_common_options(
+        line, options, {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf", "xyz"}});
     line.refuse("--html", true, "makes no sense here; measure -o file.ply shows the faces");
     line.epilogue(epilogue);
     return tools::run(
