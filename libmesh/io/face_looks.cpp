@@ -30,8 +30,8 @@ face_looks::face_looks(const mesh_file& file) {
     auto of_points = color_columns(file, "vertex");
     const bool named =
         std::any_of(parts.begin(), parts.end(), [](const part& p) { return !p.material.empty(); });
-    leaves_out_points_ = !of_points.empty() && (named || !of_faces.empty());
-    if (leaves_out_points_) of_points.clear();
+    leaves_out_points_ = named && of_faces.empty() && !of_points.empty();
+    if (leaves_out_points_ || !of_faces.empty()) of_points.clear();
     if (!named && of_faces.empty() && of_points.empty()) return;
     const std::string nameless;
     std::size_t next = 0;
@@ -44,13 +44,13 @@ face_looks::face_looks(const mesh_file& file) {
         if (!material.empty()) {
             look.list = look_list::materials;
             look.entries.fill(material_entry(material, color));
-        } else if (!of_faces.empty()) {
-            look.list = look_list::colors;
-            look.entries.fill(color_entry(color));
         } else if (!of_points.empty()) {
             look.list = look_list::colors;
             for (std::size_t k = 0; k < 3; ++k)
                 look.entries[k] = color_entry(color_of_row(of_points, file.mesh.faces[f][k]));
+        } else {
+            look.list = look_list::colors;
+            look.entries.fill(color_entry(color));
         }
         looks_.push_back(look);
     }

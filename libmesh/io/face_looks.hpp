@@ -24,7 +24,8 @@ struct face_look {
 };
 
 /// The materials of parts with the colors of their faces; else the colors of faces; else the colors
-/// of points, a corner each. Colors are 0xRRGGBBAA.
+/// of points, a corner each. Where only some faces have a look, the others are white. Colors are
+/// 0xRRGGBBAA.
 class face_looks {
   public:
     explicit face_looks(const mesh_file& file);
@@ -35,7 +36,7 @@ class face_looks {
     /// Names and colors, in the order in which triangles first have them.
     [[nodiscard]] const auto& materials() const { return materials_; }
     [[nodiscard]] const std::vector<std::uint32_t>& colors() const { return colors_; }
-    /// Whether points have colors that are not among these.
+    /// Whether points have colors, and faces none, that are not among these.
     [[nodiscard]] bool leaves_out_points() const { return leaves_out_points_; }
 
   private:

@@ -5,7 +5,6 @@
 #include <libmesh/io/zip_builder.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -99,9 +98,8 @@ class model_writer {
         put("</build>\n</model>\n");
         drain();
         if (looks_.leaves_out_points())
-            job_.result.warnings.push_back({"colors-dropped",
-                                            "colors of points left out: faces have colors or "
-                                            "materials"});
+            job_.result.warnings.push_back(
+                {"colors-dropped", "colors of points left out: their faces have materials"});
     }
 
   private:
@@ -148,27 +146,25 @@ class model_writer {
         return list == look_list::materials ? materials_id_ : colors_id_;
     }
 
-    /// Whether all faces of an object look alike, and all corners too; then the object says how.
-    [[nodiscard]] bool looks_alike(const written_object& o) const {
-        const face_look& first = looks_.of(o.part.faces[0]);
-        const face& e = first.entries;
-        return e[0] == e[1] && e[0] == e[2] &&
-               std::all_of(o.part.faces.begin(), o.part.faces.end(),
-                           [&](std::uint32_t f) { return looks_.of(f) == first; });
+    /// The look of an object, which its faces have unless they say otherwise. Readers want one
+    /// wherever a face has a look.
+    [[nodiscard]] face_look usual_look(const written_object& o) const {
+        face_look usual = looks_.of(o.part.faces[0]);
+        usual.entries.fill(usual.entries[0]);
+        return usual;
     }
 
     void put_object(const written_object& o) {
         put("<object id=\"", next_id_++, "\" type=\"model\"");
         if (!o.part.name.empty()) put(" name=\"", xml_text(o.part.name), "\"");
-        const bool alike = looks_alike(o);
-        const face_look& first = looks_.of(o.part.faces[0]);
-        if (alike && first.list != look_list::none)
-            put(" pid=\"", id_of(first.list), "\" pindex=\"", first.entries[0], "\"");
+        const face_look usual = usual_look(o);
+        if (usual.list != look_list::none)
+            put(" pid=\"", id_of(usual.list), "\" pindex=\"", usual.entries[0], "\"");
         put("><mesh>\n<vertices>\n");
         for (const std::uint32_t v : o.points) put_vertex(v);
         put("</vertices>\n<triangles>\n");
         for (std::uint32_t n = 0; n < o.points.size(); ++n) local_[o.points[n]] = n;
-        for (const std::uint32_t f : o.part.faces) put_triangle(f, alike);
+        for (const std::uint32_t f : o.part.faces) put_triangle(f, usual);
         put("</triangles>\n</mesh></object>\n");
         drain();
     }
@@ -184,12 +180,12 @@ class model_writer {
         drain_if_large();
     }
 
-    void put_triangle(std::uint32_t f, bool alike) {
+    void put_triangle(std::uint32_t f, const face_look& usual) {
         const face& corners = job_.file.mesh.faces[f];
         put("<triangle v1=\"", local_[corners[0]], "\" v2=\"", local_[corners[1]], "\" v3=\"",
             local_[corners[2]]);
         const face_look& look = looks_.of(f);
-        if (!alike && look.list != look_list::none) {
+        if (look != usual) {
             const face& e = look.entries;
             put("\" pid=\"", id_of(look.list), "\" p1=\"", e[0]);
             if (e[0] != e[1] || e[0] != e[2]) put("\" p2=\"", e[1], "\" p3=\"", e[2]);

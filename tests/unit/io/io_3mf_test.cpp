@@ -333,6 +333,15 @@ TEST_CASE("3mf: points that no face uses stay") {
     CHECK(read(written(file, tf::precision::float64)).mesh == file.mesh);
 }
 
+TEST_CASE("3mf: faces without a material are white among those that have one") {
+    tf::mesh_file file = scene(1);
+    file.attributes.parts[1].material = "PLA";
+    const tf::mesh_file again = read(written(file));
+    CHECK(again.attributes.parts == file.attributes.parts);
+    CHECK(values(again, "face", "green") == std::vector<int>(12, 255));
+    CHECK(written(again) == written(file));
+}
+
 TEST_CASE("3mf: parts with a point in common are written as one object") {
     tf::mesh_file file = scene(1);
     file.mesh.faces[4][0] = 0;  // the second body hangs on the first
