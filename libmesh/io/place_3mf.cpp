@@ -16,7 +16,7 @@ namespace treeform::detail::io {
 namespace {
 
 constexpr std::size_t deepest_component = 1000;
-constexpr std::uint64_t most_placed = std::uint64_t{1} << 20;
+constexpr std::uint64_t most_placed = std::uint64_t{1} << 18;
 constexpr std::uint64_t most_numbered = std::numeric_limits<std::uint32_t>::max();
 
 /// What an object amounts to with all that is in it.

@@ -19,6 +19,10 @@ namespace {
     return text;
 }
 
+/// Attributes of an element that may declare namespaces. It is asked for many elements within, so
+/// that a hundred thousand would take hours.
+constexpr int most_declarations = 100;
+
 [[nodiscard]] std::string named(const char* attribute, std::string_view value) {
     return std::string(attribute) + "=" + quoted(value.data(), value.data() + value.size());
 }
@@ -87,9 +91,13 @@ std::string_view prefix_of(std::string_view name) {
 std::string_view namespace_of(pugi::xml_node element, std::string_view prefix) {
     const std::string declaration =
         prefix.empty() ? "xmlns" : "xmlns:" + std::string(prefix.substr(0, prefix.size() - 1));
-    for (pugi::xml_node node = element; node; node = node.parent())
-        if (const pugi::xml_attribute found = node.attribute(declaration.c_str()))
-            return found.value();
+    for (pugi::xml_node node = element; node; node = node.parent()) {
+        int seen = 0;
+        for (const pugi::xml_attribute a : node.attributes()) {
+            if (declaration == a.name()) return a.value();
+            if (++seen == most_declarations) break;
+        }
+    }
     return {};
 }
 
