@@ -78,7 +78,8 @@ void refuse_unless_text(const source& in) {
     if (t.starts_with("glTF")) return detected{file_kind::scene, "glb"};
     if (is_binary_stl(in)) return detected{file_kind::stl_binary};
     if (t.starts_with("PK\x03\x04"))
-        return detected{file_kind::scene, extension == "zae" ? "zae" : "3mf"};
+        return extension == "zae" ? detected{file_kind::scene, "zae"}
+                                  : detected{file_kind::package_3mf};
     if (!t.text_done() && is_off_word(t.word())) return detected{file_kind::off};
     return std::nullopt;
 }
@@ -135,6 +136,7 @@ detected detect(const source& in, std::string_view format, std::string_view exte
         if (auto found = by_magic(in, extension)) return *std::move(found);
     if (wanted == "ply") return {file_kind::ply};
     if (wanted == "pcd") return {file_kind::pcd};
+    if (wanted == "3mf") return {file_kind::package_3mf};
     if (wanted == "las" || wanted == "laz") refuse_las(in);
     if (wanted == "stl") return is_binary_stl(in) ? detected{file_kind::stl_binary} : stl_kind(in);
     if (const auto kind = text_kind(wanted)) {

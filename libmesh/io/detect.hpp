@@ -10,7 +10,18 @@
 
 namespace treeform::detail::io {
 
-enum class file_kind : std::uint8_t { stl_binary, stl_text, obj, ply, off, pcd, xyz, csv, scene };
+enum class file_kind : std::uint8_t {
+    stl_binary,
+    stl_text,
+    obj,
+    ply,
+    off,
+    pcd,
+    xyz,
+    csv,
+    package_3mf,
+    scene
+};
 
 struct detected {
     file_kind kind = file_kind::scene;

@@ -6,14 +6,15 @@ namespace treeform::detail::io {
 namespace {
 
 constexpr known_format formats[] = {
-    {"stl", "stl-binary", "stl-ascii", write_stl_binary, write_stl_text, true, nullptr},
-    {"obj", "", "obj", nullptr, write_obj, false, nullptr},
-    {"ply", "ply-binary-le", "ply-ascii", write_ply, write_ply, false, start_ply_points},
-    {"off", "", "off", nullptr, write_off, false, nullptr},
-    {"xyz", "", "xyz", nullptr, write_xyz, false, start_xyz_points},
-    {"csv", "", "csv", nullptr, write_csv, false, start_csv_points},
-    {"pcd", "pcd-binary", "pcd-ascii", write_pcd, write_pcd, false, start_pcd_points},
-    {"glb", "glb", "", write_glb, nullptr, true, nullptr},
+    {"stl", "stl-binary", "stl-ascii", write_stl_binary, write_stl_text, true, false, nullptr},
+    {"obj", "", "obj", nullptr, write_obj, false, false, nullptr},
+    {"ply", "ply-binary-le", "ply-ascii", write_ply, write_ply, false, false, start_ply_points},
+    {"off", "", "off", nullptr, write_off, false, false, nullptr},
+    {"xyz", "", "xyz", nullptr, write_xyz, false, false, start_xyz_points},
+    {"csv", "", "csv", nullptr, write_csv, false, false, start_csv_points},
+    {"pcd", "pcd-binary", "pcd-ascii", write_pcd, write_pcd, false, false, start_pcd_points},
+    {"glb", "glb", "", write_glb, nullptr, true, false, nullptr},
+    {"3mf", "3mf", "", write_3mf, nullptr, false, true, nullptr},
 };
 
 }  // namespace

@@ -20,8 +20,9 @@ struct known_format {
     std::string_view text_name;    ///< empty when there is no text
     writer binary;
     writer text;
-    bool single_only;      ///< the binary kind holds float32 only
-    points_starter start;  ///< for points by runs; null when the format is not of points
+    bool single_only;          ///< the binary kind holds float32 only
+    bool single_unless_asked;  ///< holds doubles, which its readers take for float32
+    points_starter start;      ///< for points by runs; null when the format is not of points
 };
 
 /// \throws io_error when there is none for the options, else for the path

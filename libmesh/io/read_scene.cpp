@@ -208,7 +208,7 @@ class scene_importer : public Assimp::Importer {
 
 bool scene_format(std::string_view extension) {
     // The formats that are read natively are never left to a reader that rounds them.
-    constexpr std::array<std::string_view, 4> native{"stl", "obj", "ply", "off"};
+    constexpr std::array<std::string_view, 5> native{"stl", "obj", "ply", "off", "3mf"};
     if (std::find(native.begin(), native.end(), extension) != native.end()) return false;
     return scene_importer(std::string(extension)).GetImporterCount() > 0;
 }

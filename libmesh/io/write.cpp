@@ -141,12 +141,13 @@ class writing {
         const bool text = detail::io::writes_text(format_, options);
         writer_ = text ? format_.text : format_.binary;
         result_.format = text ? format_.text_name : format_.binary_name;
-        result_.written_as = !text && format_.single_only
-                                 ? precision::float32
-                                 : options.precision.value_or(file.stored_as);
+        const bool single =
+            (!text && format_.single_only) || (format_.single_unless_asked && !options.precision);
+        result_.written_as =
+            single ? precision::float32 : options.precision.value_or(file.stored_as);
         // A node's transform has made doubles of float32 numbers; those are worth keeping.
-        if (!options.precision && result_.written_as == precision::float32 &&
-            !(!text && format_.single_only) && !fits_single(file.mesh.points))
+        if (!options.precision && result_.written_as == precision::float32 && !single &&
+            !fits_single(file.mesh.points))
             result_.written_as = precision::float64;
         if (result_.written_as == precision::float32)
             result_.max_displacement = detail::io::largest_move(file.mesh.points, 0, name_);
@@ -156,7 +157,8 @@ class writing {
                            "precision::float32 where they are made, write a format of doubles, or "
                            "set write_options::round");
         if (file.mesh.faces.empty() && !file.mesh.points.empty() &&
-            (format_.extension == "stl" || format_.extension == "glb"))
+            (format_.extension == "stl" || format_.extension == "glb" ||
+             format_.extension == "3mf"))
             throw io_error(name_ + ": " + std::string(format_.extension) +
                            " holds no points without faces");
     }
@@ -188,7 +190,7 @@ class writing {
 
     void warn_of_materials() {
         const auto& parts = file_.attributes.parts;
-        if (format_.extension != "obj" &&
+        if (format_.extension != "obj" && format_.extension != "3mf" &&
             std::any_of(parts.begin(), parts.end(),
                         [](const part& p) { return !p.material.empty(); }))
             warn_of_loss("materials", "materials");

@@ -56,6 +56,7 @@ void write_ply(const write_job& job);
 void write_off(const write_job& job);
 void write_xyz(const write_job& job);
 void write_glb(const write_job& job);
+void write_3mf(const write_job& job);
 void write_csv(const write_job& job);
 void write_pcd(const write_job& job);
 

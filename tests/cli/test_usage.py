@@ -114,7 +114,7 @@ class Usage(ToolTest):
                       self.run_tool("measure", self.part, "--fixed", "union", status=3).err)
 
     def test_formats_that_are_not_written_are_refused(self):
-        self.assertIn("ply glb", self.refused(self.part, "-o", "m.stl"))
+        self.assertIn("ply glb 3mf", self.refused(self.part, "-o", "m.stl"))
         self.refused(self.part, "-o", "m.ply", "--output-format", "stl")
 
     def test_values_are_checked(self):

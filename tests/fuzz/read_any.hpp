@@ -23,7 +23,8 @@ inline int read_any(const std::uint8_t* data, std::size_t size, const char* form
         // Packed points can be more than bytes, but no more often than that; and of scenes many
         // nodes may show one mesh.
         constexpr std::size_t most_ratio = 32;
-        if (std::string_view(format) != "glb" &&
+        const bool scene = std::string_view(format) == "glb" || std::string_view(format) == "3mf";
+        if (!scene &&
             (file.mesh.points.size() / most_ratio > size || file.mesh.faces.size() > size))
             std::abort();
         for (const face& f : file.mesh.faces)

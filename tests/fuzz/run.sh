@@ -24,7 +24,7 @@ done
 shift $((OPTIND - 1))
 targets=("$@")
 ((${#targets[@]})) || targets=(
-    read_stl read_obj read_ply read_off read_pcd read_xyz read_csv read_glb
+    read_stl read_obj read_ply read_off read_pcd read_xyz read_csv read_glb read_3mf
     predicates implicit_points triangle_triangle self_intersections boolean repair weld
     tool_selfintersect tool_weld tool_boolean tool_place)
 
@@ -42,7 +42,7 @@ printf '%-20s %12s %9s %8s  %s\n' target runs runs/s inputs outcome
 for target in "${targets[@]}"; do
     formats=()
     [[ $target == read_* ]] && formats=("${target#read_}")
-    [[ $target == tool_* ]] && formats=(stl obj ply off pcd xyz csv glb)
+    [[ $target == tool_* ]] && formats=(stl obj ply off pcd xyz csv glb 3mf)
     more=()
     for format in "${formats[@]}"; do
         files=$seeds/files-$format

@@ -6,6 +6,7 @@
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 
+#include <support/packages.hpp>
 #include <support/stress_families.hpp>
 #include <support/stress_meshes.hpp>
 
@@ -27,7 +28,7 @@ namespace {
 
 using tf::test::stress_family;
 
-constexpr std::array formats{"csv", "glb", "obj", "off", "pcd", "ply", "stl", "xyz"};
+constexpr std::array formats{"3mf", "csv", "glb", "obj", "off", "pcd", "ply", "stl", "xyz"};
 constexpr std::array deciders{
     "predicates", "implicit_points", "triangle_triangle", "self_intersections", "boolean", "repair",
     "weld"};
@@ -162,6 +163,35 @@ std::vector<std::array<std::string, 3>> odd_files() {
     return all;
 }
 
+/// Model parts of 3MF packages, with what treeform does not write itself.
+void write_model_parts(const std::filesystem::path& to) {
+    const std::string leaf = "<object id=\"1\" name=\"a\">" + test::tetrahedron_3mf + "</object>";
+    const std::string item = "<item objectid=\"2\" transform=\"0 1 0 -1 0 0 0 0 1 5 .5 -5e-1\"/>";
+    const auto model = [](const std::string& resources, const std::string& items) {
+        return test::model_text(
+            "<resources>" + resources + "</resources><build>" + items + "</build>",
+            " unit=\"inch\" requiredextensions=\"p m\"");
+    };
+    write(to / "model-components",
+          model(leaf + "<object id=\"2\" partnumber=\"b\"><components><component objectid=\"1\"/>"
+                       "<component objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 0 0 0\"/>"
+                       "</components></object>",
+                item + "<item objectid=\"1\" partnumber=\"c\"/>"));
+    std::string colored = leaf;
+    colored.replace(colored.find(" name"), 0, " pid=\"5\" pindex=\"1\"");
+    colored.insert(colored.find(" v1="), " pid=\"6\" p1=\"0\" p2=\"1\" p3=\"0\"");
+    colored.insert(colored.rfind(" v1="), " pid=\"7\" p1=\"0\"");
+    write(to / "model-colors",
+          model("<basematerials id=\"5\"><base name=\"x\" displaycolor=\"#102030\"/>"
+                "<base name=\"y\" displaycolor=\"#10203040\"/></basematerials>"
+                "<m:colorgroup id=\"6\"><m:color color=\"#FFFFFF\"/><m:color color=\"#000000\"/>"
+                "</m:colorgroup><m:texture2dgroup id=\"7\" texid=\"8\">"
+                "<m:tex2coord u=\"0\" v=\"1\"/></m:texture2dgroup>" +
+                    colored,
+                "<item objectid=\"1\"/>"));
+    write(to / "model-path", model(leaf, "<item objectid=\"1\" p:path=\"/3D/3dmodel.model\"/>"));
+}
+
 void write_seeds(const std::filesystem::path& folder) {
     const auto folder_of = [&](const std::string& target) {
         std::filesystem::create_directories(folder / "new" / target);
@@ -177,6 +207,7 @@ void write_seeds(const std::filesystem::path& folder) {
                 write(to / (std::string(name_of(family)) + (ascii ? "-ascii" : "")),
                       write_to_memory(file, {.format = format, .ascii = ascii}));
         }
+        if (format == std::string_view("3mf")) write_model_parts(to);
         const tf::mesh_file textured =
             with_corner_values(stress_mesh(static_cast<stress_family>(0), 12, 1));
         if (format == std::string_view("obj") || format == std::string_view("ply"))

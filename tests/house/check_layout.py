@@ -39,6 +39,7 @@ ROOM_OF_HEADER = {"as_mesh": "weld", "properties": "topology"}
 HOME_OF_PACKAGE = {
     r"(tbb|oneapi)/": "libtree/base/parallel.cpp",
     r"assimp/": "libmesh/io/",
+    r"(pugixml|pugiconfig|minizip/|zlib\.h|zconf\.h)": "libmesh/io/",
     r"Eigen/": "libmesh/place/",
     r"(CGAL/|gmp|mpfr)": "tests/",
 }

@@ -22,6 +22,8 @@ struct written_form {
     [[nodiscard]] bool single_only() const {
         return format == "glb" || (format == "stl" && !ascii);
     }
+    /// Whether its readers make float32 of what they read, so that doubles have to be asked for.
+    [[nodiscard]] bool single_unless_asked() const { return format == "3mf"; }
 };
 
 /// How what is made of `input` is written to `path`: as the options or the extension say; in place,

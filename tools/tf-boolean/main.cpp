@@ -239,7 +239,8 @@ int main(int argc, char** argv) {
     add_what_to_give_back(line, s, options);
     line.group("Common options");
     tools::add_common_options(
-        line, options, {.output_formats = {"ply", "obj", "stl", "off", "glb"}, .one_result = true});
+        line, options,
+        {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"}, .one_result = true});
     line.refuse("--html", true, "makes no sense here");
     line.epilogue(epilogue);
     return tools::run(

@@ -60,8 +60,8 @@ int main(int argc, char** argv) {
     options.content = tf::file_content::meshes_and_points;
     tools::add_options(line, s, options);
     line.group("Common options");
-    tools::add_common_options(line, options,
-                              {.output_formats = {"ply", "obj", "stl", "off", "glb", "xyz"}});
+    tools::add_common_options(
+        line, options, {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf", "xyz"}});
     line.refuse("--html", true, "makes no sense here; measure -o file.ply shows the faces");
     line.epilogue(epilogue);
     return tools::run(

@@ -138,7 +138,7 @@ void check_request(const command_line& line, request& r, common_options& options
         refuse("--repair looks at the whole mesh: no --first, --between, --within or --box");
     if (options.in_place && !r.repairs)
         refuse("--in-place: without --repair this tool changes no mesh; -o writes a marked copy");
-    if (!r.repairs) options.mesh_formats = {"ply", "glb"};  // that can hold marks
+    if (!r.repairs) options.mesh_formats = {"ply", "glb", "3mf"};  // that can hold marks
     if (!options.output.empty()) static_cast<void>(tools::mesh_format(options, options.output));
     if (!tools::wants_mesh(options)) {
         if (options.ascii || options.binary || !options.output_format.empty() ||
@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
     add_repair(line, r);
     line.group("Common options");
     tools::add_common_options(line, options,
-                              {.output_formats = {"ply", "glb", "obj", "stl", "off"}});
+                              {.output_formats = {"ply", "glb", "3mf", "obj", "stl", "off"}});
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "tree", "pairs", "regions", "repair", "write"}, argc,

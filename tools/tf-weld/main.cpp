@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
     line.group("Common options");
     tools::add_common_options(
         line, options,
-        {.output_formats = {"ply", "obj", "stl", "off", "glb", "pcd", "xyz", "csv"}});
+        {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf", "pcd", "xyz", "csv"}});
     line.refuse("--html", true, "makes no sense here: pages show faces; -o file.ply shows points");
     line.epilogue(epilogue);
     return tools::run(

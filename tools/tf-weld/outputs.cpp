@@ -60,7 +60,7 @@ std::array<char, 8> little_endian(std::uint64_t number) {
 }
 
 void refuse_label_format(const std::filesystem::path& path, const std::string& format) {
-    if (format == "stl" || format == "obj" || format == "off" || format == "glb")
+    if (format == "stl" || format == "obj" || format == "off" || format == "glb" || format == "3mf")
         throw failure(
             bad_usage, "usage",
             path.string() + ": --label needs a format with properties: ply, pcd, xyz, csv");

@@ -6,6 +6,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/packages.hpp>
 
 #include <cstdint>
 #include <cstring>
@@ -104,66 +105,6 @@ std::string refusal(const std::string& bytes, const std::string& name) {
     }
 }
 
-std::string little_endian(std::size_t value, int bytes) {
-    std::string text;
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xff);
-    return text;
-}
-
-std::size_t crc32(const std::string& bytes) {
-    std::uint32_t crc = ~0U;
-    for (const char c : bytes) {
-        crc ^= static_cast<unsigned char>(c);
-        for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1) != 0 ? 0xedb88320U : 0U);
-    }
-    return ~crc;
-}
-
-/// A zip archive that stores its members as they are.
-std::string zip_of(const std::vector<sample>& members) {
-    std::string local;
-    std::string directory;
-    for (const sample& m : members) {
-        const std::string about =
-            little_endian(20, 2) + std::string(8, '\0') + little_endian(crc32(m.bytes), 4) +
-            little_endian(m.bytes.size(), 4) + little_endian(m.bytes.size(), 4) +
-            little_endian(m.name.size(), 2) + little_endian(0, 2);
-        directory += "PK\x01\x02" + little_endian(20, 2) + about + std::string(10, '\0') +
-                     little_endian(local.size(), 4) + m.name;
-        local += "PK\x03\x04" + about + m.name + m.bytes;
-    }
-    const std::string count = little_endian(members.size(), 2);
-    return local + directory + "PK\x05\x06" + std::string(4, '\0') + count + count +
-           little_endian(directory.size(), 4) + little_endian(local.size(), 4) +
-           std::string(2, '\0');
-}
-
-/// A tetrahedron.
-std::string small_3mf() {
-    return zip_of(
-        {{"[Content_Types].xml",
-          "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">"
-          "<Default Extension=\"rels\" "
-          "ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>"
-          "<Default Extension=\"model\" "
-          "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/></Types>"},
-         {"_rels/.rels",
-          "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"
-          "<Relationship Target=\"/3D/3dmodel.model\" Id=\"r\" "
-          "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>"
-          "</Relationships>"},
-         {"3D/3dmodel.model",
-          "<model unit=\"millimeter\" "
-          "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"><resources>"
-          "<object id=\"1\" type=\"model\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/>"
-          "<vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" z=\"0\"/>"
-          "<vertex x=\"0\" y=\"0\" z=\"1\"/></vertices><triangles>"
-          "<triangle v1=\"0\" v2=\"2\" v3=\"1\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/>"
-          "<triangle v1=\"1\" v2=\"2\" v3=\"3\"/><triangle v1=\"2\" v2=\"0\" v3=\"3\"/>"
-          "</triangles></mesh></object></resources><build><item objectid=\"1\"/></build>"
-          "</model>"}});
-}
-
 }  // namespace
 
 TEST_CASE("hostile: a file cut after any byte is read or refused") {
@@ -237,35 +178,14 @@ TEST_CASE("hostile: counts that the bytes cannot hold are refused before room is
     CHECK_FALSE(reads(stl + "x", "a.stl"));
 }
 
-TEST_CASE("hostile: a 3MF with damaged, lost or missing parts is read or refused by its name") {
-    if (!tf::reads_scenes()) return;
-    const std::string whole = small_3mf();
-    REQUIRE(tf::read(std::as_bytes(std::span(whole)), "a.3mf", {}).mesh.faces.size() == 4);
-    const auto check = [](const std::string& bytes) {
-        const std::string said = refusal(bytes, "a.3mf");
-        CHECK((said.empty() || said.starts_with("a.3mf: ")));
-        CHECK(said.find("$$$") == std::string::npos);
-        return !said.empty();
-    };
-    std::size_t refused = 0;
-    for (std::size_t at = 0; at < whole.size(); ++at) {
-        std::string bytes = whole;
-        bytes[at] = static_cast<char>(~bytes[at]);
-        refused += check(bytes) ? 1U : 0U;
-        if (at % 16 == 4) CHECK(check(whole.substr(0, at)));
-    }
-    CHECK(refused > 100);
-    CHECK(check(zip_of({})));
-    CHECK(check(zip_of({{"a.txt", "a"}})));
-}
-
 TEST_CASE(
     "hostile: glTF that nests without end is refused at a byte, brackets in strings are not") {
     if (!tf::reads_scenes()) return;
     const std::string deep(200'000, '[');
     CHECK(refusal(deep, "a.gltf").starts_with("a.gltf: byte 500: "));
-    const std::string glb = "glTF" + little_endian(2, 4) + little_endian(20 + deep.size(), 4) +
-                            little_endian(deep.size(), 4) + "JSON" + deep;
+    const std::string glb = "glTF" + test::little_endian(2, 4) +
+                            test::little_endian(20 + deep.size(), 4) +
+                            test::little_endian(deep.size(), 4) + "JSON" + deep;
     CHECK(refusal(glb, "a.glb").starts_with("a.glb: byte 520: "));
     CHECK(refusal(glb.substr(0, 300), "a.glb") == "a.glb: cut short");
     CHECK(refusal(glb.substr(0, 18), "a.glb") == "a.glb: cut short");
@@ -346,11 +266,11 @@ TEST_CASE("hostile: XML, FBX and DirectX that nest without end are refused, wide
     for (const int width : {4, 8}) {
         const auto binary = [&](std::size_t levels) {
             std::string bytes = "Kaydara FBX Binary  " + std::string("\0\x1a\0", 3) +
-                                little_endian(width == 8 ? 7500 : 7400, 4);
+                                test::little_endian(width == 8 ? 7500 : 7400, 4);
             const std::size_t record = width == 8 ? 26 : 14, total = bytes.size() + levels * record;
             for (std::size_t i = 0; i < levels; ++i)
-                bytes +=
-                    little_endian(total, width) + std::string(width == 8 ? 16 : 8, '\0') + "\1A";
+                bytes += test::little_endian(total, width) +
+                         std::string(width == 8 ? 16 : 8, '\0') + "\1A";
             return bytes;
         };
         CHECK(deep(binary(100'000), "a.fbx"));

@@ -16,8 +16,8 @@
 namespace treeform {
 
 /// Reads the file at `path`; "-" is standard input. `format` is an extension without its dot
-/// ("stl", "obj", "ply", "off", "pcd", "xyz", "csv", "glb", ...). When it is empty, the content
-/// decides, then the extension.
+/// ("stl", "obj", "ply", "off", "pcd", "xyz", "csv", "3mf", "glb", ...). When it is empty, the
+/// content decides, then the extension.
 ///
 /// Coordinates are as stored: float32 widened to double, decimal text rounded once to the nearest
 /// double. NaN and infinity are kept, so that the caller can report them (`find_defects`).
@@ -34,6 +34,15 @@ namespace treeform {
 /// - PCD: a field of several values becomes columns "name[0]", "name[1]", ... WIDTH, HEIGHT and
 ///   VIEWPOINT of an organized cloud become lines of `attributes::obj_info`: "num_cols 640",
 ///   "num_rows 480", "viewpoint 0 0 0 1 0 0 0".
+/// - 3MF: the build. Each mesh that an item shows, itself or through components, is a part with a
+///   name of its own ("gear", "gear (2)"), where the transforms put it; mirrored ones have their
+///   faces turned, so that they are not inside out. Supports and surfaces are read as models are,
+///   objects of the type "other" and those outside the build are not. Items and components may be in
+///   other model parts of the package. Base materials are materials of parts, and their colors and
+///   those of color groups become columns red, green, blue and alpha of faces, or of points where
+///   corners have colors of their own. Texture coordinates are in `attributes::corners`; images are
+///   not read. Coordinates are in the unit of the file, which is a line of `attributes::obj_info`:
+///   "unit millimeter". Extensions that a file requires and that would change its shape are refused.
 ///
 /// \throws io_error naming path, line or byte, and reason
 [[nodiscard]] TREEFORM_API mesh_file read(const std::filesystem::path& path,
@@ -45,7 +54,7 @@ namespace treeform {
 
 /// Which files of a folder are meant.
 enum class file_content : std::uint8_t {
-    meshes,            ///< STL, OBJ, PLY, OFF, and where scenes can be read GLB, glTF, 3MF
+    meshes,            ///< STL, OBJ, PLY, OFF, 3MF, and where scenes can be read GLB, glTF
     meshes_and_points  ///< also PCD, XYZ, CSV, PTS, ASC
 };
 
@@ -55,7 +64,7 @@ enum class file_content : std::uint8_t {
 [[nodiscard]] TREEFORM_API std::vector<std::string> files_of(std::span<const std::string> paths,
                                                              file_content content);
 
-/// Whether scenes (GLB, 3MF, DAE, ...) can be read: true unless treeform was built without assimp.
+/// Whether scenes (GLB, DAE, ...) can be read: true unless treeform was built without assimp.
 [[nodiscard]] TREEFORM_API bool reads_scenes();
 
 }  // namespace treeform

@@ -16,14 +16,15 @@ namespace treeform {
 
 /// How to write.
 struct write_options {
-    /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, glb. Empty: that of the path.
+    /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, glb, 3mf. Empty: that of
+    /// the path.
     std::string format{};
     /// Write text when the format has text and binary. Binary PLY is little endian unless the file
     /// was read from a big endian one. PCD is compressed only when it was read from a compressed
     /// one.
     bool ascii = false;
     /// Precision of the coordinates; none: as they were stored. Binary STL and GLB hold float32
-    /// only.
+    /// only. 3MF holds doubles, but its readers make floats of them: none is float32 there.
     std::optional<treeform::precision> precision{};
     /// Allow further rounding of certified coordinates, which can undo what was certified.
     /// Coordinates without a certificate are always rounded to the precision.
@@ -57,6 +58,10 @@ struct write_result {
 /// - GLB: one primitive for each color of faces (columns red, green, blue and alpha, if any, of the
 ///   element "face"). Other columns of faces with whole numbers from 0 on become accessors that the
 ///   primitive's `extras.face_properties` names.
+/// - 3MF: an object and an item of the build for each of `scene_parts`, with its name; materials of
+///   parts with the colors of their faces; else colors of faces, else of points; the line "unit ..."
+///   of `obj_info`, else millimeters. Polygons are written as triangles. A number in text is that of
+///   the double, so that readers of floats and of doubles get the same.
 ///
 /// A warning says when values of corners, materials or names of texture files are lost.
 ///

@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// Materials and colors of triangles as entries of lists, for formats that refer to them by number.
+
+#include <libmesh/io/writers.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace treeform::detail::io {
+
+/// Which list the corners of a triangle refer to.
+enum class look_list : std::uint8_t { none, materials, colors };
+
+struct face_look {
+    look_list list = look_list::none;
+    face entries{};  ///< of the corners
+
+    friend bool operator==(const face_look&, const face_look&) = default;
+};
+
+/// The materials of parts with the colors of their faces; else the colors of faces; else the colors
+/// of points, a corner each. Where only some faces have a look, the others are white. Colors are
+/// 0xRRGGBBAA.
+class face_looks {
+  public:
+    explicit face_looks(const mesh_file& file);
+
+    [[nodiscard]] const face_look& of(std::uint32_t triangle) const {
+        return looks_.empty() ? none_ : looks_[triangle];
+    }
+    /// Names and colors, in the order in which triangles first have them.
+    [[nodiscard]] const auto& materials() const { return materials_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& colors() const { return colors_; }
+    /// Whether points have colors, and faces none, that are not among these.
+    [[nodiscard]] bool leaves_out_points() const { return leaves_out_points_; }
+
+  private:
+    [[nodiscard]] std::uint32_t color_entry(std::uint32_t color);
+    [[nodiscard]] std::uint32_t material_entry(const std::string& name, std::uint32_t color);
+
+    face_look none_{};
+    std::vector<face_look> looks_{};
+    std::vector<std::pair<std::string, std::uint32_t>> materials_{};
+    std::vector<std::uint32_t> colors_{};
+    std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> number_of_material_{};
+    std::map<std::uint32_t, std::uint32_t> number_of_color_{};
+    bool leaves_out_points_ = false;
+};
+
+}  // namespace treeform::detail::io

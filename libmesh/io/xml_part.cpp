@@ -1,0 +1,104 @@
+#include <libmesh/io/number.hpp>
+#include <libmesh/io/text.hpp>
+#include <libmesh/io/xml_part.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <utility>
+
+namespace treeform::detail::io {
+
+namespace {
+
+/// A value without the blanks around it, which XML says mean nothing in numbers.
+[[nodiscard]] std::string_view trimmed(const char* value) {
+    std::string_view text(value);
+    while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+/// Attributes of an element that may declare namespaces. It is asked for many elements within, so
+/// that a hundred thousand would take hours.
+constexpr int most_declarations = 100;
+
+[[nodiscard]] std::string named(const char* attribute, std::string_view value) {
+    return std::string(attribute) + "=" + quoted(value.data(), value.data() + value.size());
+}
+
+}  // namespace
+
+xml_part::xml_part(const source& in, std::string_view name, std::string text)
+    : in_(in), name_(name), text_(std::move(text)) {
+    constexpr unsigned what =
+        pugi::parse_escapes | pugi::parse_wconv_attribute | pugi::parse_doctype;
+    const pugi::xml_parse_result result =
+        document_.load_buffer_inplace(text_.data(), text_.size(), what);
+    if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
+    if (!result)
+        fail("byte " + std::to_string(result.offset) + ": no XML: " + result.description());
+    for (const pugi::xml_node node : document_.children())
+        if (node.type() == pugi::node_doctype)
+            fail("a document type, which may define entities, is not read");
+}
+
+const char* xml_part::required(pugi::xml_node element, const char* attribute) const {
+    const pugi::xml_attribute found = element.attribute(attribute);
+    if (!found) fail(element, "has no " + std::string(attribute));
+    return found.value();
+}
+
+double xml_part::number(pugi::xml_node element, const char* attribute) const {
+    const std::string_view value = trimmed(required(element, attribute));
+    const char* const end = value.data() + value.size();
+    const parsed<double> number = parse_number(value.data(), end);
+    if (number.end != end) fail(element, named(attribute, value) + " is no number");
+    if (!std::isfinite(number.value)) fail(element, named(attribute, value) + " is not finite");
+    return number.value;
+}
+
+std::uint32_t xml_part::integer(pugi::xml_node element, const char* attribute) const {
+    const std::string_view value = trimmed(required(element, attribute));
+    const char* const end = value.data() + value.size();
+    const parsed<std::int64_t> number = parse_integer(value.data(), end);
+    if (number.end != end || number.value < 0 || number.value > 0x7fffffff)
+        fail(element, named(attribute, value) + " is no number from 0 to 2147483647");
+    return static_cast<std::uint32_t>(number.value);
+}
+
+std::optional<std::uint32_t> xml_part::optional_integer(pugi::xml_node element,
+                                                        const char* attribute) const {
+    if (!element.attribute(attribute)) return std::nullopt;
+    return integer(element, attribute);
+}
+
+void xml_part::fail(pugi::xml_node at, std::string_view reason) const {
+    const std::string_view name = at.name();
+    fail("byte " + std::to_string(at.offset_debug()) + ": <" + std::string(name.substr(0, 40)) +
+         "> " + std::string(reason));
+}
+
+void xml_part::fail(std::string_view reason) const { in_.fail(name_ + ": " + std::string(reason)); }
+
+std::string_view local_name(std::string_view name) { return name.substr(prefix_of(name).size()); }
+
+std::string_view prefix_of(std::string_view name) {
+    const std::size_t colon = name.find(':');
+    return colon == name.npos ? std::string_view() : name.substr(0, colon + 1);
+}
+
+std::string_view namespace_of(pugi::xml_node element, std::string_view prefix) {
+    const std::string declaration =
+        prefix.empty() ? "xmlns" : "xmlns:" + std::string(prefix.substr(0, prefix.size() - 1));
+    for (pugi::xml_node node = element; node; node = node.parent()) {
+        int seen = 0;
+        for (const pugi::xml_attribute a : node.attributes()) {
+            if (declaration == a.name()) return a.value();
+            if (++seen == most_declarations) break;
+        }
+    }
+    return {};
+}
+
+}  // namespace treeform::detail::io
