@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <functional>
 #include <map>
 #include <set>
@@ -24,7 +25,7 @@ constexpr std::size_t longest_object_name = 1024;
 /// named.
 struct needed_objects {
     std::vector<std::string> parts{};
-    std::vector<std::set<std::uint32_t>> ids{};
+    std::deque<std::set<std::uint32_t>> ids{};  ///< stay where they are as parts are added
     std::map<std::string, std::uint32_t, std::less<>> numbers{};
 
     std::uint32_t number_of(std::string_view path) {

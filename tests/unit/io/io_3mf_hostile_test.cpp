@@ -259,9 +259,7 @@ TEST_CASE("3mf hostile: objects in themselves, deep ones and multitudes are refu
     CHECK(refusal(model(chain(900, 1), item(900))).empty());
     CHECK(says(refusal(model(chain(5000, 1), item(5000))), "components deep"));
     // Each object known before the one around it: no level of the search is deep.
-    std::string items;
-    for (int id = 1; id <= 5000; ++id) items += item(id);
-    CHECK(says(refusal(model(chain(5000, 1), items)), "components deep"));
+    CHECK(says(refusal(model(chain(1100, 1), item(900) + item(1100))), "components deep"));
     CHECK(refusal(model(chain(10, 2), item(10))).empty());
     CHECK(says(refusal(model(chain(64, 2), item(64))), "objects that the build places"));
     CHECK(says(refusal(model(chain(64, 10), item(64))), "objects that the build places"));
