@@ -19,8 +19,8 @@ template <std::size_t N>
 }
 
 [[nodiscard]] bool is_of(const fs::path& path, file_content content) {
-    constexpr std::array<std::string_view, 4> meshes{"stl", "obj", "ply", "off"};
-    constexpr std::array<std::string_view, 3> scenes{"glb", "gltf", "3mf"};
+    constexpr std::array<std::string_view, 5> meshes{"stl", "obj", "ply", "off", "3mf"};
+    constexpr std::array<std::string_view, 2> scenes{"glb", "gltf"};
     constexpr std::array<std::string_view, 5> points{"pcd", "xyz", "csv", "pts", "asc"};
     const std::string extension = detail::io::extension_of(path);
     return is_among(meshes, extension) || (is_among(scenes, extension) && reads_scenes()) ||

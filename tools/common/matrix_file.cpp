@@ -14,17 +14,6 @@
 #include <string_view>
 
 namespace tools {
-namespace {
-
-void put_number(std::string& text, double value) {
-    std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                   std::chars_format::general, 17)
-                         .ptr;
-    text.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
-}
-
-}  // namespace
 
 tf::transform<3> read_matrix(const std::filesystem::path& path) {
     if (path.empty()) return {};
@@ -57,9 +46,11 @@ tf::transform<3> read_matrix(const std::filesystem::path& path) {
 
 std::string matrix_text(const tf::transform<3>& matrix) {
     std::string text;
+    std::array<char, 32> digits;
+    char* const at = digits.data();
     for (const auto& row : matrix.rows)
         for (std::size_t j = 0; j < 4; ++j) {
-            put_number(text, row[j]);
+            text.append(at, std::to_chars(at, at + 32, row[j], std::chars_format::general, 17).ptr);
             text += j == 3 ? '\n' : ' ';
         }
     return text + "0 0 0 1\n";

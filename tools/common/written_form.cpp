@@ -33,10 +33,9 @@ bool is_single(const tf::mesh_file& file) {
 tf::precision written_precision(const common_options& options,
                                 const std::optional<written_form>& form,
                                 std::span<const tf::mesh_file* const> inputs) {
+    const auto is_kept = [](const tf::mesh_file* file) { return is_single(*file); };
     const bool keeps_single =
-        (form && form->single_unless_asked()) ||
-        std::all_of(inputs.begin(), inputs.end(),
-                    [](const tf::mesh_file* file) { return is_single(*file); });
+        (form && form->single_unless_asked()) || std::ranges::all_of(inputs, is_kept);
     const bool single = (form && form->single_only()) || options.precision == "float" ||
                         (options.precision == "keep" && keeps_single);
     return single ? tf::precision::float32 : tf::precision::float64;
