@@ -170,7 +170,7 @@ class part_reader {
             skip();
             const parsed<double> number = parse_number(at, end);
             if (number.end == nullptr || (number.end < end && !is_space(*number.end)) ||
-                !std::isfinite(number.value))
+                !std::isfinite(number.value) || number.hexadecimal)
                 xml_.fail(user, "has a transform that is not twelve finite numbers");
             x = number.value;
             at = number.end;

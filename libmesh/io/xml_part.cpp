@@ -53,7 +53,8 @@ double xml_part::number(pugi::xml_node element, const char* attribute) const {
     const std::string_view value = trimmed(required(element, attribute));
     const char* const end = value.data() + value.size();
     const parsed<double> number = parse_number(value.data(), end);
-    if (number.end != end) fail(element, named(attribute, value) + " is no number");
+    if (number.end != end || number.hexadecimal)  // which the format does not know
+        fail(element, named(attribute, value) + " is no number");
     if (!std::isfinite(number.value)) fail(element, named(attribute, value) + " is not finite");
     return number.value;
 }
