@@ -20,20 +20,20 @@ struct open_edge_of_input {
 };
 
 /// The faces of an operand at an edge, seen from its lower end.
-struct edge_use {
+struct open_edge_use {
     std::uint32_t operand = 0;
     std::uint32_t end = 0;
     int way = 0;
 
-    [[nodiscard]] bool same_edge(const edge_use& other) const {
+    [[nodiscard]] bool same_edge(const open_edge_use& other) const {
         return operand == other.operand && end == other.end;
     }
-    friend auto operator<=>(const edge_use&, const edge_use&) = default;
+    friend auto operator<=>(const open_edge_use&, const open_edge_use&) = default;
 };
 
 /// The edges from `a` to higher points.
 void collect_uses(mesh_view joined, std::span<const std::uint32_t> operand_of_face, std::uint32_t a,
-                  std::span<const std::uint32_t> star, std::vector<edge_use>& uses) {
+                  std::span<const std::uint32_t> star, std::vector<open_edge_use>& uses) {
     uses.clear();
     for (const std::uint32_t id : star) {
         const face& f = joined.faces[id];
@@ -51,7 +51,7 @@ std::vector<open_edge_of_input> find_edges(mesh_view joined,
                                            std::uint32_t sheet) {
     const base::stars stars(joined.points.size(), joined.faces);
     std::vector<open_edge_of_input> found;
-    std::vector<edge_use> uses;
+    std::vector<open_edge_use> uses;
     for (std::size_t v = 0; v < stars.size(); ++v) {
         const auto a = static_cast<std::uint32_t>(v);
         collect_uses(joined, operand_of_face, a, stars[v], uses);
