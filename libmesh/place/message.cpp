@@ -30,7 +30,7 @@ std::string too_far(const placement& p) {
 /// "touching bed.stl", and the first pair of faces that meet.
 std::string meeting_in_words(const placement& at, const body_set& moving, const body_set& fixed) {
     const nearest_fixed& near = *at.nearest;
-    const std::string text = name_of(at.at_place) + (" " + fixed.label(near.fixed));
+    std::string text = name_of(at.at_place) + (" " + fixed.label(near.fixed));
     const mesh_relation_result& how = near.how.relation;
     if (how.a_inside_b) return text + ", inside it";
     if (how.b_inside_a) return text + ", which is inside";
@@ -55,7 +55,7 @@ const char* name_of(standing how) {
 }
 
 std::string relation_in_words(const placement& at, const body_set& moving, const body_set& fixed) {
-    const std::string how = name_of(at.at_place);
+    std::string how = name_of(at.at_place);
     if (at.on_bed) return how + (at.at_place == standing::clear ? " of the bed" : " the bed");
     if (!at.nearest) return how;
     if (at.at_place == standing::touching || at.at_place == standing::penetrating)

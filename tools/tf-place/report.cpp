@@ -106,7 +106,7 @@ void enter_skipped(json& entry, const placing& p) {
 /// What has become of MOVING.
 std::string sentence(const placing& p) {
     const tf::placement& at = p.at;
-    const std::string relation = tf::relation_in_words(at, p.moving, p.fixed);
+    std::string relation = tf::relation_in_words(at, p.moving, p.fixed);
     if (!at) {
         const bool why = at.at_place == tf::standing::penetrating && at.nearest;
         return "not placed: " + p.reason + (why ? " (" + relation + ")" : "");
