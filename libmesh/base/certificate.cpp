@@ -53,6 +53,12 @@ std::string vanished_message(const certificate& c) {
            (c.precision == precision::float32 ? "float32" : "double") + " numbers tell apart there";
 }
 
+std::string loss_message(const certificate& c) {
+    if (c.size_before == 0.0) return "more of the input would be lost than is allowed";
+    return std::string("too much would be lost: the ") + (c.size_is_volume ? "volume" : "area") +
+           " would fall from " + shortest(c.size_before) + " to " + shortest(c.size_after);
+}
+
 }  // namespace
 
 std::string certificate::message() const {
@@ -64,7 +70,7 @@ std::string certificate::message() const {
         case treeform::status::sheet:
             return "a surface with a border, free of self-intersections";
         case treeform::status::excessive_loss:
-            return "more of the input would be lost than is allowed";
+            return loss_message(*this);
         case treeform::status::not_manifold:
             return "not a manifold once equal coordinates are joined";
         case treeform::status::not_certified:

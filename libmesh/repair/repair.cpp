@@ -1,7 +1,6 @@
 #include <libmesh/base/certify.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/part_of_progress.hpp>
-#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/repair/border_edges.hpp>
@@ -13,6 +12,7 @@
 #include <libmesh/repair/fill_holes.hpp>
 #include <libmesh/repair/orient_faces.hpp>
 #include <libmesh/repair/working_mesh.hpp>
+#include <libmesh/topology/area.hpp>
 #include <libmesh/topology/is_manifold.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
 #include <treeform/mesh/boolean.hpp>
@@ -37,6 +37,7 @@ using detail::base::part_of;
 using detail::repair::closed_cracks;
 using detail::repair::edge_tally;
 using detail::repair::working_mesh;
+using detail::topology::area;
 
 constexpr std::size_t listed_edges = 100;
 
@@ -44,17 +45,6 @@ void require_share(double value, const char* what) {
     if (!(value >= 0.0) || !std::isfinite(value))
         throw std::invalid_argument("treeform::repair: " + std::string(what) +
                                     " is negative or not finite");
-}
-
-double area_of(mesh_view mesh) {
-    double sum = 0.0;
-    for (const face& f : mesh.faces) {
-        const auto [a, b, c] = detail::base::triangle_of(mesh.points, f);
-        const point3 normal =
-            detail::base::cross(detail::base::minus(b, a), detail::base::minus(c, a));
-        sum += std::hypot(normal.x, normal.y, normal.z) / 2.0;
-    }
-    return sum;
 }
 
 /// The steps of a repair, one after the other.
@@ -168,7 +158,7 @@ class repairer {
     void measure() {
         tally_ = detail::repair::tally_edges(mesh_);
         did_.open_edges = tally_.unbalanced;
-        did_.area_before = area_of(mesh_.view());
+        did_.area_before = area(mesh_.view());
         if (tally_.unbalanced == 0) did_.volume_before = signed_volume(mesh_.view());
     }
 
@@ -281,7 +271,7 @@ class repairer {
     void count_losses() {
         certificate& known = result_.certificate;
         if (known.status != status::ok && known.status != status::sheet) return;
-        did_.area_after = area_of(result_.mesh);
+        did_.area_after = area(result_.mesh);
         std::vector<std::uint8_t> is_left(given_.faces.size(), 0);
         for (const std::uint32_t f : result_.face_source)
             if (f != repair_result::none) is_left[f] = 1;
@@ -297,16 +287,16 @@ class repairer {
     void count_vanished(const std::vector<std::uint8_t>& is_left) {
         const std::vector<std::uint32_t> part = detail::repair::parts_by_edges(mesh_);
         std::vector<std::uint8_t> has_face(part.size(), 0);
-        std::vector<double> area(part.size(), 0.0);
+        std::vector<double> area_of(part.size(), 0.0);
         for (std::uint32_t f = 0; f < part.size(); ++f) {
-            area[part[f]] += area_of({mesh_.points, {&mesh_.faces[f], 1}});
+            area_of[part[f]] += area({mesh_.points, {&mesh_.faces[f], 1}});
             if (mesh_.source[f] != repair_result::none && is_left[mesh_.source[f]] != 0)
                 has_face[part[f]] = 1;
         }
         std::optional<prepared_mesh> solid;
         for (std::uint32_t f = 0; f < part.size(); ++f) {
             if (part[f] != f || has_face[f] != 0) continue;
-            if (!(area[f] > options_.strays * did_.area_before)) continue;
+            if (!(area_of[f] > options_.strays * did_.area_before)) continue;
             if (!solid) solid.emplace(prepared_mesh::borrow(result_.mesh));
             if (locate(*solid, mesh_.points[mesh_.faces[f][0]]).where == location::outside)
                 ++did_.vanished_components;

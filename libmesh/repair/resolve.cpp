@@ -1,12 +1,14 @@
 #include <libmesh/base/certify.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
+#include <libmesh/repair/loss.hpp>
 #include <libmesh/repair/remove_faces.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 #include <utility>
 
 namespace treeform {
@@ -44,6 +46,19 @@ void count_losses(mesh_view mesh, resolve_result& result) {
         result.certificate.status = status::vanished;
 }
 
+/// `split` loses nothing; neither does `outer` where no component is inward.
+void check_loss(mesh_view mesh, resolve_mode mode, const resolve_options& options,
+                resolve_result& result) {
+    if (!result.certificate || mode == resolve_mode::split || options.max_loss >= 1.0) return;
+    if (mode == resolve_mode::outer && !detail::repair::has_inward_component(mesh)) return;
+    const detail::repair::loss loss = detail::repair::find_loss(mesh, result.mesh);
+    if (!loss.is_beyond(options.max_loss)) return;
+    result.certificate.status = status::excessive_loss;
+    result.certificate.size_before = loss.before;
+    result.certificate.size_after = loss.after;
+    result.certificate.size_is_volume = loss.is_volume;
+}
+
 resolve_result by_mode(mesh_view mesh, resolve_mode mode, const resolve_options& options) {
     if (mode == resolve_mode::remove) {
         detail::base::check_faces("resolve_self_intersections", mesh.points.size(), mesh.faces);
@@ -62,11 +77,15 @@ resolve_result by_mode(mesh_view mesh, resolve_mode mode, const resolve_options&
 
 resolve_result resolve_self_intersections(mesh_view mesh, resolve_mode mode,
                                           const resolve_options& options) {
+    if (!(options.max_loss >= 0.0))
+        throw std::invalid_argument(
+            "treeform::resolve_self_intersections: the largest loss is negative or not a number");
     resolve_result result = by_mode(mesh, mode, options);
     detail::base::describe(result.certificate, result.mesh, options.precision);
     const bool is_there = result.certificate.status != status::cancelled &&
                           result.certificate.status != status::open_input;
     if (is_there) count_losses(mesh, result);
+    check_loss(mesh, mode, options, result);
     return result;
 }
 

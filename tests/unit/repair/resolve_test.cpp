@@ -24,6 +24,7 @@
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -474,4 +475,41 @@ TEST_CASE("repair: nothing to repair, nothing changed; on any number of threads"
             CHECK(again.face_source == all.face_source);
         }
     }
+}
+
+TEST_CASE("resolve: what loses too much is not certified") {
+    tf::mesh dirty = test::box(10, 10, 10);  // the edge from 0 to 1 has a vertex and a needle
+    dirty.points.push_back({5, 0, 0});
+    dirty.faces[0] = {0, 2, 8};
+    dirty.faces.insert(dirty.faces.end(), {{2, 1, 8}, {0, 8, 1}});
+    const tf::resolve_result lost = tf::resolve_self_intersections(dirty, mode::remove);
+    if (tf::signed_volume(lost.mesh) < 950) {
+        CHECK(lost.certificate.status == tf::status::excessive_loss);
+        CHECK(lost.certificate.size_is_volume);
+        CHECK(lost.certificate.size_before == doctest::Approx(1000));
+        CHECK(lost.certificate.size_after == doctest::Approx(tf::signed_volume(lost.mesh)));
+        CHECK_THROWS_AS((void)lost.value(), tf::not_certified_error);
+    }
+    const tf::resolve_result allowed =
+        tf::resolve_self_intersections(dirty, mode::remove, {.max_loss = 1.0});
+    CHECK(allowed.certificate);
+    CHECK(allowed.mesh == lost.mesh);
+    CHECK_THROWS_AS((void)tf::resolve_self_intersections(dirty, mode::remove, {.max_loss = -1.0}),
+                    std::invalid_argument);
+}
+
+TEST_CASE("resolve: an inward body that cancels another one is a loss, an inverted solid is none") {
+    const tf::mesh ball = test::ball(3, 1.0);
+    tf::mesh turned = ball;
+    for (tf::face& f : turned.faces) std::swap(f[1], f[2]);
+    CHECK(tf::resolve_self_intersections(turned).certificate);
+    const tf::mesh pair = test::together(ball, test::moved(turned, {0.5, 0.1, 0.2}));
+    const tf::resolve_result lost = tf::resolve_self_intersections(pair);
+    CHECK(lost.certificate.status == tf::status::excessive_loss);
+    CHECK(lost.certificate.size_after < 0.95 * lost.certificate.size_before);
+    CHECK(tf::resolve_self_intersections(pair, mode::outer, {.max_loss = 1.0}).certificate);
+    // A cavity is meant.
+    tf::mesh hollow = test::ball(2, 0.5);
+    for (tf::face& f : hollow.faces) std::swap(f[1], f[2]);
+    CHECK(tf::resolve_self_intersections(test::together(ball, hollow)).certificate);
 }

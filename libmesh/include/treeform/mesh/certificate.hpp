@@ -69,6 +69,10 @@ struct TREEFORM_API certificate {
     /// Of `vanished`, the faces of the exact result, all of them thinner than the coordinates tell
     /// apart; 0 where there were none.
     std::uint64_t vanished_faces = 0;
+    /// Of `excessive_loss`: the volume, or the area where there is no solid, before and after.
+    double size_before = 0.0;
+    double size_after = 0.0;
+    bool size_is_volume = false;
 
     explicit operator bool() const { return status == treeform::status::ok; }
     /// Half a sentence for people, without a stop at its end. It names a face by the numbers in

@@ -34,6 +34,10 @@ struct resolve_options {
     bool touching = false;
     /// For `remove`: give up after making or widening holes this often.
     int removal_rounds = 16;
+    /// For `outer` and `remove`: losing more than this share of the solid's volume, or of the area
+    /// of a mesh that bounds none, has the status `excessive_loss`. 1 allows any loss. What the
+    /// solid is, is found by `repair` without filling holes: faces agree, and overlaps count once.
+    double max_loss = 0.05;
     progress_callback progress{};
 };
 
@@ -77,7 +81,7 @@ struct TREEFORM_API resolve_result {
 /// `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is inside.
 /// Then they round the points on cuts. Faces that meet nothing stay as they are.
 ///
-/// `remove` is for surfaces that bound no solid. It works locally and does not keep the volume. It
+/// `remove` is for surfaces that bound no solid. It works locally. It
 /// deletes the faces that meet or are degenerate. It closes each hole by triangles of the least
 /// total area between the vertices of its rim, but not beyond where the mesh ended. Where the new
 /// triangles meet other faces, the hole is made wider. A part is a set of faces linked by edges:
@@ -87,7 +91,8 @@ struct TREEFORM_API resolve_result {
 /// - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
 ///
 /// \throws std::invalid_argument as `boolean`; for `remove`, a coordinate may be beyond 2^1000
-/// \cost   as `boolean`; for `remove`, one `self_intersections` a round, and for a hole of n
+/// \cost   as `boolean`, and as `repair` where a loss is looked for: in `remove`, and in `outer` where
+///         a component is inward; for `remove`, one `self_intersections` a round, and for a hole of n
 ///         vertices O(n^3) when n <= 200, else O(n^2)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API resolve_result resolve_self_intersections(
