@@ -1,17 +1,36 @@
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/repair/border_edges.hpp>
 #include <libmesh/repair/loss.hpp>
 #include <libmesh/topology/area.hpp>
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace treeform::detail::repair {
 namespace {
 
-/// Without faces that have the corners of another one.
+/// Those, by vertices, that have no border; nothing where they are not closed for all that.
+mesh closed_components(mesh_view of) {
+    const std::vector<std::uint32_t> component = face_components(of.points.size(), of.faces);
+    std::vector<std::uint8_t> is_open(of.faces.size(), 0);  // by component
+    for (const border_edge& e : border_edges(of.points.size(), of.faces))
+        is_open[component[e.face]] = 1;
+    mesh closed{{of.points.begin(), of.points.end()}, {}};
+    for (std::size_t f = 0; f < of.faces.size(); ++f)
+        if (is_open[component[f]] == 0) closed.faces.push_back(of.faces[f]);
+    return find_open_edge(closed) ? mesh{} : closed;
+}
+
+}  // namespace
+
 double area_of_distinct(mesh_view mesh) {
     treeform::mesh joined{{mesh.points.begin(), mesh.points.end()},
                           {mesh.faces.begin(), mesh.faces.end()}};
@@ -23,13 +42,48 @@ double area_of_distinct(mesh_view mesh) {
     return topology::area(joined);
 }
 
-}  // namespace
-
-loss find_loss(mesh_view given, mesh_view made) {
-    const repair_result meant = treeform::repair(given, {.fill = false, .detach = false});
+loss find_loss(mesh_view given, std::span<const std::uint8_t> is_left, mesh_view made,
+               const progress_callback& progress) {
+    // Beyond this the arrangement takes no coordinates, and volumes are no numbers.
+    const bool is_huge = std::ranges::any_of(given.points, [](const point3& p) {
+        return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 0x1p300;
+    });
+    if (is_huge) return {};
+    const repair_result meant = treeform::repair(
+        given, {.fill = false, .detach = false, .max_loss = 1.0, .progress = progress});
     if (meant.certificate)
         return {meant.statistics.volume_after, std::abs(signed_volume(made)), true};
-    return {area_of_distinct(given), topology::area(made), false};
+    const double before = area_of_distinct(given);
+    const double fall = std::min(before - topology::area(made), lost_area(given, is_left, made));
+    return {before, before - std::max(fall, 0.0), false};
+}
+
+double lost_area(mesh_view given, std::span<const std::uint8_t> is_left, mesh_view made) {
+    std::vector<std::uint32_t> gone;
+    std::vector<point3> middles;
+    for (std::uint32_t f = 0; f < given.faces.size(); ++f) {
+        if (is_left[f] != 0) continue;
+        const auto [a, b, c] = base::triangle_of(given.points, given.faces[f]);
+        gone.push_back(f);
+        middles.push_back({a.x / 3.0 + b.x / 3.0 + c.x / 3.0, a.y / 3.0 + b.y / 3.0 + c.y / 3.0,
+                           a.z / 3.0 + b.z / 3.0 + c.z / 3.0});
+    }
+    if (gone.empty()) return 0.0;
+    std::vector<std::uint8_t> is_there(gone.size(), 0);
+    if (!made.faces.empty()) {
+        const auto nearest =
+            closest_point(made, middles, 1e-6 * diagonal(*bounding_box(made.points)));
+        for (std::size_t i = 0; i < gone.size(); ++i) is_there[i] = nearest[i] ? 1 : 0;
+    }
+    if (const mesh solid = closed_components(made); !solid.faces.empty()) {
+        const auto places = locate(solid, middles);
+        for (std::size_t i = 0; i < gone.size(); ++i)
+            if (places[i].where != location::outside) is_there[i] = 1;
+    }
+    double sum = 0.0;
+    for (std::size_t i = 0; i < gone.size(); ++i)
+        if (is_there[i] == 0) sum += topology::area({given.points, {&given.faces[gone[i]], 1}});
+    return sum;
 }
 
 bool has_inward_component(mesh_view mesh) {

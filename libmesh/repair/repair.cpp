@@ -10,6 +10,7 @@
 #include <libmesh/repair/drop_strays.hpp>
 #include <libmesh/repair/edge_parts.hpp>
 #include <libmesh/repair/fill_holes.hpp>
+#include <libmesh/repair/loss.hpp>
 #include <libmesh/repair/orient_faces.hpp>
 #include <libmesh/repair/working_mesh.hpp>
 #include <libmesh/topology/area.hpp>
@@ -277,9 +278,18 @@ class repairer {
             if (f != repair_result::none) is_left[f] = 1;
         did_.removed = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
         did_.removed -= std::min(did_.removed, did_.degenerate + did_.repeated + did_.strays);
-        if (known.status == status::ok) did_.volume_after = signed_volume(result_.mesh);
-        if (did_.resolved && known.status == status::ok) count_vanished(is_left);
-        if (did_.vanished_components > 0) known.status = status::excessive_loss;
+        const bool is_solid = known.status == status::ok;
+        if (is_solid) did_.volume_after = signed_volume(result_.mesh);
+        if (did_.resolved && is_solid) count_vanished(is_left);
+        did_.area_lost = detail::repair::lost_area(given_, is_left, result_.mesh);
+        const double whole = did_.area_lost > 0.0 ? detail::repair::area_of_distinct(given_) : 0.0;
+        const double lost = std::min(did_.area_lost, whole);
+        const bool is_too_much = lost > options_.max_loss * whole;
+        if (options_.max_loss >= 1.0 || (!is_too_much && did_.vanished_components == 0)) return;
+        known.status = status::excessive_loss;
+        if (!is_too_much) return;
+        known.size_before = whole;
+        known.size_after = whole - lost;
     }
 
     /// Components that are too large to go and of which nothing is left, not because they were
@@ -317,6 +327,7 @@ class repairer {
 repair_result repair(mesh_view mesh, const repair_options& options) {
     if (options.gap) require_share(*options.gap, "the gap");
     require_share(options.strays, "the share of strays");
+    require_share(options.max_loss, "the largest loss");
     detail::base::check_faces("repair", mesh.points.size(), mesh.faces);
     detail::base::check_finite_faces("repair", mesh);
     return repairer(mesh, options).run();

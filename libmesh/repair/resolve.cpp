@@ -8,8 +8,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace treeform {
 namespace {
@@ -26,11 +29,12 @@ resolve_result from(boolean_result&& made) {
     return result;
 }
 
-void count_losses(mesh_view mesh, resolve_result& result) {
+/// Returns whether something is left of each face.
+std::vector<std::uint8_t> count_losses(mesh_view mesh, resolve_result& result) {
     const std::vector<std::uint32_t> component = face_components(mesh.points.size(), mesh.faces);
     std::uint32_t components = 0;
     for (const std::uint32_t c : component) components = std::max(components, c + 1);
-    std::vector<char> is_left(mesh.faces.size()), has_face(components);
+    std::vector<std::uint8_t> is_left(mesh.faces.size()), has_face(components);
     for (const std::uint32_t f : result.face_source) {
         if (f == resolve_result::none) {
             ++result.statistics.filled;
@@ -44,14 +48,25 @@ void count_losses(mesh_view mesh, resolve_result& result) {
     result.vanished_components = static_cast<std::uint64_t>(std::ranges::count(has_face, 0));
     if (result.certificate && result.mesh.faces.empty() && !mesh.faces.empty())
         result.certificate.status = status::vanished;
+    return is_left;
 }
 
 /// `split` loses nothing; neither does `outer` where no component is inward.
 void check_loss(mesh_view mesh, resolve_mode mode, const resolve_options& options,
-                resolve_result& result) {
+                std::span<const std::uint8_t> is_left, resolve_result& result) {
     if (!result.certificate || mode == resolve_mode::split || options.max_loss >= 1.0) return;
     if (mode == resolve_mode::outer && !detail::repair::has_inward_component(mesh)) return;
-    const detail::repair::loss loss = detail::repair::find_loss(mesh, result.mesh);
+    bool is_cancelled = false;
+    const detail::repair::loss loss =
+        detail::repair::find_loss(mesh, is_left, result.mesh, [&](double) {
+            is_cancelled = options.progress && !options.progress(1.0);
+            return !is_cancelled;
+        });
+    if (is_cancelled) {
+        result = {};
+        result.certificate.status = status::cancelled;
+        return;
+    }
     if (!loss.is_beyond(options.max_loss)) return;
     result.certificate.status = status::excessive_loss;
     result.certificate.size_before = loss.before;
@@ -84,8 +99,7 @@ resolve_result resolve_self_intersections(mesh_view mesh, resolve_mode mode,
     detail::base::describe(result.certificate, result.mesh, options.precision);
     const bool is_there = result.certificate.status != status::cancelled &&
                           result.certificate.status != status::open_input;
-    if (is_there) count_losses(mesh, result);
-    check_loss(mesh, mode, options, result);
+    if (is_there) check_loss(mesh, mode, options, count_losses(mesh, result), result);
     return result;
 }
 

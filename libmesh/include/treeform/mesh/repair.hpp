@@ -118,9 +118,12 @@ struct repair_options {
     /// Fill holes of at most this many edges.
     std::uint64_t largest_hole = std::numeric_limits<std::uint64_t>::max();
     /// Loose open pieces below this share of the area are dropped. Where a larger component vanishes
-    /// since it bounds nothing, the status is `excessive_loss`.
+    /// since it bounds nothing, the status is `excessive_loss`, unless `max_loss` is 1.
     double strays = 0.001;
     repair_rule inside = repair_rule::automatic;
+    /// Losing more than this share of the area has the status `excessive_loss`: faces of which
+    /// nothing is left, except for those hidden in the solid and those on others. 1 allows any loss.
+    double max_loss = 0.05;
     /// The mesh is an open surface: its border is kept, and nothing is filled.
     bool sheet = false;
     /// Precision of the coordinates returned. float32 values are stored as doubles.
@@ -155,6 +158,7 @@ struct repair_statistics {
     double volume_after = 0.0;
     double area_before = 0.0;
     double area_after = 0.0;
+    double area_lost = 0.0;  ///< as `repair_options::max_loss` counts it
 };
 
 /// The mended mesh, where its parts came from, and what was checked.
