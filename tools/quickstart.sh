@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(g++ cmake ninja-build
     libeigen3-dev libtbb-dev libhwy-dev libassimp-dev libcli11-dev nlohmann-json3-dev
-    libpugixml-dev libminizip-dev zlib1g-dev)
+    libpugixml-dev libminizip-dev libssl-dev zlib1g-dev)
 
 step() { printf '\n== %s\n' "$*"; }
 

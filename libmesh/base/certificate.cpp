@@ -56,7 +56,8 @@ std::string vanished_message(const certificate& c) {
 std::string loss_message(const certificate& c) {
     if (c.size_before == 0.0) return "more of the input would be lost than is allowed";
     return std::string("too much would be lost: the ") + (c.size_is_volume ? "volume" : "area") +
-           " would fall from " + detail::base::brief(c.size_before) + " to " + detail::base::brief(c.size_after);
+           " would fall from " + detail::base::brief(c.size_before) + " to " +
+           detail::base::brief(c.size_after);
 }
 
 }  // namespace

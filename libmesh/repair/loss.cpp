@@ -18,7 +18,7 @@ namespace treeform::detail::repair {
 namespace {
 
 /// Those, by vertices, that have no border; nothing where they are not closed for all that.
-mesh closed_components(mesh_view of) {
+mesh closed_part(mesh_view of) {
     const std::vector<std::uint32_t> component = face_components(of.points.size(), of.faces);
     std::vector<std::uint8_t> is_open(of.faces.size(), 0);  // by component
     for (const border_edge& e : border_edges(of.points.size(), of.faces))
@@ -75,7 +75,7 @@ double lost_area(mesh_view given, std::span<const std::uint8_t> is_left, mesh_vi
             closest_point(made, middles, 1e-6 * diagonal(*bounding_box(made.points)));
         for (std::size_t i = 0; i < gone.size(); ++i) is_there[i] = nearest[i] ? 1 : 0;
     }
-    if (const mesh solid = closed_components(made); !solid.faces.empty()) {
+    if (const mesh solid = closed_part(made); !solid.faces.empty()) {
         const auto places = locate(solid, middles);
         for (std::size_t i = 0; i < gone.size(); ++i)
             if (places[i].where != location::outside) is_there[i] = 1;

@@ -233,6 +233,7 @@ class repairer {
                                                                            : mesh_.source[e.index]);
         for (const operand_element& e : made.vertex_source)
             result_.vertex_source.push_back(e.index);
+        did_.pairs = made.statistics.pairs;
         did_.split_vertices = made.statistics.split_vertices;
     }
 

@@ -46,7 +46,7 @@ done
 
 tools/install_packages.sh g++ cmake ninja-build doctest-dev libbenchmark-dev libcgal-dev \
     libgmp-dev libmpfr-dev libassimp-dev libeigen3-dev libtbb-dev libhwy-dev libcli11-dev nlohmann-json3-dev \
-    libpugixml-dev libminizip-dev zlib1g-dev libfmt-dev libfcl-dev libnanoflann-dev
+    libpugixml-dev libminizip-dev libssl-dev zlib1g-dev libfmt-dev libfcl-dev libnanoflann-dev
 
 if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache

@@ -41,6 +41,7 @@ HOME_OF_PACKAGE = {
     r"assimp/": "libmesh/io/",
     r"(pugixml|pugiconfig|minizip/|zlib\.h|zconf\.h)": "libmesh/io/",
     r"Eigen/": "libmesh/place/",
+    r"openssl/": "tools/common/sha256.cpp",
     r"(CGAL/|gmp|mpfr)": "tests/",
 }
 READS_FILES = ("stream", "carry")  # besides tools and tests, only these rooms know of `io`

@@ -36,6 +36,13 @@ json meeting_entry(const tf::certificate& known) {
     return list;
 }
 
+json loss_entry(const tf::certificate& known) {
+    if (known.status != tf::status::excessive_loss) return nullptr;
+    return {{"of", known.size_is_volume ? "volume" : "area"},
+            {"before", known.size_before},
+            {"after", known.size_after}};
+}
+
 std::string message_of(tf::certificate known, const face_numbers& stored_face) {
     for (tf::open_edge& edge : known.open)
         edge.face = {tf::operand_element::none, stored_face(edge.face.index)};

@@ -71,6 +71,8 @@ using face_numbers = std::function<std::uint32_t(std::uint32_t)>;
 [[nodiscard]] json open_entry(const tf::certificate& known, const face_numbers& stored_face);
 /// The faces that meet.
 [[nodiscard]] json meeting_entry(const tf::certificate& known);
+/// What was lost, where that is more than is allowed; else null.
+[[nodiscard]] json loss_entry(const tf::certificate& known);
 /// Its message, with the face by its number in the file.
 [[nodiscard]] std::string message_of(tf::certificate known, const face_numbers& stored_face);
 

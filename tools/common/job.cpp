@@ -71,11 +71,7 @@ tf::mesh_file job::read(const std::string& input, json& about) {
     std::string digest;
     if (input == "-") {
         const std::vector<std::byte> bytes = read_standard_input(keeper);
-        if (options.detailed()) {
-            sha256 sum;
-            sum.add(bytes);
-            digest = sum.hex();
-        }
+        if (options.detailed()) digest = sha256_of(bytes);
         file = tf::read(bytes, label, options.format);
     } else {
         std::error_code error;

@@ -2,6 +2,7 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
+#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace tools {
 namespace {
@@ -105,6 +107,16 @@ void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision p
         work.warn("rounded", "coordinates move by up to " + brief(lost.max_displacement));
     if (lost.compared)
         warn_of_folds(work, {.collapsed = lost.collapsed, .meeting = lost.meeting}, precision);
+}
+
+void warn_of_ambiguous_materials(job& work, std::span<const tf::mesh_file* const> inputs) {
+    const std::vector<std::string> names = tf::ambiguous_materials(inputs);
+    if (names.empty()) return;
+    work.warn("materials", "inputs with different material files name " +
+                               (names.size() == 1 ? "material " + names.front()
+                                                  : counted(names.size(), "material", "materials") +
+                                                        ", such as " + names.front() + ",") +
+                               " alike; an OBJ has one of a name");
 }
 
 void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written,

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <span>
 
 namespace tools {
 
@@ -31,6 +32,10 @@ void warn_of_folds(job& work, const tf::rounding_defects& defects, tf::precision
 
 /// Enters what points have lost at their places as "rounding", and says what is noticeable of it.
 void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision precision);
+
+/// Says which materials inputs with different material files name alike, for an OBJ that is made of
+/// them: it has one of a name.
+void warn_of_ambiguous_materials(job& work, std::span<const tf::mesh_file* const> inputs);
 
 /// Enters file, format, numbers and what these have moved as "output", beside what is there, and
 /// says what the writer warns of. `moved` is how far rounding had moved coordinates before.

@@ -92,6 +92,15 @@ distance parse_distance(std::string_view option, std::string_view text) {
     return {std::string(text), relative ? *value / 100.0 : *value, relative};
 }
 
+double parse_share(std::string_view option, std::string_view text) {
+    std::string_view rest = text;
+    const auto value = take_number(rest);
+    const double share = value ? *value / (rest == "%" ? 100.0 : 1.0) : -1.0;
+    if (!(share >= 0.0 && share <= 1.0) || !(rest.empty() || rest == "%"))
+        refuse(option, text, "a share such as 5% or 0.05");
+    return share;
+}
+
 std::uint64_t parse_size(std::string_view option, std::string_view text) {
     constexpr std::string_view wanted = "a size in bytes such as 512M or 4G";
     constexpr std::string_view powers = "KMGT";

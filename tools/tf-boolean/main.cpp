@@ -48,8 +48,7 @@ void add_options(command_line& line, boolean_settings& s) {
                               "an open input is a surface that the others cut:\n"
                               "a difference or intersection keeps a part of it"});
     line.flag(s.simplify, {"--simplify", "", "merge coplanar faces, such as the cut has made"});
-    line.option(s.max_move,
-                {"--max-move", "DIST", "fail (exit 1) if rounding moves a point further"});
+    tools::add_max_move(line, s.rails);
 }
 
 void add_what_to_give_back(command_line& line, boolean_settings& s, common_options& options) {
@@ -168,17 +167,13 @@ exit_status refuse_open(tools::job& work, const std::vector<tools::solid>& solid
     return tools::found;
 }
 
-/// Whether rounding stays within --max-move.
+/// Whether rounding does not stay within --max-move.
 bool moves_too_far(tools::job& work, const boolean_settings& s,
                    const std::vector<tools::solid>& solids, const tf::boolean_result& result) {
-    if (!s.max_move) return false;
-    const double allowed = s.max_move->used(tools::diagonal_of(solids));
-    work.entry["max_move"]["used"] = allowed;
-    if (result.certificate.max_displacement <= allowed) return false;
-    work.warn("max-move", "rounding moves a point by up to " +
-                              tools::shortest(result.certificate.max_displacement) +
-                              ", more than " + tools::shortest(allowed) + "; nothing written");
-    return true;
+    const std::string why = tools::move_objection(work.entry, s.rails, tools::diagonal_of(solids),
+                                                  result.certificate, result.mesh.points);
+    if (!why.empty()) work.warn("max-move", why + "; nothing written");
+    return !why.empty();
 }
 
 exit_status operate(tools::job& work, const boolean_settings& s) {
@@ -247,6 +242,7 @@ int main(int argc, char** argv) {
         line, options, {"read", "prepare", "cut", "check", "write"}, argc, argv,
         [&] {
             s.source_given = line.given("--source");
+            s.max_move_given = line.given("--max-move");
             tools::settle_words(s, options);
             if (!s.check) tools::require_output(line, options);
         },

@@ -2,7 +2,6 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/curve_file.hpp"
-#include "tools/common/material_words.hpp"
 #include "tools/common/mesh_output.hpp"
 #include "tools/tf-boolean/words.hpp"
 #include <treeform/mesh/as_mesh.hpp>
@@ -62,9 +61,10 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
     for (const char* key : {"pairs", "cut_faces", "cells", "volumes", "separated_points"})
         entry[key] = nullptr;
     entry["skipped"] = {{"degenerate", nullptr}, {"faces_not_cut", nullptr}};
-    entry["max_move"] = {
-        {"given", settings.max_move ? json(settings.max_move->given) : json(nullptr)},
-        {"used", nullptr}};
+    entry["max_move"] = {{"given", settings.rails.max_move.given},
+                         {"used", nullptr},
+                         {"largest", nullptr},
+                         {"step", nullptr}};
     entry["output"] = nullptr;
 }
 

@@ -53,7 +53,7 @@ void take_matrices(boolean_settings& s, common_options& o) {
 void refuse_what_does_nothing(const boolean_settings& s, const common_options& o) {
     const bool mesh = wants_mesh(o);
     if (s.check && mesh) refuse("--check writes no mesh");
-    if (s.check && s.max_move) refuse("--max-move: --check moves nothing");
+    if (s.check && s.max_move_given) refuse("--max-move: --check moves nothing");
     if (!mesh && (o.ascii || o.binary || !o.output_format.empty()))
         refuse("--output-format, --ascii and --binary need -o");
     if (s.check && o.precision != "keep") refuse("--precision: --check writes no mesh");

@@ -3,13 +3,12 @@
 /// What a user of tf-boolean asks for.
 
 #include "tools/common/common_options.hpp"
-#include "tools/common/parse_value.hpp"
+#include "tools/common/rails.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 
 #include <array>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,8 @@ struct boolean_settings {
     bool check = false;
     bool accept_open = false;
     bool simplify = false;
-    std::optional<distance> max_move{};
+    tools::rails rails{};
+    bool max_move_given = false;
     std::string source = "source";  ///< properties SOURCE_mesh, SOURCE_face
     bool source_given = false;
     bool no_attributes = false;
@@ -40,8 +40,6 @@ struct boolean_settings {
     }
 };
 
-/// By `fill_rule`.
-inline constexpr std::array<const char*, 3> fill_rules{"nonzero", "odd", "positive"};
 [[nodiscard]] const char* name_of(tf::fill_rule rule);
 
 /// Whether files of this format can tell which face each one comes from.

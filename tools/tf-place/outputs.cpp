@@ -1,4 +1,3 @@
-#include "tools/common/material_words.hpp"
 #include "tools/common/mesh_output.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/mesh/as_mesh.hpp>

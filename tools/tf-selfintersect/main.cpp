@@ -92,8 +92,11 @@ void add_repair(command_line& line, request& r) {
                              r.repairs = true;
                              r.repair.mode = static_cast<tf::resolve_mode>(mode);
                          });
-    line.option(r.repair.max_move,
-                {"--max-move", "DIST", "fail (exit 1) if any point would move further", "0.1%"});
+    line.option(r.repair.inside,
+                {"--inside", "RULE", "for outer: nonzero | odd | positive", "nonzero"},
+                tools::fill_rules);
+    tools::add_max_move(line, r.repair.rails);
+    tools::add_max_loss(line, r.repair.rails);
     line.flag(r.repair.keep_components,
               {"--keep-components", "", "fail (exit 1) if a component would disappear"});
 }
@@ -132,8 +135,11 @@ void check_request(const command_line& line, request& r, common_options& options
     using tools::refuse;
     if (r.search.between && r.search.within) refuse("--between and --within exclude each other");
     tools::check_curve_path(r.curves);
-    if (!r.repairs && (line.given("--max-move") || r.repair.keep_components))
-        refuse("--max-move and --keep-components need --repair");
+    for (const char* name :
+         {"--inside", "--max-move", "--max-loss", "--accept-loss", "--keep-components"})
+        if (!r.repairs && line.given(name)) refuse(std::string(name) + " needs --repair");
+    if (line.given("--inside") && r.repair.mode != tf::resolve_mode::outer)
+        refuse("--inside: only --repair=outer asks what is solid");
     if (r.repairs && (r.search.first || r.search.between || r.search.within || r.search.box))
         refuse("--repair looks at the whole mesh: no --first, --between, --within or --box");
     if (options.in_place && !r.repairs)

@@ -2,6 +2,7 @@
 /// \file
 /// What tf-selfintersect says and writes.
 
+#include "tools/common/rails.hpp"
 #include "tools/tf-selfintersect/search.hpp"
 #include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>
@@ -44,7 +45,8 @@ inline constexpr std::array<const char*, 3> repair_modes{"split", "outer", "remo
 
 struct repair_settings {
     tf::resolve_mode mode = tf::resolve_mode::outer;
-    distance max_move{.given = "0.1%", .value = 1e-3, .relative = true};  ///< of any point
+    tf::fill_rule inside = tf::fill_rule::nonzero;
+    tools::rails rails{};
     bool keep_components = false;
     bool touching = false;  ///< faces that only touch are to be resolved, too
 };

@@ -5,7 +5,6 @@
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 
 #include <cstdint>
@@ -22,8 +21,10 @@ tf::resolve_result compute(job& work, const findings& result, const repair_setti
     const auto timing = work.time("repair");
     tf::resolve_result repaired =
         tf::resolve_self_intersections(result.part.mesh, settings.mode,
-                                       {.precision = precision,
+                                       {.inside = settings.inside,
+                                        .precision = precision,
                                         .touching = settings.touching,
+                                        .max_loss = settings.rails.loss(),
                                         .progress = work.progress("repair")});
     work.call_ended(repaired.certificate.status == tf::status::cancelled);
     return repaired;
@@ -34,7 +35,7 @@ face_numbers numbers_in_file(const findings& result) {
 }
 
 void enter_repair(job& work, const findings& result, const repair_settings& settings,
-                  const tf::resolve_result& repaired, double allowed) {
+                  const tf::resolve_result& repaired) {
     const tf::mesh& surface = repaired.mesh;
     const tf::certificate& known = repaired.certificate;
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
@@ -45,11 +46,7 @@ void enter_repair(job& work, const findings& result, const repair_settings& sett
          {{"before", result.found.pairs.size()}, {"after", known.meeting_count}}},
         {"meeting", meeting_entry(known)},
         {"open", open_entry(known, numbers_in_file(result))},
-        {"max_move",
-         {{"given", settings.max_move.given},
-          {"used", allowed},
-          {"largest", known.max_displacement},
-          {"step", tf::coordinate_step(surface.points, known.precision)}}},
+        {"loss", loss_entry(known)},
         {"removed_faces", repaired.statistics.removed},
         {"covered_faces", repaired.statistics.covered},
         {"filled_faces", repaired.statistics.filled},
@@ -72,6 +69,7 @@ std::string remedy_for(const tf::certificate& known, tf::resolve_mode mode) {
     const bool floats = known.precision == tf::precision::float32;
     if (known.status == tf::status::open_input)
         return "; --repair=split or --repair=remove do without";
+    if (known.status == tf::status::excessive_loss) return " (--accept-loss writes it)";
     if (known.vanished_faces > 0) return floats ? "; --precision double may do" : "";
     if (known.status == tf::status::vanished)
         return mode == outer
@@ -84,14 +82,12 @@ std::string remedy_for(const tf::certificate& known, tf::resolve_mode mode) {
 
 /// Why the result cannot be taken; empty when it can.
 std::string objection(const findings& result, const repair_settings& settings,
-                      const tf::resolve_result& repaired, double allowed) {
+                      const tf::resolve_result& repaired, std::string too_far) {
     const tf::certificate& known = repaired.certificate;
     if (!known)
         return (known.status == tf::status::open_input ? "it bounds no solid: " : "") +
                message_of(known, numbers_in_file(result)) + remedy_for(known, settings.mode);
-    if (known.max_displacement > allowed)
-        return "a point would move by " + shortest(known.max_displacement) + ", more than " +
-               shortest(allowed) + " (--max-move)";
+    if (!too_far.empty()) return too_far;
     if (settings.keep_components && repaired.vanished_components > 0)
         return counted(repaired.vanished_components, "component", "components") +
                " would disappear (--keep-components)";
@@ -160,9 +156,11 @@ bool repair_and_write(job& work, tf::mesh_file& input, const findings& result,
     const tf::mesh_file* const inputs = &input;
     tf::resolve_result repaired =
         compute(work, result, settings, written_precision(work.options, form, {&inputs, 1}));
-    const double allowed = settings.max_move.used(result.box ? tf::diagonal(*result.box) : 0.0);
-    enter_repair(work, result, settings, repaired, allowed);
-    if (const std::string why = objection(result, settings, repaired, allowed); !why.empty()) {
+    enter_repair(work, result, settings, repaired);
+    const std::string too_far = move_objection(work.entry["repair"], settings.rails,
+                                               result.box ? tf::diagonal(*result.box) : 0.0,
+                                               repaired.certificate, repaired.mesh.points);
+    if (const std::string why = objection(result, settings, repaired, too_far); !why.empty()) {
         work.out.result(work.name + ": not repaired, nothing written: " + why);
         return false;
     }

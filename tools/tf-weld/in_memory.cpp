@@ -1,6 +1,5 @@
 #include "tools/tf-weld/in_memory.hpp"
 
-#include "tools/common/material_words.hpp"
 #include "tools/common/mesh_output.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/welding.hpp"

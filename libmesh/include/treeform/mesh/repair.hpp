@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace treeform {
@@ -148,6 +149,7 @@ struct repair_statistics {
     std::uint64_t filled = 0;               ///< faces that fill them
     std::uint64_t open_edges = 0;           ///< left after these steps
     bool resolved = false;                  ///< faces met and were cut
+    std::uint64_t pairs = 0;                ///< of faces that met
     std::uint64_t removed = 0;              ///< faces that resolving left nothing of
     std::uint64_t split_vertices = 0;       ///< as in `boolean_statistics`
     std::uint64_t detached = 0;             ///< vertices moved apart
@@ -193,5 +195,34 @@ struct TREEFORM_API repair_result {
 /// \cost   O(V log V + F log F), and as `resolve_self_intersections` where faces meet
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API repair_result repair(mesh_view mesh, const repair_options& options = {});
+
+/// What keeps a mesh from being a solid. Points with equal coordinates are one.
+struct TREEFORM_API solid_defects {
+    std::uint64_t degenerate = 0;            ///< faces without area
+    std::uint64_t repeated = 0;              ///< faces with the corners of another one
+    std::uint64_t open_edges = 0;            ///< of one face
+    std::uint64_t nonmanifold_edges = 0;     ///< of more than two faces
+    std::uint64_t misoriented_edges = 0;     ///< of two faces that disagree
+    std::uint64_t nonmanifold_vertices = 0;  ///< with more than one fan of faces
+    std::uint64_t meeting_pairs = 0;         ///< of faces that meet beyond their common corners
+    std::uint64_t inverted = 0;  ///< closed components that are inside out, and in no other one
+    /// Of what is closed and meets nowhere else: components do not lie in each other as a solid and
+    /// its cavities do.
+    bool wrongly_nested = false;
+    bool cancelled = false;  ///< `progress` asked to stop: nothing is known
+
+    /// Whether there is any.
+    [[nodiscard]] bool any() const;
+    /// "open at 37 edges, 2 pairs of faces meet"; "none" where there are none.
+    [[nodiscard]] std::string message() const;
+};
+
+/// What `repair` would have to mend. Nothing is changed.
+///
+/// \throws std::invalid_argument as `self_intersections`
+/// \cost   O(V log V + F log F), and as `self_intersections`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API solid_defects find_solid_defects(mesh_view mesh,
+                                                            const progress_callback& progress = {});
 
 }  // namespace treeform

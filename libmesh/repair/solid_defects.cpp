@@ -1,0 +1,78 @@
+#include <libmesh/base/words.hpp>
+#include <libmesh/repair/orient_faces.hpp>
+#include <libmesh/repair/working_mesh.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+
+#include <utility>
+
+namespace treeform {
+namespace {
+
+void count_inverted(mesh joined, solid_defects& found) {
+    detail::repair::working_mesh parts{std::move(joined.points), std::move(joined.faces), {}};
+    parts.source.resize(parts.faces.size());
+    const bool is_solid = found.open_edges + found.nonmanifold_edges + found.misoriented_edges +
+                              found.nonmanifold_vertices + found.meeting_pairs ==
+                          0;
+    if (is_solid && !detail::repair::is_well_nested(parts)) {
+        found.inverted = detail::repair::turn_outward(parts);
+        found.wrongly_nested = found.inverted == 0 || !detail::repair::is_well_nested(parts);
+    } else {
+        found.inverted = detail::repair::turn_outward(parts);
+    }
+}
+
+}  // namespace
+
+bool solid_defects::any() const {
+    return degenerate + repeated + open_edges + nonmanifold_edges + misoriented_edges +
+                   nonmanifold_vertices + meeting_pairs + inverted >
+               0 ||
+           wrongly_nested;
+}
+
+std::string solid_defects::message() const {
+    std::string text;
+    const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+    const auto add_count = [&](std::uint64_t n, const char* one, const char* several) {
+        if (n > 0) add(detail::base::counted(n, one, several));
+    };
+    if (open_edges > 0) add("open at " + detail::base::counted(open_edges, "edge", "edges"));
+    add_count(nonmanifold_edges, "edge of more than two faces", "edges of more than two faces");
+    add_count(misoriented_edges, "edge where faces disagree", "edges where faces disagree");
+    add_count(nonmanifold_vertices, "vertex where parts touch", "vertices where parts touch");
+    add_count(meeting_pairs, "pair of faces meets", "pairs of faces meet");
+    add_count(degenerate, "face without area", "faces without area");
+    add_count(repeated, "repeated face", "repeated faces");
+    add_count(inverted, "part inside out", "parts inside out");
+    if (wrongly_nested) add("parts lie within each other");
+    return text.empty() ? "none" : text;
+}
+
+solid_defects find_solid_defects(mesh_view given, const progress_callback& progress) {
+    mesh joined = join_equal_points(given);
+    solid_defects found;
+    const auto met =
+        self_intersections(joined, {.vertices = vertex_identity::by_index, .progress = progress});
+    if (met.cancelled) {
+        found.cancelled = true;
+        return found;
+    }
+    found.meeting_pairs = met.pairs.size();
+    const topology_counts topology = count_topology(joined.points.size(), joined.faces);
+    found.degenerate = find_defects(joined).degenerate_faces.size();
+    found.repeated = topology.duplicate_faces;
+    found.open_edges = topology.boundary_edges;
+    found.nonmanifold_edges = topology.nonmanifold_edges;
+    found.misoriented_edges = topology.misoriented_edges;
+    found.nonmanifold_vertices = topology.nonmanifold_points;
+    std::erase_if(joined.faces,
+                  [](const face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; });
+    count_inverted(std::move(joined), found);
+    return found;
+}
+
+}  // namespace treeform

@@ -1,0 +1,32 @@
+#include "tools/common/rails.hpp"
+
+#include "tools/common/console.hpp"
+#include <treeform/mesh/rounding.hpp>
+#include <treeform/tf.hpp>
+
+namespace tools {
+
+void add_max_move(command_line& line, rails& target) {
+    line.option(target.max_move,
+                {"--max-move", "DIST", "fail (exit 1) if rounding moves a point further", "0.1%"});
+}
+
+void add_max_loss(command_line& line, rails& target) {
+    line.option({"--max-loss", "SHARE", "fail (exit 1) if more of the solid is lost", "5%"},
+                [&t = target.max_loss](std::string_view v) { t = parse_share("--max-loss", v); });
+    line.flag(target.accept_loss, {"--accept-loss", "", "write it all the same"});
+}
+
+std::string move_objection(json& entry, const rails& limits, double diagonal,
+                           const tf::certificate& known, tf::points_view points) {
+    const double allowed = limits.max_move.used(diagonal), moved = known.max_displacement;
+    entry["max_move"] = {{"given", limits.max_move.given},
+                         {"used", allowed},
+                         {"largest", moved},
+                         {"step", tf::coordinate_step(points, known.precision)}};
+    if (moved <= allowed) return {};
+    return "a point would move by " + shortest(moved) + ", more than " + shortest(allowed) +
+           " (--max-move)";
+}
+
+}  // namespace tools

@@ -1,0 +1,229 @@
+/// \file
+/// tf-repair: makes solids of dirty meshes.
+
+#include "tools/common/arrangeable.hpp"
+#include "tools/common/command_line.hpp"
+#include "tools/common/common_options.hpp"
+#include "tools/common/curve_file.hpp"
+#include "tools/common/mesh_output.hpp"
+#include "tools/common/run.hpp"
+#include "tools/tf-repair/outputs.hpp"
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/tf.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace {
+
+using tools::command_line;
+using tools::common_options;
+using tools::exit_status;
+using tools::repair_settings;
+
+/// One of the steps that can be left out.
+struct step {
+    const char* name;
+    const char* text;
+    bool tf::repair_options::*wanted;
+};
+constexpr std::array<step, 5> steps{
+    {{"join",
+      "degenerate and repeated faces go; cracks narrower\n"
+      "than --gap and T-junctions close",
+      &tf::repair_options::join},
+     {"orient", "faces agree, shells turn outward; strays go", &tf::repair_options::orient},
+     {"fill", "holes are filled", &tf::repair_options::fill},
+     {"resolve",
+      "self-intersections are cut; what bounds nothing\n"
+      "goes",
+      &tf::repair_options::resolve},
+     {"detach", "parts that touch in an edge or a point are set apart",
+      &tf::repair_options::detach}}};
+
+/// By `repair_rule`.
+constexpr std::array<const char*, 4> rules{"auto", "nonzero", "odd", "positive"};
+
+struct request {
+    repair_settings settings{};
+    std::array<bool, steps.size()> left_out{};
+};
+
+void add_steps(command_line& line, request& r) {
+    line.group("Steps, in this order (each can be left out with --no-STEP)");
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        line.mention({.names = steps[i].name, .text = steps[i].text});
+        line.flag(r.left_out[i], {.names = std::string("--no-") + steps[i].name});
+    }
+}
+
+void add_options(command_line& line, repair_settings& s) {
+    line.group("Options");
+    line.option(s.gap, {"--gap", "DIST", "widest crack to close", "found, at most 0.1%"});
+    line.option(s.steps.largest_hole, {"--holes", "N", "fill holes of at most N edges", "all"});
+    line.option(
+        {"--strays", "SHARE", "loose open pieces below this share of area go", "0.1%"},
+        [&s](std::string_view text) { s.steps.strays = tools::parse_share("--strays", text); });
+    line.option(s.steps.inside,
+                {"--inside", "RULE", "what is solid: auto | nonzero | odd | positive", "auto"},
+                rules);
+    line.flag(s.steps.sheet, {"--sheet", "", "the input is an open surface: keep its border"});
+    line.flag(s.check, {"--check", "",
+                        "change nothing; say what is wrong; exit 1 if\n"
+                        "anything is"});
+    line.group("Limits beyond which nothing is written (exit 1)");
+    tools::add_max_loss(line, s.rails);
+    tools::add_max_move(line, s.rails);
+}
+
+void add_what_to_give_back(command_line& line, repair_settings& s, common_options& options) {
+    line.group("What to give back");
+    line.output(options.output, {"-o, --output", "FILE", "the solid"});
+    line.output(s.curves, {"--curves", "FILE", "lines along which faces met, as OBJ or PLY"});
+    line.option(s.source, {"--source", "P",
+                           "write the face of the input that each face lies in\n"
+                           "to property P of a PLY or GLB; -1 where it is new"});
+}
+
+const char* const epilogue =
+    "DIST is in the unit of the file; \"0.01%\" is that share of the bounding-box\n"
+    "diagonal. A SHARE is \"5%\" or 0.05. Corners with equal coordinates are one.\n"
+    "\n"
+    "Which faces meet and what is inside is decided exactly, on the coordinates as\n"
+    "read. Which cracks close, which way faces point, and what fills a hole are\n"
+    "guesses; they are counted in the line that is printed, and in the report. A part\n"
+    "that needs nothing stays bit for bit. What is written has been checked in the\n"
+    "coordinates written: closed, oriented, every edge has two faces, and no two faces\n"
+    "meet. Loss is the area of faces of which nothing is left, except for what is\n"
+    "hidden in the solid.\n"
+    "\n"
+    "auto is positive where every part is turned outward, and nonzero otherwise.\n"
+    "\n"
+    "Examples:\n"
+    "  tf-repair part.stl -o fixed.stl\n"
+    "  tf-repair --check parts/\n"
+    "  tf-repair scan.ply -o closed.3mf --holes 100\n"
+    "  tf-repair *.stl --output-dir fixed -r report.json\n"
+    "\n"
+    "Exit status: 0 a solid was written (or --check found nothing); 1 not all could\n"
+    "  be mended, a limit was met, or --check found something; 2 usage; 3 input;\n"
+    "  4 output; 5 stopped (memory, timeout, signal); 70 bug. Of several inputs, the\n"
+    "  highest.\n";
+
+void check_request(const command_line& line, request& r, common_options& options) {
+    using tools::refuse;
+    repair_settings& s = r.settings;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        if (r.left_out[i]) s.steps.*steps[i].wanted = false;
+    tools::check_curve_path(s.curves);
+    if (s.gap && !s.steps.join) refuse("--gap: --no-join closes no cracks");
+    if (line.given("--holes") && (!s.steps.fill || s.steps.sheet))
+        refuse("--holes: no hole is filled with --no-fill or --sheet");
+    if (line.given("--inside") && !s.steps.resolve) refuse("--inside: --no-resolve cuts nothing");
+    if (!options.output.empty()) {
+        const std::string format = tools::mesh_format(options, options.output);
+        if (!s.source.empty() && format != "ply" && format != "glb")
+            refuse("--source needs an output with properties: ply, glb");
+    }
+    s.steps.max_loss = s.rails.loss();
+    if (!s.check) {
+        tools::require_output(line, options, "--check only says what is wrong");
+        return;
+    }
+    if (tools::wants_mesh(options)) refuse("--check writes no mesh");
+    for (const char* name : {"--max-loss", "--accept-loss", "--max-move", "--gap", "--holes",
+                             "--strays", "--inside", "--sheet", "--source", "--precision"})
+        if (line.given(name)) refuse(std::string(name) + ": --check changes nothing");
+}
+
+tools::dirty_mesh read_mesh(tools::job& work) {
+    tools::dirty_mesh input;
+    input.file = work.read();
+    const auto timing = work.time("prepare");
+    tf::mesh& mesh = input.file.mesh;
+    const std::size_t triangles = mesh.faces.size();
+    input.triangle_of_face = tf::drop_unusable_faces(mesh);
+    input.left_out = triangles - mesh.faces.size();
+    work.warn_of_non_finite(input.left_out, "face", "faces");
+    if (mesh.faces.empty())
+        throw tools::failure(tools::bad_input, "no-triangles",
+                             work.name + ": no triangle with finite coordinates");
+    tools::check_arrangeable(work.name, mesh);
+    if (const auto box = tf::bounding_box(mesh.points)) input.diagonal = tf::diagonal(*box);
+    input.volume = tf::signed_volume(mesh);
+    return input;
+}
+
+exit_status check_only(tools::job& work, const tools::dirty_mesh& input) {
+    const auto timing = work.time("check");
+    const tf::solid_defects found = tf::find_solid_defects(input.file.mesh, work.progress("check"));
+    work.call_ended(found.cancelled);
+    tools::say_defects(work, input, found);
+    return found.any() || input.left_out > 0 ? tools::found : tools::done;
+}
+
+tf::repair_result mend(tools::job& work, const tools::dirty_mesh& input,
+                       const repair_settings& settings, tf::precision precision) {
+    const auto timing = work.time("repair");
+    tf::repair_options options = settings.steps;
+    if (settings.gap) options.gap = settings.gap->used(input.diagonal);
+    options.precision = precision;
+    options.progress = work.progress("repair");
+    tf::repair_result made = tf::repair(input.file.mesh, options);
+    work.call_ended(made.certificate.status == tf::status::cancelled);
+    return made;
+}
+
+exit_status look_at(tools::job& work, const repair_settings& s) {
+    const common_options& o = work.options;
+    tools::check_outputs(work, {}, {s.curves});
+    const tools::dirty_mesh input = read_mesh(work);
+    tools::enter_blank_report(work, input, s);
+    tools::write_curves(work, input, s);
+    if (s.check) return check_only(work, input);
+    const auto output = tools::mesh_output(o, work.path);
+    std::optional<tools::written_form> form;
+    if (output) form = tools::form_of(work, input.file, *output);
+    const tf::mesh_file* const inputs = &input.file;
+    tf::repair_result made = mend(work, input, s, tools::written_precision(o, form, {&inputs, 1}));
+    tools::enter_repair(work, input, s, made);
+    std::string why = tools::objection(input, s, made);
+    const std::string too_far = tools::move_objection(work.entry["repair"], s.rails, input.diagonal,
+                                                      made.certificate, made.mesh.points);
+    if (why.empty()) why = too_far;
+    if (!why.empty()) {
+        work.out.result(work.name + ": not written: " + why);
+        return tools::found;
+    }
+    work.out.result(work.name + ": " + tools::verdict(input, made));
+    tools::warn_of_surprises(work, made);
+    tools::warn_of_moves(work, made.mesh.points, made.certificate);
+    if (output && !o.dry_run) tools::write_solid(work, input, s, made, *output);
+    return tools::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    command_line line("tf-repair", "[OPTIONS] INPUT...",
+                      "Make solids of dirty meshes: closed, oriented, manifold and free of\n"
+                      "self-intersections in the file that is written, or say why not.");
+    request r;
+    common_options options;
+    options.suffix = "-repaired";
+    line.inputs(options.inputs, tools::mesh_inputs);
+    add_steps(line, r);
+    add_options(line, r.settings);
+    add_what_to_give_back(line, r.settings, options);
+    line.group("Common options");
+    tools::add_common_options(line, options,
+                              {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"}});
+    line.refuse("--html", true, "is not made by this tool yet");
+    line.epilogue(epilogue);
+    return tools::run(
+        line, options, {"read", "prepare", "check", "repair", "write"}, argc, argv,
+        [&] { check_request(line, r, options); },
+        [&](tools::job& work) { return look_at(work, r.settings); });
+}

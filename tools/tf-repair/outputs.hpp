@@ -1,0 +1,67 @@
+#pragma once
+/// \file
+/// What tf-repair says and writes.
+
+#include "tools/common/rails.hpp"
+#include "tools/common/run.hpp"
+#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/tf.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+struct repair_settings {
+    tf::repair_options steps{};
+    std::optional<distance> gap{};
+    tools::rails rails{};
+    bool check = false;
+    std::string source{};  ///< name of the property with the face that each one lies in; or none
+    std::filesystem::path curves{};
+};
+
+/// A file, and its triangles that can be computed with.
+struct dirty_mesh {
+    tf::mesh_file file{};
+    std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
+    std::uint64_t left_out = 0;                     ///< triangles with a corner that is not finite
+    double diagonal = 0.0;
+    double volume = 0.0;  ///< signed, of what it is
+
+    [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
+};
+
+/// "repair" of a report for which nothing has been done yet.
+void enter_blank_report(job& work, const dirty_mesh& input, const repair_settings& settings);
+
+/// Enters what is wrong, and says it.
+void say_defects(job& work, const dirty_mesh& input, const tf::solid_defects& found);
+
+/// Enters what was done in the report.
+void enter_repair(job& work, const dirty_mesh& input, const repair_settings& settings,
+                  const tf::repair_result& made);
+
+/// "solid, 14,454 faces, volume 12034.5 (was 12034.5): 3 holes filled (41 edges)"
+[[nodiscard]] std::string verdict(const dirty_mesh& input, const tf::repair_result& made);
+
+/// Why the result is not to be written, with what helps against it; empty when it is.
+[[nodiscard]] std::string objection(const dirty_mesh& input, const repair_settings& settings,
+                                    const tf::repair_result& made);
+
+/// Says what the user may want to look at.
+void warn_of_surprises(job& work, const tf::repair_result& made);
+
+/// Writes the mesh with the attributes of the input. \throws failure
+void write_solid(job& work, const dirty_mesh& input, const repair_settings& settings,
+                 tf::repair_result& made, const std::filesystem::path& path);
+
+/// The lines along which faces of the input meet, as OBJ or PLY, where a file is named.
+void write_curves(job& work, const dirty_mesh& input, const repair_settings& settings);
+
+}  // namespace tools

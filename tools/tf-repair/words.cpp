@@ -1,0 +1,104 @@
+#include "tools/common/console.hpp"
+#include "tools/tf-repair/outputs.hpp"
+#include <treeform/tf.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace tools {
+namespace {
+
+/// What the steps have done, in their order.
+std::string deeds(const tf::repair_statistics& did) {
+    std::string text;
+    const auto add = [&](std::uint64_t n, const char* one, const char* several,
+                         const std::string& more = {}) {
+        if (n > 0) text += (text.empty() ? "" : ", ") + counted(n, one, several) + more;
+    };
+    add(did.degenerate, "face without area dropped", "faces without area dropped");
+    add(did.repeated, "repeated face dropped", "repeated faces dropped");
+    add(did.closed_edges, "crack edge closed", "crack edges closed",
+        " (" + brief(did.widest) + " wide at most)");
+    add(did.split_edges, "edge split at a vertex", "edges split at vertices");
+    add(did.flipped, "face flipped", "faces flipped");
+    add(did.turned, "part turned outward", "parts turned outward");
+    add(did.strays, "stray face dropped", "stray faces dropped");
+    add(did.holes, "hole filled", "holes filled",
+        " (" + counted(did.hole_edges, "edge", "edges") + ")");
+    add(did.pairs, "pair cut", "pairs cut");
+    add(did.detached, "vertex set apart", "vertices set apart");
+    return text;
+}
+
+}  // namespace
+
+std::string verdict(const dirty_mesh& input, const tf::repair_result& made) {
+    const tf::repair_statistics& did = made.statistics;
+    const bool is_sheet = made.certificate.status == tf::status::sheet;
+    std::string text = is_sheet ? "sheet, " : "solid, ";
+    text += counted(made.mesh.faces.size(), "face", "faces");
+    if (is_sheet)
+        text += ", area " + brief(did.area_after);
+    else
+        text += ", volume " + brief(did.volume_after) + " (was " + brief(input.volume) + ")";
+    const std::string done = deeds(did);
+    return text + ": " + (done.empty() ? "nothing to mend" : done);
+}
+
+std::string objection(const dirty_mesh& input, const repair_settings& settings,
+                      const tf::repair_result& made) {
+    const tf::certificate& known = made.certificate;
+    const std::string text =
+        message_of(known, [&input](std::uint32_t f) { return input.source().stored_face(f); });
+    switch (known.status) {
+        case tf::status::ok:
+        case tf::status::sheet:
+            return {};
+        case tf::status::open_input:
+            return "open at " + counted(known.open_count, "edge", "edges") +
+                   (settings.steps.sheet ? "" : " (--sheet writes it)");
+        case tf::status::excessive_loss:
+            if (known.size_before == 0.0)
+                return counted(made.statistics.vanished_components, "part", "parts") +
+                       " would vanish (--accept-loss writes it)";
+            return text + " (--accept-loss writes it)";
+        case tf::status::not_certified:
+        case tf::status::vanished:
+            return text + (known.precision == tf::precision::float32
+                               ? "; --precision double, in a format that has it, may do"
+                               : "");
+        default:
+            return text;
+    }
+}
+
+void say_defects(job& work, const dirty_mesh& input, const tf::solid_defects& found) {
+    work.entry["defects"] = {{"non_finite", input.left_out},
+                             {"degenerate", found.degenerate},
+                             {"repeated", found.repeated},
+                             {"open_edges", found.open_edges},
+                             {"nonmanifold_edges", found.nonmanifold_edges},
+                             {"misoriented_edges", found.misoriented_edges},
+                             {"nonmanifold_vertices", found.nonmanifold_vertices},
+                             {"self_intersections", found.meeting_pairs},
+                             {"inverted_parts", found.inverted},
+                             {"wrongly_nested", found.wrongly_nested}};
+    work.out.result(work.name + ": " +
+                    (found.any()
+                         ? found.message()
+                         : "solid, " + counted(input.file.mesh.faces.size(), "face", "faces") +
+                               ", volume " + brief(input.volume)));
+}
+
+void warn_of_surprises(job& work, const tf::repair_result& made) {
+    const tf::repair_statistics& did = made.statistics;
+    if (did.touching > 0)
+        work.warn("touching", counted(did.touching, "vertex has", "vertices have") +
+                                  " the coordinates of another one: programs that join them see "
+                                  "edges of more than two faces");
+    if (did.vanished_components > 0)
+        work.warn("lost-parts", counted(did.vanished_components, "part has", "parts have") +
+                                    " vanished, for they bound nothing");
+}
+
+}  // namespace tools
