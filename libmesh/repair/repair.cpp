@@ -283,14 +283,29 @@ class repairer {
         if (is_solid) did_.volume_after = signed_volume(result_.mesh);
         if (did_.resolved && is_solid) count_vanished(is_left);
         did_.area_lost = detail::repair::lost_area(given_, is_left, result_.mesh);
-        const double whole = did_.area_lost > 0.0 ? detail::repair::area_of_distinct(given_) : 0.0;
-        const double lost = std::min(did_.area_lost, whole);
-        const bool is_too_much = lost > options_.max_loss * whole;
-        if (options_.max_loss >= 1.0 || (!is_too_much && did_.vanished_components == 0)) return;
-        known.status = status::excessive_loss;
-        if (!is_too_much) return;
-        known.size_before = whole;
-        known.size_after = whole - lost;
+        if (options_.max_loss >= 1.0) return;
+        if (did_.vanished_components > 0 || loses_too_much()) known.status = status::excessive_loss;
+    }
+
+    bool loses_too_much() {
+        certificate& known = result_.certificate;
+        if (did_.area_lost == 0.0) return false;
+        double before = detail::repair::area_of_distinct(given_);
+        double after = before - std::min(did_.area_lost, before);
+        if (after >= (1.0 - options_.max_loss) * before) return false;
+        if (known.status == status::ok && did_.holes == 0) {
+            // What was closed had a volume: a fin has area, but none of that.
+            before = did_.volume_before;
+            const boolean_result meant =
+                detail::boolean::resolve_by_union(mesh_.view(), {.inside = fill_rule::nonzero});
+            if (meant.certificate) before = signed_volume(meant.mesh);
+            after = did_.volume_after;
+            if (after >= (1.0 - options_.max_loss) * before) return false;
+            known.size_is_volume = true;
+        }
+        known.size_before = before;
+        known.size_after = after;
+        return true;
     }
 
     /// Components that are too large to go and of which nothing is left, not because they were

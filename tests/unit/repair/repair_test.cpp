@@ -11,10 +11,13 @@
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace {
@@ -235,6 +238,77 @@ TEST_CASE("repair: a sheet keeps its border when asked, and is no solid otherwis
     CHECK(result.statistics.flipped == 1);
     CHECK(result.mesh.faces.size() == 2);
     CHECK_THROWS_AS((void)result.value(), tf::not_certified_error);
+}
+
+TEST_CASE("repair: what loses too much is not certified") {
+    // An open box, and a sheet as large as two of its sides that hangs in the air.
+    tf::mesh dirty = test::box(1, 1, 1);
+    dirty.faces.pop_back();
+    dirty = test::together(dirty, test::moved(test::grid(1), {3, 0, 0}));
+    const tf::repair_options generous{.strays = 0.3};
+    tf::repair_result result = tf::repair(dirty, generous);
+    CHECK(result.certificate.status == tf::status::excessive_loss);
+    CHECK(result.certificate.size_before == doctest::Approx(6.5));
+    CHECK(result.certificate.size_after == doctest::Approx(5.5));
+    CHECK(!result.certificate.size_is_volume);
+    CHECK(result.statistics.area_lost == doctest::Approx(1.0));
+    result = tf::repair(dirty, {.strays = 0.3, .max_loss = 1.0});
+    require_solid(result, 1.0);
+    // With the default it is a part too large to go.
+    result = tf::repair(dirty);
+    CHECK(result.certificate.status == tf::status::excessive_loss);
+    CHECK(result.statistics.vanished_components == 1);
+}
+
+TEST_CASE("repair: a fin has area and no volume, so that to drop it is no loss") {
+    // The middle of the lid lies beside it.
+    tf::mesh dirty = test::box(1, 1, 1);
+    std::erase_if(dirty.faces, [&](const tf::face& f) {
+        return std::ranges::all_of(f, [&](auto p) { return dirty.points[p].z == 1.0; });
+    });
+    const auto at = [&](double x, double y) {
+        dirty.points.push_back({x, y, 1});
+        return static_cast<std::uint32_t>(dirty.points.size() - 1);
+    };
+    const std::array rim{at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
+    const std::uint32_t middle = at(2.5, 0.5);
+    for (std::size_t i = 0; i < 4; ++i) dirty.faces.push_back({rim[i], rim[(i + 1) % 4], middle});
+    const tf::repair_result result = tf::repair(dirty);
+    CHECK(result.statistics.area_lost == doctest::Approx(0.75));
+    require_solid(result, 1.0);
+}
+
+TEST_CASE("repair: defects are found as they are") {
+    CHECK(!tf::find_solid_defects(test::box(1, 1, 1)).any());
+    CHECK(tf::find_solid_defects(test::box(1, 1, 1)).message() == "none");
+    tf::mesh open = test::box(1, 1, 1);
+    open.faces.pop_back();
+    turn(open.faces[0]);
+    tf::solid_defects found = tf::find_solid_defects(open);
+    CHECK(found.open_edges == 3);
+    CHECK(found.misoriented_edges > 0);
+    CHECK(found.message().starts_with("open at 3 edges, "));
+    const tf::mesh ball = test::ball(2, 1.0);
+    found = tf::find_solid_defects(test::inside_out(ball));
+    CHECK(found.inverted == 1);
+    CHECK(found.message() == "1 part inside out");
+    // A cavity is none; a body within a body is.
+    const tf::mesh small = test::ball(2, 0.5);
+    CHECK(!tf::find_solid_defects(test::together(ball, test::inside_out(small))).any());
+    found = tf::find_solid_defects(test::together(ball, small));
+    CHECK(found.wrongly_nested);
+    CHECK(found.inverted == 0);
+    found = tf::find_solid_defects(test::together(ball, test::moved(ball, {0.7, 0.3, 0.1})));
+    CHECK(found.meeting_pairs > 0);
+    CHECK(found.message() == std::to_string(found.meeting_pairs) + " pairs of faces meet");
+    tf::mesh twice = test::box(1, 1, 1);
+    twice.faces.push_back(twice.faces[3]);
+    twice.faces.push_back({0, 0, 1});
+    found = tf::find_solid_defects(twice);
+    CHECK(found.repeated == 1);
+    CHECK(found.degenerate == 1);
+    CHECK(found.nonmanifold_edges == 3);
+    CHECK(tf::find_solid_defects(ball, [](double) { return false; }).cancelled);
 }
 
 TEST_CASE("repair: bad arguments") {

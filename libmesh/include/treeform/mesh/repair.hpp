@@ -122,8 +122,9 @@ struct repair_options {
     /// since it bounds nothing, the status is `excessive_loss`, unless `max_loss` is 1.
     double strays = 0.001;
     repair_rule inside = repair_rule::automatic;
-    /// Losing more than this share of the area has the status `excessive_loss`: faces of which
-    /// nothing is left, except for those hidden in the solid and those on others. 1 allows any loss.
+    /// Losing more than this share has the status `excessive_loss`: of the volume, or of the area
+    /// where there were holes. Area is lost of which nothing is left, neither in sight nor hidden in
+    /// the solid. 1 allows any loss.
     double max_loss = 0.05;
     /// The mesh is an open surface: its border is kept, and nothing is filled.
     bool sheet = false;
