@@ -9,6 +9,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -272,6 +273,17 @@ void write_touching(const std::filesystem::path& folder) {
     write_file(folder / "no_area.stl", stl_ascii(sliver));
 }
 
+/// Holes, faces that are turned, and a triangle that belongs to nothing.
+void write_dirty(const std::filesystem::path& folder) {
+    model ball = sphere(3);
+    for (std::size_t f = 200; f < 240; ++f) std::swap(ball.faces[f][1], ball.faces[f][2]);
+    ball.faces.erase(ball.faces.begin() + 700, ball.faces.begin() + 704);
+    ball.faces.erase(ball.faces.begin() + 100);
+    write_file(
+        folder / "dirty.stl",
+        stl_binary(together(ball, {{{3, 0, 0}, {3.125, 0, 0}, {3, 0.125, 0}}, {{0, 1, 2}}})));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -286,6 +298,7 @@ int main(int argc, char** argv) {
         write_intersecting(folder);
         write_coplanar(folder);
         write_touching(folder);
+        write_dirty(folder);
     } catch (const std::exception& error) {
         std::cerr << "generate: " << error.what() << '\n';
         return 4;

@@ -91,17 +91,18 @@ class Repair(ToolTest):
         points, faces = grid(8)
         across = [(x + 0.25, 4.25, y - 4.25) for x, y, _ in points]
         part = write(self.path("part.obj"), together((points, faces), (across, faces)))
-        entry = self.repaired(part, "--repair=remove", "--keep-components", "-o", "out.obj")
+        entry = self.repaired(part, "--repair=remove", "--keep-components", "--max-loss",
+                              "10%", "-o", "out.obj")
         self.assertGreater(entry["repair"]["left_open_edges"], 0)
         self.assertLess(entry["repair"]["removed_faces"], 20)
         self.run_tool("out.obj", status=0)
-        self.assertIn("edges left open", self.run_tool(part, "--repair=remove", "-n").text)
+        self.assertIn("edges left open", self.run_tool(part, "--repair=remove", "-n", "--accept-loss").text)
 
     def test_faces_that_only_touch_stay_unless_contact_counts(self):
         part = write(self.path("part.obj"), TOUCHING)
         repair = self.repaired(part, "--repair=remove", "-o", "out.obj")["repair"]
         self.assertEqual((repair["removed_faces"], repair["faces"]), (0, 2))
-        repair = self.repaired(part, "--repair=remove", "--touching", "-n")["repair"]
+        repair = self.repaired(part, "--repair=remove", "--touching", "-n", "--accept-loss")["repair"]
         self.assertEqual((repair["removed_faces"], repair["faces"]), (1, 1))
 
     def test_what_would_leave_nothing_is_no_repair(self):
@@ -207,9 +208,30 @@ class Repair(ToolTest):
         for *_, number, source in (line.split() for line in body[count:]):
             self.assertEqual(number, source)
 
+    def test_what_loses_too_much_is_not_written(self):
+        points, faces = TWO_CUBES
+        part = write(self.path("part.obj"), (points, faces))
+        run = self.run_tool(part, "--repair=remove", "-o", "out.obj", status=1)
+        self.assertRegex(run.text, r"not repaired, nothing written: too much would be lost: the "
+                                   r"volume would fall from 1\.875 to [0-9.]+ \(--accept-loss")
+        entry = self.repaired(part, "--repair=remove", "-n", status=1)
+        self.assertEqual(entry["repair"]["loss"]["of"], "volume")
+        self.assertEqual(entry["repair"]["loss"]["before"], 1.875)
+        self.run_tool(part, "--repair=remove", "--accept-loss", "-o", "out.obj", status=0)
+        self.run_tool(part, "--repair=remove", "--max-loss", "90%", "-n", status=0)
+
+    def test_what_is_inside_can_be_told(self):
+        part = write(self.path("part.obj"), TWO_CUBES)
+        entry = self.repaired(part, "--repair", "--inside", "odd", "-n")
+        self.assertEqual(entry["repair"]["volume"]["after"], 1.75)
+        entry = self.repaired(part, "--repair", "--inside", "positive", "-n")
+        self.assertEqual(entry["repair"]["volume"]["after"], 1.875)
+
     def test_what_makes_no_sense_is_refused(self):
         part = write(self.path("part.obj"), TWO_CUBES)
         for options in (["--repair=all"], ["--max-move", "1"], ["--keep-components"],
+                        ["--inside", "odd"], ["--max-loss", "5%"], ["--accept-loss"],
+                        ["--repair=split", "--inside", "odd", "-n"],
                         ["--repair", "--first"], ["--repair", "--within"],
                         ["-o", "out.stl"], ["--repair", "-o", "out.xyz"]):
             self.run_tool(part, *options, status=2)

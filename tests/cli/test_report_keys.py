@@ -7,12 +7,14 @@ from weld_support import XYZ, ply_text, xyz_bytes
 
 HOME = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 PAGE = os.path.join(HOME, "tools", "REPORTS.md")
-NAMES = {"tf-selfintersect": TOOL, "tf-boolean": BOOLEAN, "tf-place": PLACE, "tf-weld": WELD}
+NAMES = {"tf-selfintersect": TOOL, "tf-boolean": BOOLEAN, "tf-place": PLACE, "tf-repair": MEND,
+         "tf-weld": WELD}
 
 # What rounding breaks is mended: no small mesh is known of which faces still meet then.
 NOT_SEEN = {("tf-selfintersect", "repair.meeting[].faces"),
             ("tf-selfintersect", "repair.meeting[].near"),
-            ("tf-boolean", "output.meeting[].faces"), ("tf-boolean", "output.meeting[].near")}
+            ("tf-boolean", "output.meeting[].faces"), ("tf-boolean", "output.meeting[].near"),
+            ("tf-repair", "repair.meeting[].faces"), ("tf-repair", "repair.meeting[].near")}
 
 
 class Key:
@@ -175,7 +177,8 @@ class Reports(PlaceTest):
                 (["-", "--format", "obj"], 3),
                 (["nan.obj", "--repair", "-o", "fixed.stl"], 0),
                 (["two.obj", "--repair=split", "-n", "--max-move", "0"], (0, 1)),
-                (["two.obj", "--repair=remove", "-o", "removed.ply"], 0),
+                (["two.obj", "--repair=remove", "-o", "removed.ply", "--accept-loss"], 0),
+                (["two.obj", "--repair=remove", "-n"], 1),
                 (["open.obj", "--repair", "-n"], 1),
                 (["pieces.obj", "--repair", "-n"], 1),
                 (["large.obj", "--repair", "-o", "large.stl"], 1),
@@ -267,10 +270,29 @@ class Reports(PlaceTest):
                 (["empty.ply", "--check"], 3)]:
             yield arguments, status
 
+    def mend(self):
+        points, faces = cube()
+        self.mesh("hole.obj", (points, faces[1:]))
+        self.mesh("bad.obj", together((points, faces[1:]), ([(3 + x, y, z) for x, y, z in grid(1)[0]],
+                                                            grid(1)[1])))
+        self.mesh("inverted.obj", (points, [(a, c, b) for a, b, c in faces]))
+        for arguments, status in [
+                (["hole.obj", "-o", "filled.stl", "--precision", "float"], 0),
+                (["hole.obj", "--sheet", "-n", "--no-join", "--no-orient", "--no-resolve",
+                  "--no-detach"], 0),
+                (["hole.obj", "--no-fill", "-n"], 1),
+                (["bad.obj", "-n", "--strays", "0.3"], 1),
+                (["two.obj", "--check"], 1),
+                (["inverted.obj", "nan.obj", "missing.obj", "-n"], 3),
+                (["large.obj", "-o", "large3.stl"], 1),
+                (["huge.obj", "-n"], 0)]:
+            yield arguments, status
+
     def test_page_and_reports_have_the_same_keys_of_the_same_types(self):
         self.mesh("outer.obj", box((-9, -9, -9), (9, 9, 9)))
         for tool, runs in (("tf-selfintersect", self.selfintersect), ("tf-boolean", self.boolean),
-                           ("tf-place", self.place), ("tf-weld", self.weld)):
+                           ("tf-place", self.place), ("tf-repair", self.mend),
+                           ("tf-weld", self.weld)):
             for arguments, status in runs():
                 self.compare(self.run_report(tool, *arguments, status=status))
         for tool, keys in (("head", self.head), ("entry", self.common), *self.own.items()):

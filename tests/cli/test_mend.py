@@ -1,0 +1,177 @@
+"""tf-repair: dirty meshes in, solids out; what is wrong, what was done, what is refused."""
+
+from boolean_support import *
+from support import ToolTest
+
+def flipped(face):
+    return face[0], face[2], face[1]
+
+
+class Mend(ToolTest):
+    tool = MEND
+
+    def mended(self, *arguments, status=0):
+        return self.report(*arguments, status=status)["files"][0]
+
+    def cube_without(self, *numbers):
+        points, faces = cube()
+        return points, [f for i, f in enumerate(faces) if i not in numbers]
+
+    def test_a_solid_comes_back_as_it_was(self):
+        part = write(self.path("part.obj"), CLEAN)
+        run = self.run_tool(part, "-o", "out.obj", status=0)
+        self.assertEqual(run.text, part + ": solid, 12 faces, volume 1 (was 1): nothing to mend\n")
+        self.assertEqual(obj_mesh(self.read("out.obj")), obj_mesh(self.read("part.obj")))
+        self.assertEqual(run.err, "")
+
+    def test_each_kind_of_dirt_is_mended_and_counted(self):
+        points, faces = cube()
+        far = [(9.0, 9.0, 9.0), (9.01, 9.0, 9.0), (9.0, 9.01, 9.0)]
+        torn = together(*[([points[c] for c in face], [(0, 1, 2)]) for face in faces])
+        gap = [tuple(x + 1e-5 * ((7 * i + k) % 3 - 1) for k, x in enumerate(p))
+               for i, p in enumerate(torn[0])]
+        for name, mesh, volume_after, done in [
+                ("hole", self.cube_without(3), 1, "1 hole filled (3 edges)"),
+                ("holes", self.cube_without(0, 11), 1, "2 holes filled (6 edges)"),
+                ("flips", (points, [flipped(f) if i % 5 == 0 else f for i, f in enumerate(faces)]),
+                 1, "3 faces flipped"),
+                ("inverted", (points, [flipped(f) for f in faces]), 1, "1 part turned outward"),
+                ("stray", (points + far, faces + [(8, 9, 10)]), 1, "1 stray face dropped"),
+                ("twice", (points, faces + faces[:1]), 1, "1 repeated face dropped"),
+                ("flat", (points, faces + [(0, 0, 1)]), 1, "1 face without area dropped"),
+                ("cracks", (gap, torn[1]), None, "crack edges closed"),
+                ("overlap", TWO_CUBES, 1.875, "pairs cut"),
+                ("touching", together(cube(), cube((1.0, 1.0, 0.0))), None, "set apart")]:
+            with self.subTest(name):
+                part = write(self.path(name + ".obj"), mesh)
+                entry = self.mended(part, "-o", name + "-out.obj")
+                run = self.run_tool(part, "-n", status=0)
+                self.assertIn(done, run.text)
+                self.assertTrue(entry["repair"]["solid"])
+                self.assertTrue(entry["repair"]["certified"])
+                after = volume(*obj_mesh(self.read(name + "-out.obj")))
+                self.assertAlmostEqual(entry["repair"]["volume"]["after"], after)
+                if volume_after is not None:
+                    self.assertEqual(after, volume_after)
+                self.run_tool(name + "-out.obj", "--check", status=0)
+
+    def test_what_is_wrong_is_said_and_nothing_is_changed(self):
+        part = write(self.path("part.obj"), self.cube_without(0, 11))
+        run = self.run_tool(part, "--check", status=1)
+        self.assertEqual(run.text, part + ": open at 6 edges\n")
+        entry = self.mended(part, "--check", status=1)
+        self.assertEqual(entry["defects"]["open_edges"], 6)
+        self.assertIsNone(entry["repair"])
+        write(self.path("two.obj"), TWO_CUBES)
+        self.assertIn("pairs of faces meet", self.run_tool("two.obj", "--check", status=1).text)
+        write(self.path("clean.obj"), CLEAN)
+        self.assertEqual(self.run_tool("clean.obj", "--check", status=0).text,
+                         "clean.obj: solid, 12 faces, volume 1\n")
+        self.assertEqual(self.listing(), ["clean.obj", "part.obj", "two.obj"])
+
+    def test_a_step_can_be_left_out(self):
+        hole = write(self.path("hole.obj"), self.cube_without(3))
+        run = self.run_tool(hole, "--no-fill", "-o", "out.stl", status=1)
+        self.assertEqual(run.text, hole + ": not written: open at 3 edges (--sheet writes it)\n")
+        self.assertNotIn("out.stl", self.listing())
+        run = self.run_tool(hole, "--holes", "2", "-n", status=1)
+        entry = self.mended(hole, "--sheet", "-o", "sheet.obj")
+        self.assertEqual((entry["repair"]["certified"], entry["repair"]["solid"]), (True, False))
+        self.assertIsNone(entry["repair"]["steps"]["fill"])
+        self.assertEqual(obj_mesh(self.read("sheet.obj")), obj_mesh(self.read("hole.obj")))
+        self.assertTrue(self.run_tool(hole, "--sheet", "-n", status=0).text.startswith(
+            hole + ": sheet, 11 faces, area 5.5: nothing to mend"))
+        touching = write(self.path("two.obj"), together(cube(), cube((1.0, 1.0, 0.0))))
+        entry = self.mended(touching, "--no-detach", "-n")
+        self.assertIsNone(entry["repair"]["steps"]["detach"])
+        self.assertEqual(entry["repair"]["volume"]["after"], 2)
+
+    def test_what_would_lose_too_much_is_not_written(self):
+        sheet = [(x + 3, y, z) for x, y, z in grid(1)[0]]
+        points, faces = together(self.cube_without(3), (sheet, grid(1)[1]))
+        part = write(self.path("part.obj"), (points, faces))
+        run = self.run_tool(part, "-o", "out.obj", status=1)
+        self.assertEqual(run.text, part + ": not written: 1 part would vanish "
+                                          "(--accept-loss writes it)\n")
+        entry = self.mended(part, "--strays", "30%", "-o", "out.obj", status=1)
+        self.assertEqual(entry["repair"]["loss"], {"of": "area", "before": 6.5, "after": 5.5})
+        self.assertNotIn("out.obj", self.listing())
+        for options in (["--accept-loss"], ["--strays", "0.3", "--max-loss", "20%"]):
+            self.run_tool(part, *options, "-f", "-o", "out.obj", status=0)
+            self.assertEqual(volume(*obj_mesh(self.read("out.obj"))), 1)
+
+    def test_rounding_that_moves_a_point_too_far_is_not_written(self):
+        part = write(self.path("part.obj"), cube((1 / 3, 0.0, 0.0)))
+        run = self.run_tool(part, "-o", "out.stl", "--max-move", "1e-12", status=1)
+        self.assertIn("--max-move", run.text)
+        entry = self.mended(part, "-o", "out.stl")
+        self.assertEqual(entry["repair"]["precision_out"], "float")
+        self.assertLess(0, entry["repair"]["max_move"]["largest"])
+
+    def test_what_is_written_is_manifold_for_who_joins_equal_coordinates(self):
+        part = write(self.path("part.stl"), together(cube(), cube((1.0, 1.0, 0.0))))
+        entry = self.mended(part, "-o", "out.stl")
+        self.assertGreater(entry["repair"]["steps"]["detach"]["moved"], 0)
+        self.assertEqual(entry["repair"]["steps"]["detach"]["touching"], 0)
+        entry = self.mended("out.stl", "--check")
+        self.assertEqual(entry["defects"]["nonmanifold_edges"], 0)
+        self.assertEqual(entry["defects"]["nonmanifold_vertices"], 0)
+
+    def test_properties_and_sources_go_with_the_faces(self):
+        points, faces = self.cube_without(3)
+        rows = [f"3 {a} {b} {c} {10 * i}" for i, (a, b, c) in enumerate(faces)]
+        self.put("part.ply", "\n".join(
+            ["ply", "format ascii 1.0", f"element vertex {len(points)}", "property double x",
+             "property double y", "property double z", f"element face {len(faces)}",
+             "property list uchar int vertex_indices", "property int id", "end_header",
+             *(f"{x} {y} {z}" for x, y, z in points), *rows, ""]))
+        self.run_tool("part.ply", "-o", "out.ply", "--ascii", "--source", "from", status=0)
+        lines = self.read("out.ply").splitlines()
+        names = [line.split()[-1] for line in lines if line.startswith("property int")]
+        self.assertEqual(names, ["id", "from"])
+        body = lines[lines.index("end_header") + 1 + len(points):]
+        self.assertEqual([tuple(map(int, line.split()[4:])) for line in body],
+                         [(10 * i, i) for i in range(11)] + [(0, -1)])
+
+    def test_lines_where_faces_met(self):
+        part = write(self.path("part.obj"), TWO_CUBES)
+        self.run_tool(part, "-o", "out.stl", "--curves", "lines.obj", status=0)
+        self.assertIn("\nl ", self.read("lines.obj"))
+
+    def test_many_files_at_once(self):
+        write(self.path("in-a.obj"), CLEAN)
+        write(self.path("in-b.obj"), self.cube_without(3))
+        write(self.path("in-c.obj"), grid(3))
+        report = self.report("in-a.obj", "in-b.obj", "in-c.obj", "--output-dir", "out", status=1)
+        self.assertEqual([f["exit"] for f in report["files"]], [0, 0, 1])
+        self.assertEqual(sorted(os.listdir(self.path("out"))),
+                         ["in-a-repaired.obj", "in-b-repaired.obj"])
+        self.run_tool("in-b.obj", "--in-place", status=0)
+        self.run_tool("in-b.obj", "--check", status=0)
+
+    def test_help_and_what_makes_no_sense(self):
+        run = self.run_tool("--help", status=0)
+        self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
+        for group in ("Steps, in this order", "Options:", "Limits", "What to give back:",
+                      "Exit status:"):
+            self.assertIn(group, run.text)
+        part = write(self.path("part.obj"), CLEAN)
+        for options in ([], ["--check", "-o", "out.stl"], ["--check", "--max-loss", "5%"],
+                        ["--gap", "1", "--no-join", "-n"], ["--strays", "120%", "-n"],
+                        ["--max-loss", "-1", "-n"], ["--inside", "even", "-n"],
+                        ["--holes", "3", "--sheet", "-n"], ["--source", "s", "-o", "out.stl"],
+                        ["--html", "out.html", "-n"], ["--curves", "out.stl", "-n"],
+                        ["--inside", "odd", "--no-resolve", "-n"], ["-o", "out.xyz"]):
+            with self.subTest(options=options):
+                run = self.run_tool(part, *options, status=2)
+                self.assertTrue(run.err.startswith("tf-repair: error: "), msg=run.err)
+
+    def test_nothing_to_work_on(self):
+        self.put("points.obj", "v 0 0 0\nv 1 0 0\n")
+        run = self.run_tool("points.obj", "-n", status=3)
+        self.assertIn("no triangle", run.err)
+        self.put("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.run_tool("nan.obj", "-n", status=3)
+
+
+main()
