@@ -32,9 +32,8 @@ command_line::command_line(std::string name, std::string usage, std::string purp
 command_line::~command_line() = default;
 
 std::string command_line::names_of(const option_text& text) const {
-    std::string names;
-    for (const char c : text.names)
-        if (c != ' ') names += c;
+    std::string names = text.names;
+    std::erase(names, ' ');
     return text.aliases.empty() ? names : names + "," + text.aliases;
 }
 
@@ -147,7 +146,13 @@ command_line::outcome command_line::parse(int argc, const char* const* argv) {
     for (int i = 2; i < argc; ++i)
         for (const auto& [name, value] : values_apart_)  // which would be inputs
             if (argv[i - 1] == name && argv[i] == value && !std::filesystem::exists(value))
-                tools::refuse(name + " " + value + ": type " + name + "=" + value);
+                tools::refuse(std::string(name)
+                                  .append(" ")
+                                  .append(value)
+                                  .append(": type ")
+                                  .append(name)
+                                  .append("=")
+                                  .append(value));
     try {
         parser_->app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
