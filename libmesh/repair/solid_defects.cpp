@@ -53,7 +53,8 @@ std::string solid_defects::message() const {
 }
 
 solid_defects find_solid_defects(mesh_view given, const progress_callback& progress) {
-    mesh joined = join_equal_points(given);
+    // Points that no face uses may be anything.
+    mesh joined = join_meshes({&given, 1}).mesh;
     solid_defects found;
     const auto met =
         self_intersections(joined, {.vertices = vertex_identity::by_index, .progress = progress});

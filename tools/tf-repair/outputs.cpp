@@ -102,7 +102,8 @@ void write_solid(job& work, const dirty_mesh& input, const repair_settings& sett
 
 void write_curves(job& work, const dirty_mesh& input, const repair_settings& settings) {
     if (settings.curves.empty() || work.options.dry_run) return;
-    const tf::mesh joined = tf::join_equal_points(input.file.mesh);
+    const tf::mesh_view mesh = input.file.mesh;
+    const tf::mesh joined = tf::join_meshes({&mesh, 1}).mesh;
     const auto found = tf::self_intersections(
         joined, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("curves")});
     work.call_ended(found.cancelled);
