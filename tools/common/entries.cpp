@@ -43,6 +43,47 @@ json loss_entry(const tf::certificate& known) {
             {"after", known.size_after}};
 }
 
+json steps_entry(const tf::repair_statistics& did, const tf::repair_options& steps) {
+    return {{"join", or_null(steps.join, json{{"degenerate", did.degenerate},
+                                              {"repeated", did.repeated},
+                                              {"closed_edges", did.closed_edges},
+                                              {"split_edges", did.split_edges},
+                                              {"gap", did.gap},
+                                              {"widest", did.widest}})},
+            {"orient", or_null(steps.orient, json{{"flipped", did.flipped},
+                                                  {"turned", did.turned},
+                                                  {"strays", did.strays}})},
+            {"fill",
+             or_null(steps.fill && !steps.sheet,
+                     json{{"holes", did.holes}, {"edges", did.hole_edges}, {"faces", did.filled}})},
+            {"resolve", or_null(steps.resolve, json{{"pairs", did.pairs},
+                                                    {"removed", did.removed},
+                                                    {"separated_points", did.split_vertices}})},
+            {"detach",
+             or_null(steps.detach, json{{"moved", did.detached}, {"touching", did.touching}})}};
+}
+
+std::string deeds(const tf::repair_statistics& did) {
+    std::string text;
+    const auto add = [&](std::uint64_t n, const char* one, const char* several,
+                         const std::string& more = {}) {
+        if (n > 0) text += (text.empty() ? "" : ", ") + counted(n, one, several) + more;
+    };
+    add(did.degenerate, "face without area dropped", "faces without area dropped");
+    add(did.repeated, "repeated face dropped", "repeated faces dropped");
+    add(did.closed_edges, "crack edge closed", "crack edges closed",
+        " (" + brief(did.widest) + " wide at most)");
+    add(did.split_edges, "edge split at a vertex", "edges split at vertices");
+    add(did.flipped, "face flipped", "faces flipped");
+    add(did.turned, "part turned outward", "parts turned outward");
+    add(did.strays, "stray face dropped", "stray faces dropped");
+    add(did.holes, "hole filled", "holes filled",
+        " (" + counted(did.hole_edges, "edge", "edges") + ")");
+    add(did.pairs, "pair cut", "pairs cut");
+    add(did.detached, "vertex set apart", "vertices set apart");
+    return text.empty() ? "nothing to mend" : text;
+}
+
 std::string message_of(tf::certificate known, const face_numbers& stored_face) {
     for (tf::open_edge& edge : known.open)
         edge.face = {tf::operand_element::none, stored_face(edge.face.index)};

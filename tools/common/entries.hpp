@@ -4,6 +4,7 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/transform.hpp>
 
@@ -73,6 +74,10 @@ using face_numbers = std::function<std::uint32_t(std::uint32_t)>;
 [[nodiscard]] json meeting_entry(const tf::certificate& known);
 /// What was lost, where that is more than is allowed; else null.
 [[nodiscard]] json loss_entry(const tf::certificate& known);
+/// What each step has done; null of one that was left out.
+[[nodiscard]] json steps_entry(const tf::repair_statistics& did, const tf::repair_options& steps);
+/// "1 hole filled (3 edges), 2 pairs cut", or "nothing to mend".
+[[nodiscard]] std::string deeds(const tf::repair_statistics& did);
 /// Its message, with the face by its number in the file.
 [[nodiscard]] std::string message_of(tf::certificate known, const face_numbers& stored_face);
 

@@ -12,6 +12,7 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -47,6 +48,7 @@ void add_options(command_line& line, boolean_settings& s) {
     line.flag(s.accept_open, {"--accept-open", "",
                               "an open input is a surface that the others cut:\n"
                               "a difference or intersection keeps a part of it"});
+    line.flag(s.repair, {"--repair", "", "mend each INPUT first, as tf-repair does"});
     line.flag(s.simplify, {"--simplify", "", "merge coplanar faces, such as the cut has made"});
     tools::add_max_move(line, s.rails);
 }
@@ -71,16 +73,12 @@ const char* const epilogue =
     "(with --matrix, as moved in double). Inputs may overlap themselves, touch, and\n"
     "share faces; corners with equal coordinates are one. Only the result is rounded:\n"
     "it is checked in the coordinates that are written, and mended where rounding has\n"
-    "made faces meet. What cannot be certified is not written. Parts thinner than the\n"
-    "numbers written tell apart are left out and named; if that is all of the result,\n"
-    "nothing is written. Points that were not cut stay bit for bit, but next to a\n"
-    "place that was mended. Meshes and faces are numbered from 0, faces as in the\n"
-    "files. Where parts of the result touch in an edge or point, each has points of\n"
-    "its own there, so that edges have two faces; where that takes a point more, as\n"
-    "in a ring that touches itself, the edge is counted and warned of. A mesh of no\n"
-    "faces is an empty solid. --simplify keeps faces of different meshes apart if\n"
-    "--source is given, and faces with different properties unless --no-attributes\n"
-    "is.\n"
+    "made faces meet. What cannot be certified is not written; parts thinner than the\n"
+    "numbers written tell apart are left out and named. Points that were not cut stay\n"
+    "bit for bit, except for those next to a place that was mended. Meshes and faces\n"
+    "are numbered from 0, faces as in the files. --simplify keeps faces of different\n"
+    "meshes apart if --source is given, and faces with different properties unless\n"
+    "--no-attributes is.\n"
     "\n"
     "With --accept-open, one input may be an open surface: the first of a difference,\n"
     "any of an intersection, or one that the formula is not true without. What lies\n"
@@ -181,6 +179,8 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
     tools::check_outputs(work, {}, {s.curves});
     const std::vector<tools::solid> solids = tools::read_solids(work, s);
     if (s.check) return check_only(work, solids);
+    if (std::ranges::any_of(solids, [](const tools::solid& one) { return !one.is_mended; }))
+        return tools::found;
     const tf::precision precision = tools::written_precision(work, solids);
     std::optional<std::uint32_t> sheet;
     if (s.accept_open && !s.splits()) {

@@ -142,7 +142,7 @@ void write_curves(job& work, const boolean_settings& settings, const std::vector
     const auto found = tf::self_intersections(
         all.mesh, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("curves")});
     work.call_ended(found.cancelled);
-    pair_numbers first{settings.source + "_mesh1", {}}, second{settings.source + "_mesh2", {}};
+    tf::pair_numbers first{settings.source + "_mesh1", {}}, second{settings.source + "_mesh2", {}};
     for (const tf::face_pair& pair : found.pairs) {
         first.of_pair.push_back(all.mesh_of_face[pair.a]);
         second.of_pair.push_back(all.mesh_of_face[pair.b]);

@@ -25,6 +25,7 @@ struct boolean_settings {
     tf::fill_rule inside = tf::fill_rule::nonzero;
     bool check = false;
     bool accept_open = false;
+    bool repair = false;
     bool simplify = false;
     tools::rails rails{};
     bool max_move_given = false;

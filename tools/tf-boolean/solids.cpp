@@ -57,6 +57,27 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     return s;
 }
 
+/// What cannot be mended is warned of.
+void mend(job& work, solid& s, json& about) {
+    const std::string name = name_of_input(s.path);
+    const tf::repair_options options{.progress = work.progress("repair")};
+    tf::repaired_file made = tf::repair_file(s.source(), options);
+    work.call_ended(made.certificate.status == tf::status::cancelled);
+    about["repair"] = steps_entry(made.statistics, options);
+    s.is_mended = static_cast<bool>(made.certificate);
+    if (s.is_mended) {
+        made.file.stored_as = s.file.stored_as;
+        s = {.path = s.path,
+             .file = std::move(made.file),
+             .triangles = s.triangles,
+             .mended_face = std::move(made.face_source)};
+        work.out.info(name + ": " + deeds(made.statistics));
+    } else {
+        about["reason"] = made.certificate.message();
+        work.warn("open", name + ": not to be mended: " + made.certificate.message());
+    }
+}
+
 void settle_textures(job& work, std::vector<solid>& solids) {
     std::vector<tf::mesh_file*> files;
     std::vector<std::string> names;
@@ -76,7 +97,7 @@ std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
         work.entry["inputs"].push_back({{"file", path}});
         json& about = work.entry["inputs"].back();
         for (const char* key : {"format", "sha256", "precision_in", "matrix", "faces", "triangles",
-                                "volume", "closed", "reason"})
+                                "volume", "closed", "reason", "repair"})
             about[key] = nullptr;
         about["open"] = {{"count", nullptr},
                          {"boundary_edges", nullptr},
@@ -85,6 +106,7 @@ std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
         about["skipped"] = {{"non_finite", nullptr}};
         solids.push_back(read_solid(work, path, settings.matrix_files[i], about));
         forget_sources(solids.back().file, settings.source);
+        if (settings.repair) mend(work, solids.back(), about);
     }
     if (!settings.check && !settings.no_attributes) settle_textures(work, solids);
     return solids;

@@ -21,11 +21,14 @@ struct solid {
     tf::mesh_file file{};
     std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
     std::uint64_t triangles = 0;                    ///< in the file
+    bool is_mended = true;                          ///< or --repair had nothing to do
+    /// By --repair: the number in the file of each face, or `repair_result::none`.
+    std::vector<std::uint32_t> mended_face{};
 
     [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
-    /// The number in the file.
+    /// The number in the file; `repair_result::none` of what fills a hole.
     [[nodiscard]] std::uint32_t stored_face(std::uint32_t face) const {
-        return source().stored_face(face);
+        return mended_face.empty() ? source().stored_face(face) : mended_face[face];
     }
 };
 

@@ -164,14 +164,14 @@ exit_status check_only(tools::job& work, const tools::dirty_mesh& input) {
     return found.any() || input.left_out > 0 ? tools::found : tools::done;
 }
 
-tf::repair_result mend(tools::job& work, const tools::dirty_mesh& input,
+tf::repaired_file mend(tools::job& work, const tools::dirty_mesh& input,
                        const repair_settings& settings, tf::precision precision) {
     const auto timing = work.time("repair");
     tf::repair_options options = settings.steps;
     if (settings.gap) options.gap = settings.gap->used(input.diagonal);
     options.precision = precision;
     options.progress = work.progress("repair");
-    tf::repair_result made = tf::repair(input.file.mesh, options);
+    tf::repaired_file made = tf::repair_file(input.source(), options);
     work.call_ended(made.certificate.status == tf::status::cancelled);
     return made;
 }
@@ -187,11 +187,11 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
     std::optional<tools::written_form> form;
     if (output) form = tools::form_of(work, input.file, *output);
     const tf::mesh_file* const inputs = &input.file;
-    tf::repair_result made = mend(work, input, s, tools::written_precision(o, form, {&inputs, 1}));
+    tf::repaired_file made = mend(work, input, s, tools::written_precision(o, form, {&inputs, 1}));
     tools::enter_repair(work, input, s, made);
-    std::string why = tools::objection(input, s, made);
+    std::string why = tools::objection(s, made);
     const std::string too_far = tools::move_objection(work.entry["repair"], s.rails, input.diagonal,
-                                                      made.certificate, made.mesh.points);
+                                                      made.certificate, made.file.mesh.points);
     if (why.empty()) why = too_far;
     if (!why.empty()) {
         work.out.result(work.name + ": not written: " + why);
@@ -199,7 +199,7 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
     }
     work.out.result(work.name + ": " + tools::verdict(input, made));
     tools::warn_of_surprises(work, made);
-    tools::warn_of_moves(work, made.mesh.points, made.certificate);
+    tools::warn_of_moves(work, made.file.mesh.points, made.certificate);
     if (output && !o.dry_run) tools::write_solid(work, input, s, made, *output);
     return tools::done;
 }

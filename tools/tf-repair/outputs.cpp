@@ -13,35 +13,10 @@
 namespace tools {
 namespace {
 
-json steps_entry(const tf::repair_statistics& did, const tf::repair_options& steps) {
-    return {{"join", or_null(steps.join, json{{"degenerate", did.degenerate},
-                                              {"repeated", did.repeated},
-                                              {"closed_edges", did.closed_edges},
-                                              {"split_edges", did.split_edges},
-                                              {"gap", did.gap},
-                                              {"widest", did.widest}})},
-            {"orient", or_null(steps.orient, json{{"flipped", did.flipped},
-                                                  {"turned", did.turned},
-                                                  {"strays", did.strays}})},
-            {"fill",
-             or_null(steps.fill && !steps.sheet,
-                     json{{"holes", did.holes}, {"edges", did.hole_edges}, {"faces", did.filled}})},
-            {"resolve", or_null(steps.resolve, json{{"pairs", did.pairs},
-                                                    {"removed", did.removed},
-                                                    {"separated_points", did.split_vertices}})},
-            {"detach",
-             or_null(steps.detach, json{{"moved", did.detached}, {"touching", did.touching}})}};
-}
-
 /// The face that each one lies in, -1 where it fills a hole.
-void add_sources(tf::mesh_file& file, const dirty_mesh& input, const std::string& name,
+void add_sources(tf::mesh_file& file, const std::string& name,
                  const std::vector<std::uint32_t>& face_source) {
-    std::vector<std::int32_t> sources;
-    sources.reserve(face_source.size());
-    for (const std::uint32_t f : face_source)
-        sources.push_back(f == tf::repair_result::none
-                              ? -1
-                              : static_cast<std::int32_t>(input.source().stored_face(f)));
+    const std::vector<std::int32_t> sources(face_source.begin(), face_source.end());
     tf::set_column(tf::obtain_element(file.attributes, "face", file.mesh.faces.size()),
                    tf::make_column<std::int32_t>(name, sources));
 }
@@ -60,20 +35,16 @@ void enter_blank_report(job& work, const dirty_mesh& input, const repair_setting
 }
 
 void enter_repair(job& work, const dirty_mesh& input, const repair_settings& settings,
-                  const tf::repair_result& made) {
+                  const tf::repaired_file& made) {
     const tf::certificate& known = made.certificate;
     const tf::repair_statistics& did = made.statistics;
-    const auto topology = tf::count_topology(made.mesh.points.size(), made.mesh.faces);
+    const auto topology = tf::count_topology(made.file.mesh.points.size(), made.file.mesh.faces);
     const bool is_made = known.status != tf::status::open_input;
     work.entry["repair"] = {
         {"certified", static_cast<bool>(known) || known.status == tf::status::sheet},
         {"solid", static_cast<bool>(known)},
         {"steps", steps_entry(did, settings.steps)},
-        {"open", open_entry(known,
-                            [&](std::uint32_t f) {
-                                return f == tf::repair_result::none ? f
-                                                                    : input.source().stored_face(f);
-                            })},
+        {"open", open_entry(known, [](std::uint32_t f) { return f; })},
         {"meeting", meeting_entry(known)},
         {"volume", {{"before", input.volume}, {"after", or_null(is_made, did.volume_after)}}},
         {"area",
@@ -83,21 +54,19 @@ void enter_repair(job& work, const dirty_mesh& input, const repair_settings& set
         {"loss", loss_entry(known)},
         {"lost_components", did.vanished_components},
         {"precision_out", name_of(known.precision)},
-        {"vertices", made.mesh.points.size()},
-        {"faces", made.mesh.faces.size()},
+        {"vertices", made.file.mesh.points.size()},
+        {"faces", made.file.mesh.faces.size()},
         {"components", topology.components_by_point}};
 }
 
 void write_solid(job& work, const dirty_mesh& input, const repair_settings& settings,
-                 tf::repair_result& made, const std::filesystem::path& path) {
+                 tf::repaired_file& made, const std::filesystem::path& path) {
     const auto timing = work.time("write");
     const written_form form = form_of(work, input.file, path);
-    tf::mesh_file file = file_of(std::move(made.mesh), made.certificate);
-    tf::carry(file, input.source(), made.face_source, made.vertex_source);
     if (const tf::carry_source source = input.source(); tf::has_values_left_out({&source, 1}))
         work.warn("attributes", "not all properties of the input are carried over");
-    if (!settings.source.empty()) add_sources(file, input, settings.source, made.face_source);
-    write_certified(work, file, form, path, made.certificate.max_displacement);
+    if (!settings.source.empty()) add_sources(made.file, settings.source, made.face_source);
+    write_certified(work, made.file, form, path, made.certificate.max_displacement);
 }
 
 void write_curves(job& work, const dirty_mesh& input, const repair_settings& settings) {
@@ -107,7 +76,7 @@ void write_curves(job& work, const dirty_mesh& input, const repair_settings& set
     const auto found = tf::self_intersections(
         joined, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("curves")});
     work.call_ended(found.cancelled);
-    pair_numbers kinds{"tf_class", {}};
+    tf::pair_numbers kinds{"tf_class", {}};
     for (const tf::face_pair& pair : found.pairs)
         kinds.of_pair.push_back(static_cast<std::uint32_t>(pair.kind) + 1);
     write_curves(work, settings.curves, joined, found.pairs, {std::move(kinds)});

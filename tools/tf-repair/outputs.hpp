@@ -45,21 +45,20 @@ void say_defects(job& work, const dirty_mesh& input, const tf::solid_defects& fo
 
 /// Enters what was done in the report.
 void enter_repair(job& work, const dirty_mesh& input, const repair_settings& settings,
-                  const tf::repair_result& made);
+                  const tf::repaired_file& made);
 
 /// "solid, 14,454 faces, volume 12034.5 (was 12034.5): 3 holes filled (41 edges)"
-[[nodiscard]] std::string verdict(const dirty_mesh& input, const tf::repair_result& made);
+[[nodiscard]] std::string verdict(const dirty_mesh& input, const tf::repaired_file& made);
 
 /// Why the result is not to be written, with what helps against it; empty when it is.
-[[nodiscard]] std::string objection(const dirty_mesh& input, const repair_settings& settings,
-                                    const tf::repair_result& made);
+[[nodiscard]] std::string objection(const repair_settings& settings, const tf::repaired_file& made);
 
 /// Says what the user may want to look at.
-void warn_of_surprises(job& work, const tf::repair_result& made);
+void warn_of_surprises(job& work, const tf::repaired_file& made);
 
 /// Writes the mesh with the attributes of the input. \throws failure
 void write_solid(job& work, const dirty_mesh& input, const repair_settings& settings,
-                 tf::repair_result& made, const std::filesystem::path& path);
+                 tf::repaired_file& made, const std::filesystem::path& path);
 
 /// The lines along which faces of the input meet, as OBJ or PLY, where a file is named.
 void write_curves(job& work, const dirty_mesh& input, const repair_settings& settings);

@@ -6,50 +6,22 @@
 #include <string>
 
 namespace tools {
-namespace {
 
-/// What the steps have done, in their order.
-std::string deeds(const tf::repair_statistics& did) {
-    std::string text;
-    const auto add = [&](std::uint64_t n, const char* one, const char* several,
-                         const std::string& more = {}) {
-        if (n > 0) text += (text.empty() ? "" : ", ") + counted(n, one, several) + more;
-    };
-    add(did.degenerate, "face without area dropped", "faces without area dropped");
-    add(did.repeated, "repeated face dropped", "repeated faces dropped");
-    add(did.closed_edges, "crack edge closed", "crack edges closed",
-        " (" + brief(did.widest) + " wide at most)");
-    add(did.split_edges, "edge split at a vertex", "edges split at vertices");
-    add(did.flipped, "face flipped", "faces flipped");
-    add(did.turned, "part turned outward", "parts turned outward");
-    add(did.strays, "stray face dropped", "stray faces dropped");
-    add(did.holes, "hole filled", "holes filled",
-        " (" + counted(did.hole_edges, "edge", "edges") + ")");
-    add(did.pairs, "pair cut", "pairs cut");
-    add(did.detached, "vertex set apart", "vertices set apart");
-    return text;
-}
-
-}  // namespace
-
-std::string verdict(const dirty_mesh& input, const tf::repair_result& made) {
+std::string verdict(const dirty_mesh& input, const tf::repaired_file& made) {
     const tf::repair_statistics& did = made.statistics;
     const bool is_sheet = made.certificate.status == tf::status::sheet;
     std::string text = is_sheet ? "sheet, " : "solid, ";
-    text += counted(made.mesh.faces.size(), "face", "faces");
+    text += counted(made.file.mesh.faces.size(), "face", "faces");
     if (is_sheet)
         text += ", area " + brief(did.area_after);
     else
         text += ", volume " + brief(did.volume_after) + " (was " + brief(input.volume) + ")";
-    const std::string done = deeds(did);
-    return text + ": " + (done.empty() ? "nothing to mend" : done);
+    return text + ": " + deeds(did);
 }
 
-std::string objection(const dirty_mesh& input, const repair_settings& settings,
-                      const tf::repair_result& made) {
+std::string objection(const repair_settings& settings, const tf::repaired_file& made) {
     const tf::certificate& known = made.certificate;
-    const std::string text =
-        message_of(known, [&input](std::uint32_t f) { return input.source().stored_face(f); });
+    const std::string text = known.message();
     switch (known.status) {
         case tf::status::ok:
         case tf::status::sheet:
@@ -90,7 +62,7 @@ void say_defects(job& work, const dirty_mesh& input, const tf::solid_defects& fo
                                ", volume " + brief(input.volume)));
 }
 
-void warn_of_surprises(job& work, const tf::repair_result& made) {
+void warn_of_surprises(job& work, const tf::repaired_file& made) {
     const tf::repair_statistics& did = made.statistics;
     if (did.touching > 0)
         work.warn("touching", counted(did.touching, "vertex has", "vertices have") +

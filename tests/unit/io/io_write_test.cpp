@@ -1,4 +1,6 @@
+#include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/read.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 
@@ -7,6 +9,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -301,4 +304,34 @@ TEST_CASE("polygons: splitting repeats the rows of faces and renumbers parts") {
     CHECK(file.attributes.parts[1].first_face == 3);
     CHECK(file.stored_faces == 4);
     CHECK(reread(written(file, "ply"), "a.ply").stored_face.empty());
+}
+
+namespace {
+
+std::string content(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+TEST_CASE("curves: written as lines of an OBJ or as edges of a PLY") {
+    // Two triangles that cross in a segment, and a third that touches the first in a point.
+    const tf::mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {2, 1, 1}},
+                        {{0, 1, 2}, {3, 4, 5}}};
+    const auto pairs = tf::self_intersections(mesh).pairs;
+    REQUIRE(pairs.size() == 1);
+    const std::filesystem::path folder = scratch();
+    const tf::pair_numbers kinds{"kind", {7}};
+    tf::write_curves(folder / "lines.obj", mesh, pairs, {&kinds, 1});
+    CHECK(content(folder / "lines.obj") == "v 1 1 0\nv 1.5 1 0\nl 1 2\n");
+    tf::write_curves(folder / "lines.dat", mesh, pairs, {&kinds, 1}, "ply");
+    const std::string ply = content(folder / "lines.dat");
+    CHECK(ply.ends_with("property int kind\nend_header\n1 1 0\n1.5 1 0\n0 1 7\n"));
+    CHECK(ply.find("element edge 1\n") != std::string::npos);
+    CHECK_THROWS_AS(tf::write_curves(folder / "lines.stl", mesh, pairs), tf::io_error);
+    CHECK_THROWS_AS(tf::write_curves(folder / "none" / "lines.obj", mesh, pairs), tf::io_error);
+    const tf::pair_numbers wrong{"kind", {}};
+    CHECK_THROWS_AS(tf::write_curves(folder / "lines.obj", mesh, pairs, {&wrong, 1}),
+                    std::invalid_argument);
 }

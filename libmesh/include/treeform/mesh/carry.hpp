@@ -4,6 +4,7 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/repair.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/transform.hpp>
 
@@ -60,6 +61,23 @@ TREEFORM_API void carry(mesh_file& file, std::span<const carry_source> inputs,
 TREEFORM_API void carry(mesh_file& file, const carry_source& input,
                         std::span<const std::uint32_t> face_source,
                         std::span<const std::uint32_t> vertex_source);
+
+/// A file whose mesh was mended.
+struct repaired_file {
+    mesh_file file{};  ///< in the format of the input, with its attributes (`carry`)
+    /// [F'] the number in the input file of the face that each lies in, or `repair_result::none`.
+    std::vector<std::uint32_t> face_source{};
+    treeform::certificate certificate{};  ///< with numbers of the input file in `open`
+    repair_statistics statistics{};
+};
+
+/// `repair` of a file's mesh.
+///
+/// \throws std::invalid_argument as `repair`
+/// \cost   as `repair` and `carry`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API repaired_file repair_file(const carry_source& input,
+                                                     const repair_options& options = {});
 
 /// [F of all inputs, in order] A group for each face, for `boolean_options::face_groups`. With
 /// `by_values`, a group has one material and equal values in all columns that are carried; a face

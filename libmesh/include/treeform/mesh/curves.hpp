@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// The curves along which faces meet: as segments, and joined into paths. Each point of a path says
-/// which edges and faces meet there.
+/// which edges and faces meet there. Files of them.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -9,7 +9,9 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace treeform {
@@ -74,5 +76,25 @@ struct curve_network {
 /// \same on any number of threads
 [[nodiscard]] TREEFORM_API curve_network intersection_paths(mesh_view mesh,
                                                             std::span<const face_pair> pairs);
+
+/// A whole number of each pair, for the segments of a PLY.
+struct pair_numbers {
+    std::string name{};
+    std::vector<std::uint32_t> of_pair{};  ///< [P]
+};
+
+/// Writes the paths of `intersection_paths` as lines: OBJ `v` and `l`, or a text PLY with an element
+/// `edge`, whose segments have `numbers`. Faces without area have no paths, but segments of their
+/// own (`intersection_curves`). The format, `obj` or `ply`, is that of the extension where none is
+/// given. "-" is standard output.
+///
+/// \pre    faces of `pairs` and their corners are in range, coordinates finite
+/// \throws io_error for another format, or when the file cannot be written: then there is none, or
+///         the one that was there. std::invalid_argument when there is not a number for each pair
+/// \same   bytes on any number of threads
+TREEFORM_API void write_curves(const std::filesystem::path& path, mesh_view mesh,
+                               std::span<const face_pair> pairs,
+                               std::span<const pair_numbers> numbers = {},
+                               const std::string& format = {});
 
 }  // namespace treeform
