@@ -171,6 +171,30 @@ class Solids(BooleanTest):
         for point in self.solid("out.obj")[0]:
             self.assertEqual(struct.unpack("<3f", struct.pack("<3f", *point)), point)
 
+    def test_dirty_inputs_are_mended_first_when_asked(self):
+        points, faces = cube()
+        turned = [(a, c, b) if i == 5 else (a, b, c) for i, (a, b, c) in enumerate(faces)]
+        write(self.path("dirty.obj"), (points, turned[1:]))
+        write(self.path("b.obj"), cube((0.5, 0.5, 0.5)))
+        self.run_tool("union", "dirty.obj", "b.obj", "-o", "u.obj", status=1)
+        run = self.run_tool("union", "dirty.obj", "b.obj", "--repair", "-o", "u.obj", "-v", status=0)
+        self.assertIn("dirty.obj: 1 face flipped, 1 hole filled (3 edges)", run.err)
+        self.assertEqual(volume(*obj_mesh(self.read("u.obj"))), 1.875)
+        entry = self.entry("union", "dirty.obj", "b.obj", "--repair", "-o", "u.ply", "--ascii",
+                           "--source", "s", status=0)
+        self.assertEqual(entry["inputs"][0]["repair"]["fill"]["holes"], 1)
+        self.assertEqual(entry["inputs"][1]["repair"]["fill"]["holes"], 0)
+        lines = self.read("u.ply").splitlines()
+        sources = {line.split()[-1] for line in lines[lines.index("end_header") + 1:]
+                   if line.startswith("3 ")}
+        self.assertIn("4294967295", sources)
+        self.assertLessEqual(sources - {"4294967295"}, set(map(str, range(12))))
+        write(self.path("sheet.obj"), grid(2))
+        entry = self.entry("union", "sheet.obj", "b.obj", "--repair", "-n", status=1)
+        self.assertEqual(entry["error"]["code"], "not-mended")
+        for options in (["--check", "--repair"], ["union", "--repair", "--accept-open", "-n"]):
+            self.run_tool(*options, "b.obj", status=2)
+
     def test_max_move_bounds_what_rounding_does(self):
         self.mesh("third.obj", ([(x / 3 + 0.1, y / 3, z / 3) for x, y, z in cube()[0]], cube()[1]))
         words = ("difference", "a.obj", "third.obj", "-o", "out.stl")

@@ -11,7 +11,7 @@ FILE = {"input": (str, NULL), "error": NULL, "warnings": list, "operation": (str
         "output": (dict, NULL), "exit": int}
 INPUT = {"file": str, "format": str, "sha256": str, "precision_in": str, "matrix": (str, NULL),
          "faces": int, "triangles": int, "volume": NUMBER, "closed": (bool, NULL),
-         "reason": (str, NULL), "open": dict, "skipped": dict}
+         "reason": (str, NULL), "repair": (dict, NULL), "open": dict, "skipped": dict}
 OUTPUT = {"file": (str, NULL), "format": (str, NULL), "precision_out": str, "vertices": int,
           "cut_vertices": int, "faces": int, "components": int, "nonmanifold_edges": int,
           "volume": (*NUMBER, NULL), "closed": bool, "oriented": (bool, NULL),

@@ -203,6 +203,8 @@ class Reports(PlaceTest):
                 (["--expr", "a-b", "third.obj", "b.obj", "--matrix", "2:m.txt", "-o", "e.stl"], 0),
                 (["union", "a.obj", "c.obj", "-o", "simple.obj", "--simplify"], 0),
                 (["split", "a.obj", "open.obj", "-n"], 0),
+                (["union", "a.obj", "open.obj", "--repair", "-n"], 0),
+                (["union", "a.obj", "sheet.obj", "--repair", "-n"], 1),
                 (["difference", "sheet.obj", "a.obj", "--accept-open", "-n"], 0),
                 (["union", "a.obj", "open.obj", "-n"], 1),
                 (["--check", "a.obj", "open.obj"], 1),

@@ -12,7 +12,6 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -110,10 +109,7 @@ tf::boolean_result ask(tools::job& work, const boolean_settings& s,
                        const std::optional<std::uint32_t>& sheet, tf::precision precision) {
     const auto timing = work.time("cut");
     const std::vector<tf::mesh_view> views = tools::views_of(solids);
-    tf::boolean_options options;
-    options.inside = s.inside;
-    options.precision = precision;
-    options.simplify = s.simplify;
+    tf::boolean_options options{.inside = s.inside, .precision = precision, .simplify = s.simplify};
     const std::vector<std::uint32_t> groups = groups_of(work, s, solids);
     options.face_groups = groups;
     options.volumes = work.options.detailed();
@@ -179,8 +175,6 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
     tools::check_outputs(work, {}, {s.curves});
     const std::vector<tools::solid> solids = tools::read_solids(work, s);
     if (s.check) return check_only(work, solids);
-    if (std::ranges::any_of(solids, [](const tools::solid& one) { return !one.is_mended; }))
-        return tools::found;
     const tf::precision precision = tools::written_precision(work, solids);
     std::optional<std::uint32_t> sheet;
     if (s.accept_open && !s.splits()) {

@@ -57,25 +57,22 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     return s;
 }
 
-/// What cannot be mended is warned of.
 void mend(job& work, solid& s, json& about) {
     const std::string name = name_of_input(s.path);
     const tf::repair_options options{.progress = work.progress("repair")};
     tf::repaired_file made = tf::repair_file(s.source(), options);
     work.call_ended(made.certificate.status == tf::status::cancelled);
     about["repair"] = steps_entry(made.statistics, options);
-    s.is_mended = static_cast<bool>(made.certificate);
-    if (s.is_mended) {
-        made.file.stored_as = s.file.stored_as;
-        s = {.path = s.path,
-             .file = std::move(made.file),
-             .triangles = s.triangles,
-             .mended_face = std::move(made.face_source)};
-        work.out.info(name + ": " + deeds(made.statistics));
-    } else {
+    if (!made.certificate) {
         about["reason"] = made.certificate.message();
-        work.warn("open", name + ": not to be mended: " + made.certificate.message());
+        throw failure(found, "not-mended",
+                      name + ": cannot be mended: " + made.certificate.message());
     }
+    work.out.info(name + ": " + deeds(made.statistics));
+    made.file.stored_as = s.file.stored_as;
+    s.file = std::move(made.file);
+    s.triangle_of_face.clear();
+    s.mended_face = std::move(made.face_source);
 }
 
 void settle_textures(job& work, std::vector<solid>& solids) {

@@ -21,7 +21,6 @@ struct solid {
     tf::mesh_file file{};
     std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
     std::uint64_t triangles = 0;                    ///< in the file
-    bool is_mended = true;                          ///< or --repair had nothing to do
     /// By --repair: the number in the file of each face, or `repair_result::none`.
     std::vector<std::uint32_t> mended_face{};
 
