@@ -1,5 +1,6 @@
 #include <treeform/mesh/boolean.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -50,11 +51,19 @@ std::size_t letter_of(char c) {
     return 26;
 }
 
+bool is_in_name(char c) {
+    return letter_of(c) < 26 || (c >= '0' && c <= '9') || c == '_' || c == '.' ||
+           static_cast<unsigned char>(c) >= 128;
+}
+
 /// Operators wait until one that binds no tighter, or a bracket, follows their right side.
 class reader {
   public:
     reader(std::string_view text, std::size_t operand_count)
         : text_(text), operand_count_(operand_count) {}
+    /// Of names: all of `names`, or those that come up, which are added to them.
+    reader(std::string_view text, std::vector<std::string>& names, bool may_add)
+        : text_(text), names_(&names), may_add_(may_add) {}
 
     std::vector<std::int32_t> read() {
         for (skip_blanks(); at_ < text_.size(); skip_blanks()) {
@@ -98,6 +107,11 @@ class reader {
             waiting_.push_back({bracket, at_++});
             return;
         }
+        postfix_.push_back(static_cast<std::int32_t>(names_ ? named_operand() : operand()));
+        operand_next_ = false;
+    }
+
+    std::size_t operand() {
         const std::size_t begin = at_;
         std::size_t number = 0;  // 1 is a, 27 is aa
         for (; at_ < text_.size() && letter_of(text_[at_]) < 26; ++at_)
@@ -109,8 +123,38 @@ class reader {
                                    ? std::string("is 1 operand")
                                    : "are " + std::to_string(operand_count_) + " operands") +
                               " only");
-        postfix_.push_back(static_cast<std::int32_t>(number - 1));
-        operand_next_ = false;
+        return number - 1;
+    }
+
+    std::size_t named_operand() {
+        const std::size_t begin = at_;
+        std::string_view name;
+        if (const char quote = text_[at_]; quote == '\'' || quote == '"') {
+            const std::size_t end = text_.find(quote, at_ + 1);
+            if (end == std::string_view::npos) refuse(begin, "this quote is not closed");
+            name = text_.substr(begin + 1, end - begin - 1);
+            at_ = end + 1;
+        } else {
+            while (at_ < text_.size() && is_in_name(text_[at_])) ++at_;
+            name = text_.substr(begin, at_ - begin);
+            if (name.empty()) refuse(begin, "expected an operand or a bracket");
+        }
+        const auto found = std::ranges::find(*names_, name);
+        const auto number = static_cast<std::size_t>(found - names_->begin());
+        if (found != names_->end()) return number;
+        if (!may_add_)
+            refuse(begin, "no operand has the name " + std::string(name) + list_of_names());
+        names_->emplace_back(name);
+        return number;
+    }
+
+    /// "; there are body, bolt_1"
+    [[nodiscard]] std::string list_of_names() const {
+        constexpr std::size_t most = 10;
+        std::string list;
+        for (std::size_t i = 0; i < std::min(most, names_->size()); ++i)
+            list += (i == 0 ? "; there are " : ", ") + (*names_)[i];
+        return names_->size() > most ? list + ", ..." : list;
     }
 
     void read_operator() {
@@ -131,7 +175,9 @@ class reader {
     }
 
     std::string_view text_;
-    std::size_t operand_count_;
+    std::size_t operand_count_ = 0;
+    std::vector<std::string>* names_ = nullptr;
+    bool may_add_ = false;
     std::size_t at_ = 0;
     bool operand_next_ = true;
     std::vector<waiting> waiting_{};
@@ -160,6 +206,18 @@ outlook apply(std::int32_t operation, const outlook& left, const outlook& right)
 
 boolean_expression::boolean_expression(std::string_view text, std::size_t operand_count)
     : operand_count_(operand_count), postfix_(reader(text, operand_count).read()) {}
+
+boolean_expression::boolean_expression(std::string_view text, std::span<const std::string> names)
+    : operand_count_(names.size()) {
+    std::vector<std::string> known(names.begin(), names.end());
+    postfix_ = reader(text, known, false).read();
+}
+
+std::vector<std::string> boolean_expression::names_in(std::string_view text) {
+    std::vector<std::string> names;
+    static_cast<void>(reader(text, names, true).read());
+    return names;
+}
 
 boolean_expression::boolean_expression(std::size_t operand_count, std::int32_t operation)
     : operand_count_(operand_count) {

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace treeform::detail::carry {
 namespace {
@@ -15,15 +17,32 @@ bool has_materials(const carry_source& input) {
                        [](const part& p) { return !p.material.empty(); });
 }
 
-}  // namespace
-
-const std::string& material_of(const carry_source& input, std::uint32_t face) {
-    static const std::string no_name;
+/// The part of a face of an input; one without names where it is in none.
+const part& part_of(const carry_source& input, std::uint32_t face) {
+    static const part no_part;
     const auto& parts = input.file->attributes.parts;
     const auto behind =
         std::upper_bound(parts.begin(), parts.end(), input.stored_face(face),
                          [](std::uint32_t number, const part& p) { return number < p.first_face; });
-    return behind == parts.begin() ? no_name : std::prev(behind)->material;
+    return behind == parts.begin() ? no_part : *std::prev(behind);
+}
+
+/// [V] the lowest face with a source at each vertex, for what fills holes between such faces; empty
+/// where all have one.
+std::vector<std::uint32_t> sourced_faces(const mesh_file& file, const carried_elements& made) {
+    std::vector<std::uint32_t> at;
+    if (std::ranges::count(made.face_source, operand_element{}) == 0) return at;
+    at.resize(file.mesh.points.size(), operand_element::none);
+    for (auto f = static_cast<std::uint32_t>(made.face_source.size()); f-- > 0;)
+        if (made.face_source[f].operand != operand_element::none)
+            for (const std::uint32_t corner : file.mesh.faces[f]) at[corner] = f;
+    return at;
+}
+
+}  // namespace
+
+const std::string& material_of(const carry_source& input, std::uint32_t face) {
+    return part_of(input, face).material;
 }
 
 void carry_materials(mesh_file& file, std::span<const carry_source> inputs,
@@ -34,15 +53,27 @@ void carry_materials(mesh_file& file, std::span<const carry_source> inputs,
     for (const carry_source& input : inputs)
         for (const std::string& name : input.file->attributes.material_files)
             if (known.insert(name).second) file.attributes.material_files.push_back(name);
-    if (std::none_of(inputs.begin(), inputs.end(), has_materials)) return;
-    std::string now;
+    const bool keeps_names = inputs.size() == 1;
+    if (!keeps_names && std::none_of(inputs.begin(), inputs.end(), has_materials)) return;
+    const std::vector<std::uint32_t> sourced = sourced_faces(file, made);
+    part now;
     for (std::uint32_t f = 0; f < made.face_source.size(); ++f) {
-        const auto [operand, index] = made.face_source[f];
-        if (operand == operand_element::none) continue;
-        const std::string& material = material_of(inputs[operand], index);
-        if (material == now) continue;
-        now = material;
-        file.attributes.parts.push_back({.material = now, .first_face = f});
+        operand_element source = made.face_source[f];
+        if (source.operand == operand_element::none) {
+            std::uint32_t beside = operand_element::none;
+            for (const std::uint32_t corner : file.mesh.faces[f])
+                beside = std::min(beside, sourced[corner]);
+            if (beside == operand_element::none) continue;
+            source = made.face_source[beside];
+        }
+        const auto [operand, index] = source;
+        part next = part_of(inputs[operand], index);
+        next.first_face = now.first_face;
+        if (!keeps_names) next.object = next.group = {};
+        if (next == now) continue;
+        now = std::move(next);
+        now.first_face = f;
+        file.attributes.parts.push_back(now);
     }
 }
 

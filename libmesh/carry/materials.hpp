@@ -12,9 +12,11 @@ namespace treeform::detail::carry {
 /// The material of face `face` of an input; empty where it has none.
 [[nodiscard]] const std::string& material_of(const carry_source& input, std::uint32_t face);
 
-/// Gives `file` parts that have nothing but the materials of the faces' sources, and the material
-/// files of all inputs. A face without a source has the material of the one before it. The texture
-/// files are those of the first input: of several, `unite_textures` has been asked for one list.
+/// Gives `file` parts with the materials of the faces' sources, and the material files of all
+/// inputs. Of a single input, parts keep their names, too: of several, they would name what each
+/// piece of a result was once. A face without a source is in the part of a face that it has a corner
+/// with. The texture files are those of the first input: of several, `unite_textures` has been asked
+/// for one list.
 void carry_materials(mesh_file& file, std::span<const carry_source> inputs,
                      const carried_elements& made);
 

@@ -171,6 +171,38 @@ class Solids(BooleanTest):
         for point in self.solid("out.obj")[0]:
             self.assertEqual(struct.unpack("<3f", struct.pack("<3f", *point)), point)
 
+    def test_operands_may_be_parts_of_a_scene(self):
+        lines, first = [], 1
+        for name, mesh in (("body", box((0, 0, 0), (4, 4, 4))), ("bolt_1", box((1, 1, 1), (2, 2, 9))),
+                           ("left bolt", box((3, 3, 1), (5, 5, 2))), ("far", box((9, 9, 9), (10, 10, 10)))):
+            points, faces = mesh
+            lines += [f"o {name}", *(f"v {x} {y} {z}" for x, y, z in points),
+                      *("f " + " ".join(str(c + first) for c in face) for face in faces)]
+            first += len(points)
+        with open(self.path("scene.obj"), "w") as file:
+            file.write("\n".join([*lines, ""]))
+        entry = self.entry("--expr", "body-(bolt_1+'left bolt')", "scene.obj", "-o", "out.ply",
+                           "--ascii", "--source", "s", status=0)
+        self.assertEqual(entry["output"]["volume"], 64 - 3 - 1)
+        self.assertEqual([i["part"] for i in entry["inputs"]], ["body", "bolt_1", "left bolt"])
+        self.assertEqual([i["faces"] for i in entry["inputs"]], [12, 12, 12])
+        text = self.read("out.ply")
+        self.assertIn("comment s_mesh 2 scene.obj: left bolt\n", text)
+        faces = text.splitlines()[-entry["output"]["faces"]:]
+        sources = {tuple(map(int, line.split()[-2:])) for line in faces}
+        self.assertLessEqual({face // 12 for mesh, face in sources}, {0, 1, 2})
+        self.assertTrue(all(face // 12 == mesh for mesh, face in sources))
+        # Of several files, and by one that is no scene in itself.
+        write(self.path("b.obj"), box((-1, -1, -1), (1, 1, 1)))
+        self.run_tool("--expr", "body*bolt_1", "scene.obj", "b.obj", "-n", status=0)
+        self.run_tool("--expr", "a*b", "scene.obj", "b.obj", "-n", status=0)  # letters are files
+        run = self.run_tool("--expr", "body-nut", "scene.obj", "-n", status=2)
+        self.assertIn("no part is named nut; there are body, bolt_1, left bolt, far", run.err)
+        for formula in ("body-(bolt_1", "body-'bolt", "body bolt_1"):
+            self.run_tool("--expr", formula, "scene.obj", "-n", status=2)
+        self.run_tool("union", "scene.obj", "-o", "o.3mf", status=0)  # names stay
+        self.run_tool("--expr", "body-far", "o.3mf", "-n", status=0)
+
     def test_dirty_inputs_are_mended_first_when_asked(self):
         points, faces = cube()
         turned = [(a, c, b) if i == 5 else (a, b, c) for i, (a, b, c) in enumerate(faces)]

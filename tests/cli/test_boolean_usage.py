@@ -9,7 +9,7 @@ FILE = {"input": (str, NULL), "error": NULL, "warnings": list, "operation": (str
         "cut_faces": (int, NULL), "cells": (int, NULL), "volumes": (dict, NULL),
         "separated_points": (int, NULL), "skipped": dict, "max_move": dict,
         "output": (dict, NULL), "exit": int}
-INPUT = {"file": str, "format": str, "sha256": str, "precision_in": str, "matrix": (str, NULL),
+INPUT = {"file": str, "part": (str, NULL), "format": str, "sha256": str, "precision_in": str, "matrix": (str, NULL),
          "faces": int, "triangles": int, "volume": NUMBER, "closed": (bool, NULL),
          "reason": (str, NULL), "repair": (dict, NULL), "open": dict, "skipped": dict}
 OUTPUT = {"file": (str, NULL), "format": (str, NULL), "precision_out": str, "vertices": int,

@@ -1,5 +1,8 @@
 """tf-repair: dirty meshes in, solids out; what is wrong, what was done, what is refused."""
 
+import re
+import zipfile
+
 from boolean_support import *
 from support import ToolTest
 
@@ -137,6 +140,27 @@ class Mend(ToolTest):
         part = write(self.path("part.obj"), TWO_CUBES)
         self.run_tool(part, "-o", "out.stl", "--curves", "lines.obj", status=0)
         self.assertIn("\nl ", self.read("lines.obj"))
+
+    def test_a_scene_stays_a_scene(self):
+        lines, first = ["mtllib m.mtl"], 1
+        for name, (points, faces) in (("left", self.cube_without(3)), ("right", cube((3, 0, 0)))):
+            lines += [f"o {name}", f"usemtl {name}_m", *(f"v {x} {y} {z}" for x, y, z in points),
+                      *("f " + " ".join(str(c + first) for c in face) for face in faces)]
+            first += len(points)
+        self.put("scene.obj", "\n".join([*lines, ""]))
+        self.put("m.mtl", "newmtl left_m\nKd 1 0 0\nnewmtl right_m\nKd 0 1 0\n")
+        self.run_tool("scene.obj", "-o", "out.obj", status=0)
+        text = self.read("out.obj")
+        self.assertEqual([l for l in text.splitlines() if l.split()[0] in ("o", "usemtl", "mtllib")],
+                         ["mtllib m.mtl", "o left", "usemtl left_m", "o right", "usemtl right_m",
+                          "o left", "usemtl left_m"])  # of what fills the hole
+        self.run_tool("scene.obj", "-o", "out.3mf", status=0)
+        with zipfile.ZipFile(self.path("out.3mf")) as package:
+            model = package.read("3D/3dmodel.model").decode()
+        self.assertEqual(re.findall(r'<object id="\d+" type="model" name="(\w+)"', model),
+                         ["left", "right"])
+        entry = self.mended("out.3mf", "-o", "again.3mf")
+        self.assertEqual(entry["repair"]["steps"]["fill"]["holes"], 0)
 
     def test_many_files_at_once(self):
         write(self.path("in-a.obj"), CLEAN)

@@ -193,6 +193,11 @@ class Reports(PlaceTest):
         points, faces = cube()
         self.mesh("open.obj", (points, faces[1:]))
         self.mesh("sheet.obj", grid(4, 1.5))
+        with open(self.path("a.obj")) as one, open(self.path("named.obj"), "w") as file:
+            lines = one.read().splitlines()
+            file.write("\n".join([*lines[:8], "o body", *lines[8:], "o nut",
+                                  "v 9 9 9", "v 8 9 9", "v 9 8 9", "v 9 9 8", "f 9 10 11",
+                                  "f 9 12 10", "f 9 11 12", "f 10 12 11", ""]))
         self.mesh("speck.obj", together(cube(), box((5, 5, 5), (5 + 2 ** -40,) * 3)))
         self.mesh("tiny.obj", ([tuple(1e-320 * x for x in p) for p in points], faces))
         with open(self.path("m.txt"), "w") as file:
@@ -204,6 +209,7 @@ class Reports(PlaceTest):
                 (["union", "a.obj", "c.obj", "-o", "simple.obj", "--simplify"], 0),
                 (["split", "a.obj", "open.obj", "-n"], 0),
                 (["union", "a.obj", "open.obj", "--repair", "-n"], 0),
+                (["--expr", "body-nut", "named.obj", "-n"], 0),
                 (["union", "a.obj", "sheet.obj", "--repair", "-n"], 1),
                 (["difference", "sheet.obj", "a.obj", "--accept-open", "-n"], 0),
                 (["union", "a.obj", "open.obj", "-n"], 1),

@@ -8,7 +8,6 @@
 #include "tools/tf-boolean/outputs.hpp"
 #include "tools/tf-boolean/settings.hpp"
 #include "tools/tf-boolean/solids.hpp"
-#include "tools/tf-boolean/words.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 
@@ -37,7 +36,8 @@ void add_options(command_line& line, boolean_settings& s) {
     line.group("Options");
     line.option(s.expression, {"--expr", "EXPR",
                                "instead of OP, such as \"(a-b)*(c+d)\"; a is INPUT 1;\n"
-                               "+ | union, * & intersection, -, ^ exclusive or"});
+                               "+ | union, * & intersection, -, ^ exclusive or; or\n"
+                               "names of parts, \"body-(bolt_1+'left bolt')\""});
     line.repeatable_option(s.matrix_texts,
                            {"--matrix", "N:FILE", "4x4 matrix for INPUT N (repeatable)"});
     line.option(s.inside,
@@ -137,7 +137,6 @@ std::string remedy_for_floats(tools::job& work, const boolean_settings& s,
            "holds it: " + tools::counted(result.mesh.faces.size(), "face", "faces");
 }
 
-/// "1 of 2 bounds no solid"
 std::string open_in_words(std::size_t open, std::size_t all) {
     if (all == 1) return "bounds no solid";
     return tools::grouped(open) + " of " + tools::grouped(all) +
@@ -145,9 +144,9 @@ std::string open_in_words(std::size_t open, std::size_t all) {
 }
 
 exit_status check_only(tools::job& work, const std::vector<tools::solid>& solids) {
-    const std::vector<std::uint32_t> open_ones = tools::check_solids(work, solids);
-    tools::warn_of_open(work, solids, open_ones);
+    const auto open_ones = tools::check_solids(work, solids);
     const std::size_t open = open_ones.size();
+    tools::warn_of_open(work, solids, open_ones);
     const char* const sound = solids.size() == 1 ? "bounds a solid" : "all bound solids";
     work.out.result(work.name + ": " + (open == 0 ? sound : open_in_words(open, solids.size())));
     return open == 0 ? tools::done : tools::found;
@@ -159,15 +158,6 @@ exit_status refuse_open(tools::job& work, const std::vector<tools::solid>& solid
     work.out.result(work.name + ": " + open_in_words(open.size(), solids.size()) + "; " + remark +
                     "nothing written");
     return tools::found;
-}
-
-/// Whether rounding does not stay within --max-move.
-bool moves_too_far(tools::job& work, const boolean_settings& s,
-                   const std::vector<tools::solid>& solids, const tf::boolean_result& result) {
-    const std::string why = tools::move_objection(work.entry, s.rails, tools::diagonal_of(solids),
-                                                  result.certificate, result.mesh.points);
-    if (!why.empty()) work.warn("max-move", why + "; nothing written");
-    return !why.empty();
 }
 
 exit_status operate(tools::job& work, const boolean_settings& s) {
@@ -186,7 +176,6 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
                                "an open surface can be cut, but not united with a solid; ");
     }
     tf::boolean_result result = ask(work, s, solids, sheet, precision);
-    const bool holds = static_cast<bool>(result.certificate);
     if (!result.certificate.open.empty())
         return refuse_open(work, solids, tools::check_solids(work, solids), {});
     if (!sheet)
@@ -198,7 +187,7 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
     tools::write_curves(work, s, solids);
     tools::say_details(work, result);
     tools::warn_of_surprises(work, s, solids, result);
-    if (!holds) {
+    if (!result.certificate) {
         std::string remedy;
         if (precision == tf::precision::float32)
             remedy = remedy_for_floats(work, s, solids, sheet,
@@ -206,7 +195,12 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
         tools::warn_of_failure(work, result, remedy);
         return tools::found;
     }
-    if (moves_too_far(work, s, solids, result)) return tools::found;
+    const std::string too_far = tools::move_objection(
+        work.entry, s.rails, tools::diagonal_of(solids), result.certificate, result.mesh.points);
+    if (!too_far.empty()) {
+        work.warn("max-move", too_far + "; nothing written");
+        return tools::found;
+    }
     tools::warn_of_moves(work, result.mesh.points, result.certificate);
     tools::write_surface(work, s, solids, result);
     return tools::done;

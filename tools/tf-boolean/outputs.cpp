@@ -3,7 +3,6 @@
 #include "tools/common/console.hpp"
 #include "tools/common/curve_file.hpp"
 #include "tools/common/mesh_output.hpp"
-#include "tools/tf-boolean/words.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -18,31 +17,8 @@
 namespace tools {
 namespace {
 
-bool printable(const std::string& text) {
-    return std::all_of(text.begin(), text.end(),
-                       [](char c) { return static_cast<unsigned char>(c) >= 32; });
-}
-
-/// The columns P_mesh and P_face, and what the numbers of meshes stand for.
-void add_sources(tf::mesh_file& file, const boolean_settings& settings,
-                 const std::vector<solid>& solids, const tf::boolean_result& result) {
-    std::vector<std::uint32_t> meshes, faces;
-    for (const tf::operand_element& source : result.face_source) {
-        meshes.push_back(source.operand);
-        faces.push_back(solids[source.operand].stored_face(source.index));
-    }
-    tf::element& rows = tf::obtain_element(file.attributes, "face", file.mesh.faces.size());
-    rows.columns.push_back(tf::make_column<std::uint32_t>(settings.source + "_mesh", meshes));
-    rows.columns.push_back(tf::make_column<std::uint32_t>(settings.source + "_face", faces));
-    for (std::size_t i = 0; i < solids.size(); ++i)
-        if (printable(solids[i].path))
-            file.attributes.comments.push_back(settings.source + "_mesh " + std::to_string(i) +
-                                               " " + solids[i].path);
-}
-
 std::vector<const tf::mesh_file*> files_of(const std::vector<solid>& solids) {
     std::vector<const tf::mesh_file*> files;
-    files.reserve(solids.size());
     for (const solid& s : solids) files.push_back(&s.file);
     return files;
 }
@@ -132,7 +108,13 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
                   {result.face_source, result.vertex_source, result.face_of_cut_vertex});
     if (!settings.no_attributes && form.format == "obj")
         warn_of_ambiguous_materials(work, files_of(solids));
-    if (holds_sources(form.format)) add_sources(file, settings, solids, result);
+    if (holds_sources(form.format)) {
+        std::vector<std::string> inputs;
+        for (const solid& s : solids) inputs.push_back(s.part.empty() ? s.path : name_of(s));
+        for (tf::operand_element& e : result.face_source)
+            e.index = solids[e.operand].stored_face(e.index);
+        tf::add_source_columns(file, settings.source, result.face_source, inputs);
+    }
     write_certified(work, file, form, o.output, result.certificate.max_displacement);
 }
 

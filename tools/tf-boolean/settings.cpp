@@ -11,8 +11,11 @@
 namespace tools {
 namespace {
 
-bool is_operation(const std::string& word) {
-    return std::find(operations.begin(), operations.end(), word) != operations.end();
+bool is_operation(const std::string& word) { return std::ranges::count(operations, word) > 0; }
+
+bool may_have_parts(const std::string& input) {
+    const std::string extension = extension_of(input);
+    return extension != "stl" && extension != "ply" && extension != "off";
 }
 
 void take_operation(boolean_settings& s, common_options& o) {
@@ -81,8 +84,18 @@ void settle_words(boolean_settings& settings, common_options& options) {
     take_operation(settings, options);
     take_matrices(settings, options);
     refuse_what_does_nothing(settings, options);
-    if (!settings.splits() && !settings.name().empty())
+    if (settings.splits() || settings.name().empty()) return;
+    try {
         static_cast<void>(formula_of(settings, options.inputs.size()));
+    } catch (const failure& error) {
+        try {
+            settings.names = tf::boolean_expression::names_in(settings.expression);
+        } catch (const std::invalid_argument&) {
+        }  // which has been said in other words
+        if (std::ranges::none_of(options.inputs, may_have_parts) ||
+            std::ranges::all_of(settings.names, [](auto& name) { return name.size() == 1; }))
+            throw error;
+    }
 }
 
 tf::boolean_expression formula_of(const boolean_settings& settings, std::size_t operands) {
@@ -92,6 +105,7 @@ tf::boolean_expression formula_of(const boolean_settings& settings, std::size_t 
     if (settings.operation == "difference") return boolean_expression::difference_of(operands);
     if (settings.operation == "xor") return boolean_expression::xor_of(operands);
     try {
+        if (!settings.names.empty()) return {settings.expression, settings.names};
         return {settings.expression, operands};
     } catch (const std::invalid_argument& error) {
         const std::string text = error.what();

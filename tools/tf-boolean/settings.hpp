@@ -20,6 +20,7 @@ inline constexpr std::array<const char*, 5> operations{"union", "intersection", 
 struct boolean_settings {
     std::string operation{};                  ///< the word, as typed; empty where there is none
     std::string expression{};                 ///< of --expr
+    std::vector<std::string> names{};         ///< of parts that it has; empty: it has letters
     std::vector<std::string> matrix_texts{};  ///< of --matrix, "N:FILE"
     std::vector<std::filesystem::path> matrix_files{};  ///< by input; empty: it is not moved
     tf::fill_rule inside = tf::fill_rule::nonzero;

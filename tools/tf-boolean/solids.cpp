@@ -15,18 +15,6 @@
 namespace tools {
 namespace {
 
-/// Where faces of an earlier result came from is not what those of this one come from.
-void forget_sources(tf::mesh_file& file, const std::string& source) {
-    for (tf::element& e : file.attributes.elements)
-        if (e.name == "face")
-            std::erase_if(e.columns, [&](const tf::column& c) {
-                return c.name == source + "_mesh" || c.name == source + "_face";
-            });
-    std::erase_if(file.attributes.comments, [&](const std::string& comment) {
-        return comment.starts_with(source + "_mesh ");
-    });
-}
-
 solid read_solid(job& work, const std::string& path, const std::filesystem::path& matrix_file,
                  json& about) {
     solid s;
@@ -58,7 +46,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
 }
 
 void mend(job& work, solid& s, json& about) {
-    const std::string name = name_of_input(s.path);
+    const std::string name = name_of(s);
     const tf::repair_options options{.progress = work.progress("repair")};
     tf::repaired_file made = tf::repair_file(s.source(), options);
     work.call_ended(made.certificate.status == tf::status::cancelled);
@@ -72,7 +60,37 @@ void mend(job& work, solid& s, json& about) {
     made.file.stored_as = s.file.stored_as;
     s.file = std::move(made.file);
     s.triangle_of_face.clear();
-    s.mended_face = std::move(made.face_source);
+    for (std::uint32_t& f : made.face_source)
+        if (f != tf::repair_result::none && !s.face_in_file.empty()) f = s.face_in_file[f];
+    s.face_in_file = std::move(made.face_source);
+}
+
+/// The parts that the formula names, in place of the inputs that they are of.
+std::vector<solid> named_parts(job& work, const std::vector<std::string>& names,
+                               const std::vector<solid>& wholes) {
+    std::vector<solid> named(names.size());
+    json entries = json::array();
+    std::string all;
+    for (std::size_t i = 0; i < wholes.size(); ++i)
+        for (tf::file_part& part : tf::split_parts(wholes[i].source())) {
+            const auto at = std::size_t(std::ranges::find(names, part.name) - names.begin());
+            all += (all.empty() ? "" : ", ") + part.name;
+            if (at == names.size() || !named[at].path.empty()) continue;
+            json& about = entries[at] = work.entry["inputs"][i];
+            about["part"] = part.name;
+            about["volume"] = tf::signed_volume(part.file.mesh);
+            about["faces"] = about["triangles"] = part.file.mesh.faces.size();
+            named[at] = {.path = wholes[i].path,
+                         .file = std::move(part.file),
+                         .triangles = part.stored_face.size(),
+                         .part = part.name,
+                         .face_in_file = std::move(part.stored_face)};
+        }
+    for (std::size_t k = 0; k < names.size(); ++k)
+        if (named[k].path.empty())
+            refuse("--expr: no part is named " + names[k] + "; there are " + all);
+    work.entry["inputs"] = std::move(entries);
+    return named;
 }
 
 void settle_textures(job& work, std::vector<solid>& solids) {
@@ -93,8 +111,8 @@ std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
         const std::string& path = work.options.inputs[i];
         work.entry["inputs"].push_back({{"file", path}});
         json& about = work.entry["inputs"].back();
-        for (const char* key : {"format", "sha256", "precision_in", "matrix", "faces", "triangles",
-                                "volume", "closed", "reason", "repair"})
+        for (const char* key : {"part", "format", "sha256", "precision_in", "matrix", "faces",
+                                "triangles", "volume", "closed", "reason", "repair"})
             about[key] = nullptr;
         about["open"] = {{"count", nullptr},
                          {"boundary_edges", nullptr},
@@ -102,23 +120,23 @@ std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
                          {"list", json::array()}};
         about["skipped"] = {{"non_finite", nullptr}};
         solids.push_back(read_solid(work, path, settings.matrix_files[i], about));
-        forget_sources(solids.back().file, settings.source);
-        if (settings.repair) mend(work, solids.back(), about);
+        tf::drop_source_columns(solids.back().file, settings.source);
     }
+    if (!settings.names.empty()) solids = named_parts(work, settings.names, solids);
+    for (std::size_t i = 0; settings.repair && i < solids.size(); ++i)
+        mend(work, solids[i], work.entry["inputs"][i]);
     if (!settings.check && !settings.no_attributes) settle_textures(work, solids);
     return solids;
 }
 
 std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids) {
     std::vector<tf::mesh_view> views;
-    views.reserve(solids.size());
     for (const solid& s : solids) views.push_back(s.file.mesh);
     return views;
 }
 
 std::vector<tf::carry_source> sources_of(const std::vector<solid>& solids) {
     std::vector<tf::carry_source> sources;
-    sources.reserve(solids.size());
     for (const solid& s : solids) sources.push_back(s.source());
     return sources;
 }
@@ -126,10 +144,8 @@ std::vector<tf::carry_source> sources_of(const std::vector<solid>& solids) {
 double diagonal_of(const std::vector<solid>& solids) {
     std::vector<tf::point3> corners;
     for (const solid& s : solids)
-        if (const auto box = tf::bounding_box(s.file.mesh.points)) {
-            corners.push_back(box->min);
-            corners.push_back(box->max);
-        }
+        if (const auto box = tf::bounding_box(s.file.mesh.points))
+            corners.insert(corners.end(), {box->min, box->max});
     const auto box = tf::bounding_box(corners);
     return box ? tf::diagonal(*box) : 0.0;
 }
@@ -154,7 +170,7 @@ std::vector<std::uint32_t> check_solids(job& work, const std::vector<solid>& sol
 void warn_of_open(job& work, const std::vector<solid>& solids,
                   const std::vector<std::uint32_t>& open) {
     for (const std::uint32_t i : open)
-        work.warn("open", name_of_input(solids[i].path) + ": no solid: " +
+        work.warn("open", name_of(solids[i]) + ": no solid: " +
                               work.entry["inputs"][i]["reason"].get<std::string>());
 }
 

@@ -21,17 +21,24 @@ struct solid {
     tf::mesh_file file{};
     std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
     std::uint64_t triangles = 0;                    ///< in the file
-    /// By --repair: the number in the file of each face, or `repair_result::none`.
-    std::vector<std::uint32_t> mended_face{};
+    std::string part{};  ///< its name in the file, where the formula names parts
+    /// Of a part and by --repair: the number in the file of each face, or `repair_result::none`.
+    std::vector<std::uint32_t> face_in_file{};
 
     [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
     /// The number in the file; `repair_result::none` of what fills a hole.
     [[nodiscard]] std::uint32_t stored_face(std::uint32_t face) const {
-        return mended_face.empty() ? source().stored_face(face) : mended_face[face];
+        return face_in_file.empty() ? source().stored_face(face) : face_in_file[face];
     }
 };
 
-/// Reads and moves all inputs, and enters them in the report. \throws failure
+/// For people.
+[[nodiscard]] inline std::string name_of(const solid& s) {
+    return name_of_input(s.path) + (s.part.empty() ? "" : ": " + s.part);
+}
+
+/// Reads and moves all inputs, takes the parts that the formula names, and mends what is to be
+/// mended; enters all that in the report. \throws failure
 [[nodiscard]] std::vector<solid> read_solids(job& work, const boolean_settings& settings);
 
 [[nodiscard]] std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids);

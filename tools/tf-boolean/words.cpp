@@ -1,6 +1,5 @@
-#include "tools/tf-boolean/words.hpp"
-
 #include "tools/common/console.hpp"
+#include "tools/tf-boolean/outputs.hpp"
 #include <treeform/mesh/carry.hpp>
 #include <treeform/tf.hpp>
 

@@ -158,3 +158,33 @@ TEST_CASE("boolean expression: what it needs is false without it") {
     CHECK_FALSE(needs("(a-b)+(c-b)", 0));
     CHECK(tf::boolean_expression::union_of(0).needs(0));
 }
+
+TEST_CASE("expression: names of operands") {
+    const std::vector<std::string> names{"body", "bolt_1", "left bolt", "a-b"};
+    const boolean_expression formula("body - (bolt_1 + 'left bolt')*\"a-b\"", names);
+    const auto value = [&](bool body, bool bolt, bool left, bool other) {
+        const std::array in{body, bolt, left, other};
+        return formula(in);
+    };
+    CHECK(value(true, false, false, false));
+    CHECK_FALSE(value(true, true, false, true));
+    CHECK_FALSE(value(true, false, true, true));
+    CHECK(value(true, true, true, false));
+    CHECK(boolean_expression::names_in("body-(x.2+'left bolt')-body") ==
+          std::vector<std::string>{"body", "x.2", "left bolt"});
+    const auto complaint_of = [&](const char* text) {
+        try {
+            static_cast<void>(boolean_expression(text, names));
+        } catch (const std::invalid_argument& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(complaint_of("body-nut") ==
+          "treeform::boolean_expression: position 6 of \"body-nut\": no operand has the name nut; "
+          "there are body, bolt_1, left bolt, a-b");
+    CHECK(complaint_of("body-'bolt").ends_with("this quote is not closed"));
+    CHECK_FALSE(complaint_of("body bolt_1").empty());
+    CHECK_FALSE(complaint_of("Body").empty());  // the case of letters matters
+    CHECK_THROWS_AS((void)boolean_expression::names_in("a-(b"), std::invalid_argument);
+}

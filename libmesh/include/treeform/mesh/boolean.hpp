@@ -13,6 +13,7 @@
 #include <initializer_list>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,6 +28,11 @@ class TREEFORM_API boolean_expression {
     ///         operand beyond `operand_count`
     /// \cost   O(characters) time, however deep the brackets
     boolean_expression(std::string_view text, std::size_t operand_count);
+    /// The same with names in place of letters, "body-(bolt_1+'left bolt')": words of letters,
+    /// digits, `_` and `.`, or anything between quotes. The first operand of a name is meant.
+    boolean_expression(std::string_view text, std::span<const std::string> names);
+    /// Those of a formula with names, each once, in the order in which they come first.
+    [[nodiscard]] static std::vector<std::string> names_in(std::string_view text);
 
     /// What is in any operand. Without operands, this and the formulas below are empty.
     [[nodiscard]] static boolean_expression union_of(std::size_t operand_count);

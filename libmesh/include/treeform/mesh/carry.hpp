@@ -42,7 +42,7 @@ struct carried_elements {
 
 /// Gives `file`, whose mesh was made of the inputs, their attributes: columns of vertices and faces
 /// with one value a row, texture coordinates and normals of corners, materials and the files of
-/// materials and textures.
+/// materials and textures; of a single input, also the names of its parts.
 ///
 /// A face gets the values of its source, the face that it lies in; a vertex those of its source.
 /// For a new vertex on a cut, values are interpolated between the corners of the face that it lies
@@ -61,6 +61,32 @@ TREEFORM_API void carry(mesh_file& file, std::span<const carry_source> inputs,
 TREEFORM_API void carry(mesh_file& file, const carry_source& input,
                         std::span<const std::uint32_t> face_source,
                         std::span<const std::uint32_t> vertex_source);
+
+/// Gives faces the uint32 columns NAME_mesh and NAME_face: the operand that each comes from, and its
+/// number there. A comment for each of `inputs` says which one a number stands for. Columns and
+/// comments of these names from an earlier result go.
+///
+/// \pre `face_source` has an element for each face
+TREEFORM_API void add_source_columns(mesh_file& file, const std::string& name,
+                                     std::span<const operand_element> face_source,
+                                     std::span<const std::string> inputs);
+
+/// Drops these columns and comments, which an earlier result may have left.
+TREEFORM_API void drop_source_columns(mesh_file& file, const std::string& name);
+
+/// A part of a scene as a file of its own.
+struct file_part {
+    std::string name{};                        ///< as `scene_part::name`
+    mesh_file file{};                          ///< with the attributes of its faces and points
+    std::vector<std::uint32_t> stored_face{};  ///< [F] the number of each face in the whole file
+};
+
+/// The parts of a file (`scene_parts`, with equal points as one), each with the points and faces
+/// that are its own, and with their attributes (`carry`).
+///
+/// \throws std::invalid_argument naming the lowest face with a corner out of range
+/// \cost   O(V + F) for each part and column
+[[nodiscard]] TREEFORM_API std::vector<file_part> split_parts(const carry_source& whole);
 
 /// A file whose mesh was mended.
 struct repaired_file {

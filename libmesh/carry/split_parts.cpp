@@ -1,0 +1,35 @@
+#include <libmesh/base/used_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/properties.hpp>
+
+#include <utility>
+
+namespace treeform {
+
+std::vector<file_part> split_parts(const carry_source& source) {
+    const mesh_file& whole = *source.file;
+    const mesh joined = join_equal_points(whole.mesh);
+    std::vector<std::uint32_t> stored;
+    for (std::uint32_t f = 0; f < joined.faces.size(); ++f) stored.push_back(source.stored_face(f));
+    std::vector<file_part> parts;
+    for (scene_part& of : scene_parts(joined, whole.attributes.parts, stored)) {
+        file_part part{.name = std::move(of.name)};
+        part.file.mesh = select_faces(whole.mesh, of.faces);
+        part.file.stored_faces = of.faces.size();
+        part.file.indexed = whole.indexed;
+        part.file.stored_as = whole.stored_as;
+        part.file.format = whole.format;
+        std::vector<face> kept;
+        for (const std::uint32_t f : of.faces) {
+            kept.push_back(whole.mesh.faces[f]);
+            part.stored_face.push_back(stored[f]);
+        }
+        carry(part.file, source, of.faces,
+              detail::base::used_points(whole.mesh.points.size(), kept));
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+}  // namespace treeform
