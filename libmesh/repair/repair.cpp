@@ -232,8 +232,13 @@ class repairer {
             result_.face_source.push_back(e.index == operand_element::none ? repair_result::none
                                                                            : mesh_.source[e.index]);
         for (const operand_element& e : made.vertex_source)
-            result_.vertex_source.push_back(e.index);
+            result_.vertex_source.push_back(source_of_point(e.index));
         did_.split_vertices = made.statistics.split_vertices;
+    }
+
+    /// What fills holes may have points of its own.
+    [[nodiscard]] std::uint32_t source_of_point(std::uint32_t p) const {
+        return p < given_.points.size() ? p : repair_result::none;
     }
 
     void keep_as_it_is() {
@@ -241,7 +246,7 @@ class repairer {
         for (const std::uint32_t p : detail::base::used_points(mesh_.points.size(), mesh_.faces)) {
             number[p] = static_cast<std::uint32_t>(result_.mesh.points.size());
             result_.mesh.points.push_back(mesh_.points[p]);
-            result_.vertex_source.push_back(p);
+            result_.vertex_source.push_back(source_of_point(p));
         }
         for (const face& f : mesh_.faces)
             result_.mesh.faces.push_back({number[f[0]], number[f[1]], number[f[2]]});
