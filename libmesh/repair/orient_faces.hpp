@@ -18,6 +18,9 @@ std::uint64_t make_faces_agree(working_mesh& mesh);
 
 /// Turns closed components outward that have a negative volume and lie inside no other; returns how
 /// many. A component is closed when its faces run as often one way as the other along each edge.
+/// What lies inside of one is turned with it, if from outside every second one is inward: a solid
+/// with cavities, inside out. Cavities stay inside of what was filled, whether or not the filling
+/// passes through them.
 ///
 /// \cost O(V + F); for a component turned inward, a winding number around each one whose box holds
 ///       its own
