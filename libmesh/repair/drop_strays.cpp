@@ -92,13 +92,23 @@ bool is_surplus(const patch& part, const std::vector<std::uint32_t>& count) {
     return !edges.empty();
 }
 
+/// Whether the edges where it hangs on others have two faces without it.
+bool is_flap(const patch& part, const std::vector<std::uint32_t>& count) {
+    const std::vector<std::uint32_t>& edges = part.crowded;  // ascending
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+        while (end < edges.size() && edges[end] == edges[begin]) ++end;
+        if (count[edges[begin]] - (end - begin) < 2) return false;
+    }
+    return true;
+}
+
 bool is_stray(const patch& part, const patch_map& map, double share, bool is_sheet) {
     if (part.free_length == 0.0) return is_surplus(part, map.count);
     if (is_sheet) return false;
     const bool is_flat = part.rim_length * part.rim_length > flat * part.area;
     const bool is_small = part.area < share * map.area;
     if (part.crowded.empty()) return is_flat && is_small;
-    return (is_flat || is_small) && is_surplus(part, map.count);
+    return (is_flat || is_small) && is_flap(part, map.count);
 }
 
 }  // namespace

@@ -113,9 +113,8 @@ std::vector<component> closed_components(const working_mesh& mesh) {
         for (const std::uint32_t f : part.faces) faces.push_back(mesh.faces[f]);
         part.volume = signed_volume({mesh.points, faces});
         part.box = box_of(mesh, part);
-        part.is_filled = std::ranges::any_of(part.faces, [&](std::uint32_t f) {
-            return mesh.source[f] == repair_result::none;
-        });
+        part.is_filled = std::ranges::any_of(
+            part.faces, [&](std::uint32_t f) { return mesh.source[f] == repair_result::none; });
     }
     return all;
 }
@@ -158,8 +157,7 @@ std::vector<component*> turned_with(const working_mesh& mesh, component& outer,
         if (&part != &outer && is_inside(mesh, part, outer)) within.push_back(&part);
     for (component* part : within) {
         bool is_even = false;  // the number of those around it
-        for (component* other : within)
-            is_even ^= other != part && is_inside(mesh, *part, *other);
+        for (component* other : within) is_even ^= other != part && is_inside(mesh, *part, *other);
         if ((part->volume < 0.0) != is_even) return {};
     }
     return within;

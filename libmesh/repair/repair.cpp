@@ -114,7 +114,7 @@ class repairer {
                     1e-6 * diagonal_,
                     1e-5 * diagonal_,
                     1e-4 * diagonal_,
-                    1e-3 * diagonal_};
+                    1e-3 * diagonal_ * (1.0 + 1e-6)};  // cracks as wide as that, however rounded
         std::uint64_t fewest = tally_.border;
         working_mesh best;
         for (const double gap : gaps) {

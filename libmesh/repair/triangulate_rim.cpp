@@ -217,8 +217,7 @@ std::vector<face> triangulate_rim(const working_mesh& mesh, const open_rim& rim,
     weighted_rim rest{rim.points, {}};
     for (const std::uint32_t f : rim.faces) rest.normals.push_back(geometry.normal_of(f));
     std::vector<face> found;
-    if (rest.points.size() > most_at_once)
-        corner_cutter(geometry, rest).run(most_at_once, found);
+    if (rest.points.size() > most_at_once) corner_cutter(geometry, rest).run(most_at_once, found);
     if (rest.points.size() > most_at_once) return {};
     best_triangulation(geometry, rest).append_to(found);
     return found;

@@ -112,8 +112,8 @@ std::vector<double> shortest_edges(const tf::mesh& mesh) {
     for (const tf::face& f : mesh.faces)
         for (std::size_t i = 0; i < 3; ++i)
             for (const std::size_t k : {(i + 1) % 3, (i + 2) % 3})
-                shortest[f[i]] = std::min(
-                    shortest[f[i]], length(minus(mesh.points[f[i]], mesh.points[f[k]])));
+                shortest[f[i]] =
+                    std::min(shortest[f[i]], length(minus(mesh.points[f[i]], mesh.points[f[k]])));
     return shortest;
 }
 
@@ -210,8 +210,8 @@ void tear(soiler& s) {
         for (std::uint32_t& corner : s.made.mesh.faces[f]) {
             const double by = std::min(crack_width(s) / 2.0, shortest[corner] / 10.0);
             widest = std::max(widest, 2.0 * by);
-            corner = s.add(plus(s.clean.points[corner], random_direction(s.source),
-                                by * s.source.unit()));
+            corner = s.add(
+                plus(s.clean.points[corner], random_direction(s.source), by * s.source.unit()));
         }
     }
     s.made.size = widest;
@@ -225,8 +225,7 @@ void open_seam(soiler& s) {
     std::vector<std::uint8_t> is_above(s.clean.faces.size());
     for (std::uint32_t f = 0; f < s.clean.faces.size(); ++f) {
         is_above[f] = dot(normal, minus(s.middle(f), through)) > 0.0;
-        (is_above[f] ? above : below)
-            .insert(s.clean.faces[f].begin(), s.clean.faces[f].end());
+        (is_above[f] ? above : below).insert(s.clean.faces[f].begin(), s.clean.faces[f].end());
     }
     std::ranges::set_intersection(above, below, std::inserter(seam, seam.end()));
     const std::vector<double> shortest = shortest_edges(s.clean);
@@ -367,15 +366,15 @@ void invert(soiler& s) {
 
 std::string_view name_of(dirt_kind kind) {
     constexpr std::array<std::string_view, dirt_kinds> names{
-        "missing", "hole",     "flipped",   "cracks",  "seam",   "strays",    "inner", "bottomless",
-        "inverted", "junctions", "overlap", "copies", "zero_area", "unjoined"};
+        "missing",    "hole",     "flipped",   "cracks",  "seam",   "strays",    "inner",
+        "bottomless", "inverted", "junctions", "overlap", "copies", "zero_area", "unjoined"};
     return names[static_cast<std::size_t>(kind)];
 }
 
 dirty_mesh soil(const tf::mesh& clean, dirt_kind kind, std::size_t size, random& source) {
     constexpr std::array<void (*)(soiler&), dirt_kinds> ways{
-        miss,   make_hole, flip,       tear,   open_seam, scatter,         hang_inside, stand_box,
-        invert, cut_edges, double_all, copy, add_empty_faces, unjoin};
+        miss,      make_hole, flip,      tear,       open_seam, scatter,         hang_inside,
+        stand_box, invert,    cut_edges, double_all, copy,      add_empty_faces, unjoin};
     soiler s(clean, size, source);
     ways[static_cast<std::size_t>(kind)](s);
     return s.finished();
