@@ -1,11 +1,15 @@
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/repair/fair_patch.hpp>
 #include <libmesh/repair/fill_hole.hpp>
 #include <libmesh/repair/fill_holes.hpp>
 #include <libmesh/repair/open_rims.hpp>
+#include <libmesh/repair/refined_patch.hpp>
 #include <libmesh/repair/triangulate_rim.hpp>
 #include <treeform/mesh/repair.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace treeform::detail::repair {
@@ -30,10 +34,18 @@ std::vector<face> cone_over(working_mesh& mesh, const open_rim& rim) {
 filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest) {
     filled_holes done;
     const directed_edges edges(mesh.faces);
+    std::optional<base::stars> stars;  // of the mesh before the first hole was filled
     for (const open_rim& rim : open_rims(mesh)) {
         if (rim.points.size() > largest) continue;
         std::vector<face> faces = triangulate_rim(mesh, rim, edges);
-        if (faces.empty()) faces = cone_over(mesh, rim);
+        if (faces.empty()) {
+            faces = cone_over(mesh, rim);
+        } else if (is_to_be_fair(mesh, rim, faces)) {
+            if (!stars) stars.emplace(mesh.points.size(), mesh.faces);
+            const std::size_t first = mesh.points.size();
+            faces = refined_patch(mesh, rim, faces, edges);
+            make_fair(mesh, rim, faces, first, *stars);
+        }
         for (const face& f : faces) mesh.append(f, repair_result::none);
         ++done.holes;
         done.edges += rim.points.size();

@@ -14,7 +14,8 @@ struct filled_holes {
     std::uint64_t faces = 0;  ///< that fill them
 };
 
-/// Fills each hole of at most `largest` edges: `triangulate_rim`, or else a cone over the rim.
+/// Fills each hole of at most `largest` edges: `triangulate_rim`, or else a cone over the rim. Large
+/// holes of smooth surfaces are refined and made fair.
 /// Afterwards, faces run as often one way as the other along each edge of every rim filled.
 ///
 /// What fills a hole may meet other faces: to cut it is the next step's.
