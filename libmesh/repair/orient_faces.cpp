@@ -102,7 +102,7 @@ bool overlap(const box3& a, const box3& b) {
 
 /// Those that are closed.
 std::vector<component> closed_components(const working_mesh& mesh) {
-    const std::vector<std::uint32_t> part_of = parts_by_edges(mesh);
+    const std::vector<std::uint32_t> part_of = shells(mesh);
     std::vector<component> all(mesh.faces.size());
     for (std::uint32_t f = 0; f < part_of.size(); ++f) all[part_of[f]].faces.push_back(f);
     for (const std::uint32_t f : faces_at_unbalanced_edges(mesh)) all[part_of[f]].faces.clear();
@@ -134,18 +134,24 @@ const prepared_mesh& given_surface(const working_mesh& mesh, component& part) {
     return part.given.emplace(select_faces(mesh.view(), given));
 }
 
-/// Where a hole was filled, the filling may be on either side of what lies inside: then most
-/// vertices tell.
+/// With no vertex outside, and not with all on the other's surface: cavities may touch it. Where a
+/// hole was filled, the filling may be on either side of what lies inside: then most vertices tell,
+/// if what was given does not meet.
 bool is_inside(const working_mesh& mesh, component& part, component& other) {
     if (!overlap(other.box, part.box)) return false;
-    if (!other.is_filled && winding_around(mesh, part, other) == 0) return false;
-    if (intersects(given_surface(mesh, other), given_surface(mesh, part))) return false;
-    if (!other.is_filled) return true;
     if (!other.surface) other.surface.emplace(select_faces(mesh.view(), other.faces));
-    const auto places = locate(*other.surface, given_surface(mesh, part).view().points);
-    const auto inside = std::ranges::count_if(
-        places, [](const point_location& p) { return p.where != location::outside; });
-    return 2 * static_cast<std::size_t>(inside) > places.size();
+    const point3& first = mesh.points[mesh.faces[part.faces[0]][0]];
+    const bool is_out = locate(*other.surface, first).where == location::outside;
+    if (is_out && !other.is_filled) return false;
+    const mesh_view own = given_surface(mesh, part).view();
+    const auto places = locate(*other.surface, own.points);
+    const auto count = [&](location where) {
+        return std::ranges::count(places, where, &point_location::where);
+    };
+    const auto inside = count(location::inside), outside = count(location::outside);
+    if (outside == 0) return inside > 0;
+    return other.is_filled && inside > outside &&
+           !intersects(given_surface(mesh, other), given_surface(mesh, part));
 }
 
 /// What lies inside of an inward component, if with it every second one from outside is inward:

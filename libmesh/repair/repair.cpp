@@ -3,6 +3,7 @@
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
+#include <libmesh/repair/balance_patches.hpp>
 #include <libmesh/repair/border_edges.hpp>
 #include <libmesh/repair/close_cracks.hpp>
 #include <libmesh/repair/detach.hpp>
@@ -143,10 +144,23 @@ class repairer {
             did_.strays = detail::repair::drop_strays(mesh_, options_.strays, options_.sheet);
         if (did_.strays > 0) did_.flipped += detail::repair::make_faces_agree(mesh_);
         tally_ = detail::repair::tally_edges(mesh_);
+        if (tally_.crowded == 0 || tally_.unbalanced == 0) return;
+        did_.flipped += detail::repair::balance_patches(mesh_);
+        tally_ = detail::repair::tally_edges(mesh_);
+    }
+
+    /// Whether faces disagree at so many edges of more than two that what they bound is anybody's
+    /// guess: half of the faces of tetrahedra, say.
+    [[nodiscard]] bool is_hopeless() const {
+        constexpr std::uint64_t most = 10;  // faces for each such edge
+        const std::uint64_t simple =
+            std::min(tally_.unbalanced, tally_.border + tally_.disagreeing);
+        return most * (tally_.unbalanced - simple) > mesh_.faces.size() &&
+               mesh_.faces.size() > 1000;
     }
 
     void fill() {
-        if (tally_.border == 0) return;
+        if (tally_.unbalanced == 0 || is_hopeless()) return;
         const detail::repair::filled_holes filled =
             detail::repair::fill_holes(mesh_, options_.largest_hole);
         did_.holes = filled.holes;
