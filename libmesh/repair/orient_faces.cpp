@@ -101,8 +101,9 @@ bool overlap(const box3& a, const box3& b) {
 }
 
 /// Those that are closed.
-std::vector<component> closed_components(const working_mesh& mesh) {
-    const std::vector<std::uint32_t> part_of = shells(mesh);
+std::vector<component> closed_components(const working_mesh& mesh, turned_as_one what) {
+    const std::vector<std::uint32_t> part_of =
+        what == turned_as_one::shell ? shells(mesh) : parts_by_edges(mesh);
     std::vector<component> all(mesh.faces.size());
     for (std::uint32_t f = 0; f < part_of.size(); ++f) all[part_of[f]].faces.push_back(f);
     for (const std::uint32_t f : faces_at_unbalanced_edges(mesh)) all[part_of[f]].faces.clear();
@@ -203,8 +204,8 @@ std::uint64_t make_faces_agree(working_mesh& mesh) {
     return flipped;
 }
 
-std::uint64_t turn_outward(working_mesh& mesh) {
-    std::vector<component> components = closed_components(mesh);
+std::uint64_t turn_outward(working_mesh& mesh, turned_as_one what) {
+    std::vector<component> components = closed_components(mesh, what);
     std::vector<component*> inward;
     for (component& part : components) {
         if (!(part.volume < 0.0)) continue;
@@ -222,13 +223,13 @@ std::uint64_t turn_outward(working_mesh& mesh) {
     return all.size();
 }
 
-bool is_outward(const working_mesh& mesh) {
-    return std::ranges::all_of(closed_components(mesh),
+bool is_outward(const working_mesh& mesh, turned_as_one what) {
+    return std::ranges::all_of(closed_components(mesh, what),
                                [](const component& part) { return part.volume > 0.0; });
 }
 
 bool is_well_nested(const working_mesh& mesh) {
-    std::vector<component> components = closed_components(mesh);
+    std::vector<component> components = closed_components(mesh, turned_as_one::component);
     return std::ranges::all_of(components, [&](const component& part) {
         int around = 0;
         for (component& other : components)

@@ -60,7 +60,7 @@ class repairer {
         join();
         orient();
         if (options_.fill && !options_.sheet) fill();
-        if (options_.orient) did_.turned = detail::repair::turn_outward(mesh_);
+        if (options_.orient) did_.turned = detail::repair::turn_outward(mesh_, turned_as_one_);
         measure();
         if (tally_.unbalanced > 0 && !options_.sheet) return open();
         make_surface();
@@ -144,7 +144,8 @@ class repairer {
             did_.strays = detail::repair::drop_strays(mesh_, options_.strays, options_.sheet);
         if (did_.strays > 0) did_.flipped += detail::repair::make_faces_agree(mesh_);
         tally_ = detail::repair::tally_edges(mesh_);
-        if (tally_.crowded == 0 || tally_.unbalanced == 0) return;
+        if (tally_.crowded == 0 || tally_.unbalanced == 0 || did_.flipped == 0) return;
+        turned_as_one_ = detail::repair::turned_as_one::shell;
         did_.flipped += detail::repair::balance_patches(mesh_);
         tally_ = detail::repair::tally_edges(mesh_);
     }
@@ -222,7 +223,8 @@ class repairer {
             case repair_rule::automatic:
                 break;
         }
-        return detail::repair::is_outward(mesh_) ? fill_rule::positive : fill_rule::nonzero;
+        return detail::repair::is_outward(mesh_, turned_as_one_) ? fill_rule::positive
+                                                                 : fill_rule::nonzero;
     }
 
     void make_surface() {
@@ -337,6 +339,7 @@ class repairer {
     working_mesh mesh_{};
     double diagonal_ = 0.0;
     edge_tally tally_{};
+    detail::repair::turned_as_one turned_as_one_ = detail::repair::turned_as_one::component;
     repair_statistics did_{};
     repair_result result_{};
 };
