@@ -136,20 +136,6 @@ class repairer {
         tally_ = detail::repair::tally_edges(mesh_);
     }
 
-    void orient() {
-        if (!options_.orient) return;
-        if (tally_.disagreeing > 0 || tally_.crowded > 0)
-            did_.flipped = detail::repair::make_faces_agree(mesh_);
-        if (tally_.border > 0 || tally_.crowded > 0)
-            did_.strays = detail::repair::drop_strays(mesh_, options_.strays, options_.sheet);
-        if (did_.strays > 0) did_.flipped += detail::repair::make_faces_agree(mesh_);
-        tally_ = detail::repair::tally_edges(mesh_);
-        if (tally_.crowded == 0 || tally_.unbalanced == 0 || did_.flipped == 0) return;
-        turned_as_one_ = detail::repair::turned_as_one::shell;
-        did_.flipped += detail::repair::balance_patches(mesh_);
-        tally_ = detail::repair::tally_edges(mesh_);
-    }
-
     /// Whether faces disagree at so many edges of more than two that what they bound is anybody's
     /// guess: half of the faces of tetrahedra, say.
     [[nodiscard]] bool is_hopeless() const {
@@ -160,8 +146,24 @@ class repairer {
                mesh_.faces.size() > 1000;
     }
 
+    void orient() {
+        if (!options_.orient) return;
+        if (tally_.disagreeing > 0 || tally_.crowded > 0)
+            did_.flipped = detail::repair::make_faces_agree(mesh_);
+        if (tally_.border > 0 || tally_.crowded > 0)
+            did_.strays = detail::repair::drop_strays(mesh_, options_.strays, options_.sheet);
+        if (did_.strays > 0) did_.flipped += detail::repair::make_faces_agree(mesh_);
+        tally_ = detail::repair::tally_edges(mesh_);
+        is_hopeless_ = is_hopeless();
+        if (tally_.crowded == 0 || tally_.unbalanced == 0 || did_.flipped == 0 || is_hopeless_)
+            return;
+        turned_as_one_ = detail::repair::turned_as_one::shell;
+        did_.flipped += detail::repair::balance_patches(mesh_);
+        tally_ = detail::repair::tally_edges(mesh_);
+    }
+
     void fill() {
-        if (tally_.unbalanced == 0 || is_hopeless()) return;
+        if (tally_.unbalanced == 0 || is_hopeless_) return;
         const detail::repair::filled_holes filled =
             detail::repair::fill_holes(mesh_, options_.largest_hole);
         did_.holes = filled.holes;
@@ -339,6 +341,7 @@ class repairer {
     working_mesh mesh_{};
     double diagonal_ = 0.0;
     edge_tally tally_{};
+    bool is_hopeless_ = false;
     detail::repair::turned_as_one turned_as_one_ = detail::repair::turned_as_one::component;
     repair_statistics did_{};
     repair_result result_{};
