@@ -112,7 +112,7 @@ void add_scaled(std::vector<point3>& a, const std::vector<point3>& b, double by)
 
 /// x with the least |A x + rest|, by conjugate gradients from x on; all three coordinates at once.
 std::vector<point3> least_squares(const laplacian& a, std::vector<point3> x) {
-    constexpr int most_passes = 2000;
+    constexpr int most_steps = 2000;
     constexpr double small = 1e-20;  // of squares
     std::vector<point3> residual = a.times(x);
     add_scaled(residual, a.rests(), 1.0);
@@ -120,7 +120,7 @@ std::vector<point3> least_squares(const laplacian& a, std::vector<point3> x) {
     std::vector<point3> gradient = a.transposed_times(residual), way = gradient;
     double square = dot_of(gradient, gradient);
     const double enough = small * square;
-    for (int pass = 0; pass < most_passes && square > enough; ++pass) {
+    for (int pass = 0; pass < most_steps && square > enough; ++pass) {
         const std::vector<point3> along = a.times(way);
         const double steepness = dot_of(along, along);
         if (!(steepness > 0.0)) break;
