@@ -12,10 +12,14 @@ namespace treeform::detail::repair {
 namespace {
 
 constexpr double flat = 8.0;
+constexpr double share_of_singles = 0.05;  // of the area, all together
+constexpr std::size_t single = 2;          // faces: a triangle or a square
+constexpr double share_of_single = 0.01;   // of the area
 
 /// Faces linked by edges that two of them have to themselves.
 struct patch {
     double area = 0.0;
+    std::size_t faces = 0;
     double free_length = 0.0;              ///< of edges that no other face has
     double rim_length = 0.0;               ///< of these and of edges of more than two faces
     std::vector<std::uint32_t> crowded{};  ///< edges of more than two faces, once for each face
@@ -28,6 +32,7 @@ struct patch_map {
     std::vector<patch> patches{};
     std::vector<std::uint32_t> count{};  ///< faces at each crowded edge
     double area = 0.0;
+    bool has_strays = false;  ///< single faces, so few that they are no mesh that is torn
 };
 
 patch_map find_patches(const working_mesh& mesh) {
@@ -44,6 +49,7 @@ patch_map find_patches(const working_mesh& mesh) {
         patch& part = map.patches[map.patch_of[f]];
         const double area = length(base::cross(base::minus(b, a), base::minus(c, a))) / 2.0;
         part.area += area;
+        ++part.faces;
         map.area += area;
     }
     const weld::edge_uses edges(mesh.points.size(), mesh.faces, weld::repeated_corners::left_out);
@@ -102,12 +108,18 @@ bool is_flap(const patch& part, const std::vector<std::uint32_t>& count) {
     return true;
 }
 
+bool is_single(const patch& part, const patch_map& map) {
+    return part.faces <= single && part.crowded.empty() && part.free_length > 0.0 &&
+           part.area < share_of_single * map.area;
+}
+
 bool is_stray(const patch& part, const patch_map& map, double share, bool is_sheet) {
     if (part.free_length == 0.0) return is_surplus(part, map.count);
     if (is_sheet) return false;
     const bool is_flat = part.rim_length * part.rim_length > flat * part.area;
     const bool is_small = part.area < share * map.area;
-    if (part.crowded.empty()) return is_flat && is_small;
+    if (part.crowded.empty())
+        return is_flat && (is_small || (map.has_strays && is_single(part, map)));
     return (is_flat || is_small) && is_flap(part, map.count);
 }
 
@@ -115,6 +127,9 @@ bool is_stray(const patch& part, const patch_map& map, double share, bool is_she
 
 std::uint64_t drop_strays(working_mesh& mesh, double share, bool is_sheet) {
     patch_map map = find_patches(mesh);
+    double singles = 0.0;
+    for (const patch& part : map.patches) singles += is_single(part, map) ? part.area : 0.0;
+    map.has_strays = singles < share_of_singles * map.area;
     std::vector<std::uint32_t> order(map.patches.size());
     for (std::uint32_t p = 0; p < order.size(); ++p) order[p] = p;
     std::ranges::stable_sort(order, {}, [&](std::uint32_t p) { return map.patches[p].area; });

@@ -101,7 +101,11 @@ class repairer {
             did_.repeated = detail::repair::drop_copies(mesh_);
             tally_ = detail::repair::tally_edges(mesh_);
         }
-        if (tally_.border > 0) close_cracks();
+        if (tally_.border == 0) return;
+        close_cracks();
+        if (tally_.crowded == 0) return;
+        did_.repeated += detail::repair::drop_copies(mesh_);  // that were torn off
+        tally_ = detail::repair::tally_edges(mesh_);
     }
 
     /// Of the gaps tried, the narrowest that leaves the fewest open edges.

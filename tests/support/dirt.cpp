@@ -330,8 +330,8 @@ void copy(soiler& s) {
 /// Faces with a corner twice, by number or by coordinates, and faces between an edge and a point in
 /// its middle, whose other side has that point.
 void add_empty_faces(soiler& s) {
-    const std::set<std::uint32_t> faces = s.some_faces(s.count(1, 10, 100));
-    for (const std::uint32_t f : faces) {
+    const auto beyond = neighbors_of(s.clean);
+    for (const std::uint32_t f : s.some_faces(s.count(1, 10, 100))) {
         const auto [a, b, c] = s.clean.faces[f];
         const std::size_t way = s.source.below(3);
         if (way == 0) s.made.mesh.faces.push_back({a, b, a});
@@ -343,7 +343,7 @@ void add_empty_faces(soiler& s) {
         s.made.mesh.faces[f] = {a, m, c};
         s.made.mesh.faces.push_back({m, b, c});
         s.made.mesh.faces.push_back({a, b, m});
-        for (const std::uint32_t g : neighbors_of(s.clean)[f]) s.touch(g);
+        for (const std::uint32_t g : beyond[f]) s.touch(g);
     }
 }
 
