@@ -20,7 +20,7 @@ constexpr int least_doublings = 6;    // 2, 4, 8 ... steps of the coordinates
 constexpr double farthest = 0x1p-23;  // of the diagonal, where that is more
 constexpr int likely_ways = 3;
 constexpr int all_ways = likely_ways + 8;
-constexpr std::size_t most_alone = 100;
+constexpr std::size_t most_alone = 32;
 
 point3 unit(const point3& v) {
     const double length = std::hypot(v.x, v.y, v.z);
