@@ -159,10 +159,9 @@ class repairer {
         if (did_.strays > 0) did_.flipped += detail::repair::make_faces_agree(mesh_);
         tally_ = detail::repair::tally_edges(mesh_);
         is_hopeless_ = is_hopeless();
-        if (tally_.crowded == 0 || tally_.unbalanced == 0 || did_.flipped == 0 || is_hopeless_)
-            return;
-        turned_as_one_ = detail::repair::turned_as_one::shell;
+        if (tally_.crowded == 0 || tally_.unbalanced == 0 || is_hopeless_) return;
         did_.flipped += detail::repair::balance_patches(mesh_);
+        if (did_.flipped > 0) turned_as_one_ = detail::repair::turned_as_one::shell;
         tally_ = detail::repair::tally_edges(mesh_);
     }
 

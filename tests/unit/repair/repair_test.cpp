@@ -283,6 +283,37 @@ TEST_CASE("repair: strays and walls inside go") {
     CHECK(result.statistics.strays == 2);
 }
 
+TEST_CASE("repair: patches that disagree only at edges of four faces") {
+    const tf::mesh box = test::box(1, 1, 1);
+    // Face to face, and all of one but the square between them is turned.
+    tf::mesh dirty = test::together(box, test::moved(box, {1, 0, 0}));
+    for (std::size_t f = box.faces.size(); f < dirty.faces.size(); ++f)
+        if (f != 20 && f != 21) turn(dirty.faces[f]);
+    const tf::repair_result result = tf::repair(dirty);
+    require_solid(result, 2.0);
+    CHECK(result.statistics.filled == 0);
+    CHECK(result.statistics.flipped > 0);
+}
+
+TEST_CASE("repair: a hole along an edge of three faces is filled") {
+    tf::mesh dirty = test::box(1, 1, 1);
+    dirty.points.insert(dirty.points.end(), {{0.4, 0.4, -2}, {0.3, 0.5, -1}});
+    // An open cone on the edge from 0 to 1: with what fills it, a body of its own.
+    dirty.faces.insert(dirty.faces.end(), {{1, 0, 8}, {9, 1, 8}, {0, 9, 8}});
+    const tf::repair_result result = tf::repair(dirty);
+    REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+    CHECK(is_manifold_in_coordinates(result.mesh));
+    CHECK(result.statistics.filled == 1);
+    CHECK(tf::signed_volume(result.mesh) > 1.05);
+}
+
+TEST_CASE("repair: a mesh that is half of the faces of many tetrahedra is said to be open") {
+    test::random source(3);
+    tf::mesh dirty = test::lattice_soup(source, 2000, 60, 5);
+    const tf::repair_result result = tf::repair(dirty);
+    CHECK_FALSE(result.certificate);
+}
+
 TEST_CASE("repair: solids that overlap become one") {
     const tf::mesh ball = test::ball(3, 1.0);
     tf::mesh pair = test::together(ball, test::moved(ball, {0.7, 0.3, 0.1}));
