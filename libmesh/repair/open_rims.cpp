@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
 
@@ -53,18 +54,21 @@ class rim_walker {
     /// Back at a point of the way, what lies between is a rim of its own.
     void walk(std::size_t first) {
         std::vector<rim_edge> way;
+        std::map<std::uint32_t, std::size_t> begins;  // where on the way the edge from a point is
         for (std::optional<std::size_t> e = first; e; e = next(rim_edges_[*e])) {
             rim_edges_[*e].used = true;
+            begins.emplace(rim_edges_[*e].from, way.size());
             way.push_back(rim_edges_[*e]);
-            const auto seen =
-                std::ranges::find(way, rim_edges_[*e].to, [](const rim_edge& w) { return w.from; });
-            if (seen == way.end()) continue;
+            const auto seen = begins.find(rim_edges_[*e].to);
+            if (seen == begins.end()) continue;
+            const std::size_t begin = seen->second;
             open_rim& rim = rims_.emplace_back();
-            for (auto w = seen; w != way.end(); ++w) {
-                rim.points.push_back(w->from);
-                rim.faces.push_back(w->face);
+            for (std::size_t i = begin; i < way.size(); ++i) {
+                rim.points.push_back(way[i].from);
+                rim.faces.push_back(way[i].face);
+                begins.erase(way[i].from);
             }
-            way.erase(seen, way.end());
+            way.resize(begin);
             if (way.empty()) return;
         }
     }

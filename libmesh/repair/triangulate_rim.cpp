@@ -13,7 +13,7 @@ namespace treeform::detail::repair {
 namespace {
 
 constexpr double no_way = std::numeric_limits<double>::infinity();
-constexpr std::size_t most_at_once = 200;
+constexpr std::size_t most_at_once = 100;
 constexpr double weight_of_edge = 0.1;  // the square of the longest edge, beside the area
 constexpr double weight_of_fold = 0.5;
 
