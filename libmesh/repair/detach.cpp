@@ -16,10 +16,11 @@
 namespace treeform::detail::repair {
 namespace {
 
-constexpr int most_steps = 6;  // 2, 4, 8 ... of the coordinates
-constexpr int likely_ways = 2;
+constexpr int least_doublings = 6;    // 2, 4, 8 ... steps of the coordinates
+constexpr double farthest = 0x1p-23;  // of the diagonal, where that is more
+constexpr int likely_ways = 3;
 constexpr int all_ways = likely_ways + 8;
-constexpr std::size_t most_alone = 100;
+constexpr std::size_t most_alone = 32;
 
 point3 unit(const point3& v) {
     const double length = std::hypot(v.x, v.y, v.z);
@@ -50,12 +51,13 @@ class detacher {
     }
 
     detached run() {
-        for (int tried = 0; tried < most_steps * likely_ways && !vertices_left().empty(); ++tried)
+        const int most = most_doublings();
+        for (int tried = 0; tried < most * likely_ways && !vertices_left().empty(); ++tried)
             move(vertices_left(), tried % likely_ways, tried / likely_ways);
         // Neighbors may be in each other's way: each alone, while they are few.
         if (const auto left = vertices_left(); left.size() <= most_alone)
             for (const std::uint32_t v : left)
-                for (int tried = 0; tried < most_steps * all_ways && is_left(v); ++tried)
+                for (int tried = 0; tried < least_doublings * all_ways && is_left(v); ++tried)
                     move({v}, tried % all_ways, tried / all_ways);
         detached result;
         result.touching = vertices_left().size();
@@ -78,6 +80,14 @@ class detacher {
         bool on_trial = false;  ///< moved, and to be checked
         bool broke = false;
     };
+
+    /// A cone as thin as a needle is left by steps that are small against its length alone.
+    [[nodiscard]] int most_doublings() const {
+        int most = least_doublings;
+        const auto box = bounding_box(solid_.points);
+        while (box && std::ldexp(step_, most) < farthest * diagonal(*box)) ++most;
+        return most;
+    }
 
     /// Whether it is where it was given, and another one, too.
     [[nodiscard]] bool is_left(std::uint32_t v) const {
@@ -116,9 +126,28 @@ class detacher {
         return unit(sum);
     }
 
+    /// Behind all faces of the fan, as nearly as a few steps of the perceptron come to that.
+    [[nodiscard]] point3 behind_all(std::uint32_t v) const {
+        constexpr int rounds = 200;
+        point3 way = to_neighbors(v);
+        std::vector<point3> normals;
+        for (const std::uint32_t f : stars_[v]) {
+            const auto [a, b, c] = base::triangle_of(solid_, f);
+            normals.push_back(unit(base::cross(base::minus(b, a), base::minus(c, a))));
+        }
+        for (int round = 0; round < rounds; ++round) {
+            const auto worst = std::ranges::max_element(
+                normals, {}, [&](const point3& n) { return base::dot(n, way); });
+            if (base::dot(*worst, way) < 0.0) break;
+            way = base::minus(way, base::scaled(*worst, 1.5 * base::dot(*worst, way) + 1e-9));
+        }
+        return unit(way);
+    }
+
     [[nodiscard]] point3 direction(std::uint32_t v, int way) const {
         if (way == 0) return to_neighbors(v);
         if (way == 1) return inward(v);
+        if (way == 2) return behind_all(v);
         const int octant = way - likely_ways;
         return {octant & 1 ? 1.0 : -1.0, octant & 2 ? 1.0 : -1.0, octant & 4 ? 1.0 : -1.0};
     }

@@ -15,7 +15,8 @@ std::uint64_t drop_degenerate(working_mesh& mesh);
 ///
 /// Of parts every face of which has a copy, as has a sheet with a back or a model that is there
 /// twice, one copy stays. Elsewhere a copy goes where that makes faces run as often one way as the
-/// other along each of its edges, or more nearly so: two cubes face to face keep their common
+/// other along each of its edges, or more nearly so; and copies of linked faces go together where
+/// that leaves fewer edges with an odd number of faces. Two cubes face to face keep their common
 /// square, which the arrangement cancels out.
 std::uint64_t drop_copies(working_mesh& mesh);
 

@@ -12,11 +12,16 @@ namespace treeform::detail::repair {
 namespace {
 
 constexpr double flat = 8.0;
+constexpr double share_of_singles = 0.05;  // of the area, all together
+constexpr std::size_t single = 2;          // faces: a triangle or a square
+constexpr double share_of_single = 0.01;   // of the area
 
 /// Faces linked by edges that two of them have to themselves.
 struct patch {
     double area = 0.0;
+    std::size_t faces = 0;
     double free_length = 0.0;              ///< of edges that no other face has
+    double rim_length = 0.0;               ///< of these and of edges of more than two faces
     std::vector<std::uint32_t> crowded{};  ///< edges of more than two faces, once for each face
 };
 
@@ -27,6 +32,7 @@ struct patch_map {
     std::vector<patch> patches{};
     std::vector<std::uint32_t> count{};  ///< faces at each crowded edge
     double area = 0.0;
+    bool has_strays = false;  ///< single faces, so few that they are no mesh that is torn
 };
 
 patch_map find_patches(const working_mesh& mesh) {
@@ -43,27 +49,39 @@ patch_map find_patches(const working_mesh& mesh) {
         patch& part = map.patches[map.patch_of[f]];
         const double area = length(base::cross(base::minus(b, a), base::minus(c, a))) / 2.0;
         part.area += area;
+        ++part.faces;
         map.area += area;
     }
     const weld::edge_uses edges(mesh.points.size(), mesh.faces, weld::repeated_corners::left_out);
-    std::vector<std::vector<std::vector<std::uint32_t>>> crowded(edges.chunks());
+    struct crowded_edge {
+        double length;
+        std::vector<std::uint32_t> faces;
+    };
+    std::vector<std::vector<crowded_edge>> crowded(edges.chunks());
     std::vector<std::vector<std::array<std::uint32_t, 3>>> borders(edges.chunks());
     edges.for_each([&](const weld::used_edge& edge, std::size_t chunk) {
         if (edge.uses.size() == 1) borders[chunk].push_back({edge.low, edge.high, edge.face(0)});
         if (edge.uses.size() <= 2) return;
-        std::vector<std::uint32_t>& faces = crowded[chunk].emplace_back();
-        for (std::size_t i = 0; i < edge.uses.size(); ++i) faces.push_back(edge.face(i));
+        crowded_edge& found = crowded[chunk].emplace_back();
+        found.length = length(base::minus(mesh.points[edge.high], mesh.points[edge.low]));
+        for (std::size_t i = 0; i < edge.uses.size(); ++i) found.faces.push_back(edge.face(i));
     });
     for (const auto& part : borders)
-        for (const auto& [low, high, f] : part)
-            map.patches[map.patch_of[f]].free_length +=
-                length(base::minus(mesh.points[high], mesh.points[low]));
+        for (const auto& [low, high, f] : part) {
+            patch& owner = map.patches[map.patch_of[f]];
+            const double there = length(base::minus(mesh.points[high], mesh.points[low]));
+            owner.free_length += there;
+            owner.rim_length += there;
+        }
     for (const auto& part : crowded)
-        for (const std::vector<std::uint32_t>& faces : part) {
+        for (const auto& [there, faces] : part) {
             const auto edge = static_cast<std::uint32_t>(map.count.size());
             map.count.push_back(static_cast<std::uint32_t>(faces.size()));
-            for (const std::uint32_t f : faces)
-                map.patches[map.patch_of[f]].crowded.push_back(edge);
+            for (const std::uint32_t f : faces) {
+                patch& owner = map.patches[map.patch_of[f]];
+                owner.crowded.push_back(edge);
+                owner.rim_length += there;
+            }
         }
     return map;
 }
@@ -80,17 +98,38 @@ bool is_surplus(const patch& part, const std::vector<std::uint32_t>& count) {
     return !edges.empty();
 }
 
+/// Whether the edges where it hangs on others have two faces without it.
+bool is_flap(const patch& part, const std::vector<std::uint32_t>& count) {
+    const std::vector<std::uint32_t>& edges = part.crowded;  // ascending
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+        while (end < edges.size() && edges[end] == edges[begin]) ++end;
+        if (count[edges[begin]] - (end - begin) < 2) return false;
+    }
+    return true;
+}
+
+bool is_single(const patch& part, const patch_map& map) {
+    return part.faces <= single && part.crowded.empty() && part.free_length > 0.0 &&
+           part.area < share_of_single * map.area;
+}
+
 bool is_stray(const patch& part, const patch_map& map, double share, bool is_sheet) {
     if (part.free_length == 0.0) return is_surplus(part, map.count);
-    if (is_sheet || !(part.area < share * map.area)) return false;
-    return part.crowded.empty() ? part.free_length * part.free_length > flat * part.area
-                                : is_surplus(part, map.count);
+    if (is_sheet) return false;
+    const bool is_flat = part.rim_length * part.rim_length > flat * part.area;
+    const bool is_small = part.area < share * map.area;
+    if (part.crowded.empty())
+        return is_flat && (is_small || (map.has_strays && is_single(part, map)));
+    return (is_flat || is_small) && is_flap(part, map.count);
 }
 
 }  // namespace
 
 std::uint64_t drop_strays(working_mesh& mesh, double share, bool is_sheet) {
     patch_map map = find_patches(mesh);
+    double singles = 0.0;
+    for (const patch& part : map.patches) singles += is_single(part, map) ? part.area : 0.0;
+    map.has_strays = singles < share_of_singles * map.area;
     std::vector<std::uint32_t> order(map.patches.size());
     for (std::uint32_t p = 0; p < order.size(); ++p) order[p] = p;
     std::ranges::stable_sort(order, {}, [&](std::uint32_t p) { return map.patches[p].area; });

@@ -12,7 +12,9 @@ namespace treeform::detail::repair {
 ///
 /// - A patch with a free border and less than `share` of the area goes where it is nearly flat (its
 ///   border, squared, is more than 8 times its area: a hemisphere has 6.3, a disk 12.6), so that
-///   filling its holes would make next to nothing of it, or where it hangs on others.
+///   filling its holes would make next to nothing of it. So does a flat patch of one or two faces
+///   and less than 1 % of the area, where these are less than 5 % together.
+/// - A patch that hangs on others and has a free border goes where it is so small or nearly flat.
 /// - A patch that only ends at other faces, as a wall inside a solid does, goes where each of
 ///   these edges has an odd number of faces, and an even one without it; the smallest first.
 ///

@@ -4,6 +4,7 @@
 #include <treeform/tree/detail/buffer.hpp>
 
 #include <cstddef>
+#include <map>
 
 namespace treeform::detail::repair {
 namespace {
@@ -59,7 +60,8 @@ std::vector<std::uint32_t> faces_at_unbalanced_edges(const working_mesh& mesh) {
     const weld::edge_uses edges = edges_of(mesh);
     std::vector<std::vector<std::uint32_t>> found(edges.chunks());
     edges.for_each([&](const weld::used_edge& edge, std::size_t chunk) {
-        if (2 * count_along(mesh, edge) != edge.uses.size()) found[chunk].push_back(edge.face(0));
+        if (2 * count_along(mesh, edge) == edge.uses.size()) return;
+        for (std::size_t i = 0; i < edge.uses.size(); ++i) found[chunk].push_back(edge.face(i));
     });
     std::vector<std::uint32_t> all;
     for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
@@ -68,6 +70,24 @@ std::vector<std::uint32_t> faces_at_unbalanced_edges(const working_mesh& mesh) {
 
 std::vector<std::uint32_t> parts_by_edges(const working_mesh& mesh) {
     return linked_faces(mesh, [](std::size_t) { return true; });
+}
+
+std::vector<std::uint32_t> shells(const working_mesh& mesh) {
+    const std::vector<std::uint32_t> patch_of = patches(mesh);
+    base::union_find linked(mesh.faces.size());
+    for (std::uint32_t f = 0; f < patch_of.size(); ++f) linked.join(f, patch_of[f]);
+    edges_of(mesh).for_each([&](const weld::used_edge& edge, std::size_t) {
+        if (edge.uses.size() <= 2) return;
+        std::map<std::uint32_t, int> ways;
+        for (std::size_t i = 0; i < edge.uses.size(); ++i) {
+            const std::uint32_t f = edge.face(i);
+            ways[patch_of[f]] += runs_along(mesh.faces[f], edge.low, edge.high) ? 1 : -1;
+        }
+        std::erase_if(ways, [](const auto& patch) { return patch.second == 0; });
+        for (const auto& [patch, way] : ways) linked.join(ways.begin()->first, patch);
+    });
+    const buffer<std::uint32_t> roots = linked.take_roots();
+    return {roots.data(), roots.data() + roots.size()};
 }
 
 std::vector<std::uint32_t> patches(const working_mesh& mesh) {

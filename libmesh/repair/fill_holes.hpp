@@ -14,7 +14,9 @@ struct filled_holes {
     std::uint64_t faces = 0;  ///< that fill them
 };
 
-/// Fills each hole of at most `largest` edges by triangles between its vertices, as `fill`.
+/// Fills each hole of at most `largest` edges: `triangulate_rim`, or else a cone over the rim. Large
+/// holes of smooth surfaces are refined and made fair.
+/// Afterwards, faces run as often one way as the other along each edge of every rim filled.
 ///
 /// What fills a hole may meet other faces: to cut it is the next step's.
 filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest);

@@ -4,6 +4,7 @@
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/repair.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -70,7 +71,9 @@ struct component {
     std::vector<std::uint32_t> faces{};
     box3 box{};
     double volume = 0.0;
+    bool is_filled = false;  ///< some of its faces are guesses
     std::optional<prepared_mesh> surface{};
+    std::optional<prepared_mesh> given{};  ///< without these
 };
 
 box3 box_of(const working_mesh& mesh, const component& part) {
@@ -91,9 +94,16 @@ bool holds(const box3& outer, const box3& inner) {
     return true;
 }
 
+bool overlap(const box3& a, const box3& b) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (a.min[k] > b.max[k] || b.min[k] > a.max[k]) return false;
+    return true;
+}
+
 /// Those that are closed.
-std::vector<component> closed_components(const working_mesh& mesh) {
-    const std::vector<std::uint32_t> part_of = parts_by_edges(mesh);
+std::vector<component> closed_components(const working_mesh& mesh, turned_as_one what) {
+    const std::vector<std::uint32_t> part_of =
+        what == turned_as_one::shell ? shells(mesh) : parts_by_edges(mesh);
     std::vector<component> all(mesh.faces.size());
     for (std::uint32_t f = 0; f < part_of.size(); ++f) all[part_of[f]].faces.push_back(f);
     for (const std::uint32_t f : faces_at_unbalanced_edges(mesh)) all[part_of[f]].faces.clear();
@@ -104,6 +114,8 @@ std::vector<component> closed_components(const working_mesh& mesh) {
         for (const std::uint32_t f : part.faces) faces.push_back(mesh.faces[f]);
         part.volume = signed_volume({mesh.points, faces});
         part.box = box_of(mesh, part);
+        part.is_filled = std::ranges::any_of(
+            part.faces, [&](std::uint32_t f) { return mesh.source[f] == repair_result::none; });
     }
     return all;
 }
@@ -115,9 +127,47 @@ int winding_around(const working_mesh& mesh, const component& part, component& o
     return winding_number(*other.surface, mesh.points[mesh.faces[part.faces[0]][0]]);
 }
 
-bool is_inside(const working_mesh& mesh, const component& part, component& other) {
-    return winding_around(mesh, part, other) != 0 &&
-           !intersects(*other.surface, prepared_mesh(select_faces(mesh.view(), part.faces)));
+const prepared_mesh& given_surface(const working_mesh& mesh, component& part) {
+    if (part.given) return *part.given;
+    std::vector<std::uint32_t> given;
+    for (const std::uint32_t f : part.faces)
+        if (mesh.source[f] != repair_result::none) given.push_back(f);
+    return part.given.emplace(select_faces(mesh.view(), given));
+}
+
+/// With no vertex outside, and not with all on the other's surface: cavities may touch it. Where a
+/// hole was filled, the filling may be on either side of what lies inside: then most vertices tell,
+/// if what was given does not meet.
+bool is_inside(const working_mesh& mesh, component& part, component& other) {
+    if (!overlap(other.box, part.box)) return false;
+    if (!other.surface) other.surface.emplace(select_faces(mesh.view(), other.faces));
+    const point3& first = mesh.points[mesh.faces[part.faces[0]][0]];
+    const bool is_out = locate(*other.surface, first).where == location::outside;
+    if (is_out && !other.is_filled) return false;
+    const mesh_view own = given_surface(mesh, part).view();
+    const auto places = locate(*other.surface, own.points);
+    const auto count = [&](location where) {
+        return std::ranges::count(places, where, &point_location::where);
+    };
+    const auto inside = count(location::inside), outside = count(location::outside);
+    if (outside == 0) return inside > 0;
+    return other.is_filled && inside > outside &&
+           !intersects(given_surface(mesh, other), given_surface(mesh, part));
+}
+
+/// What lies inside of an inward component, if with it every second one from outside is inward:
+/// then all of it is inside out.
+std::vector<component*> turned_with(const working_mesh& mesh, component& outer,
+                                    std::vector<component>& components) {
+    std::vector<component*> within;
+    for (component& part : components)
+        if (&part != &outer && is_inside(mesh, part, outer)) within.push_back(&part);
+    for (component* part : within) {
+        bool is_even = false;  // the number of those around it
+        for (component* other : within) is_even ^= other != part && is_inside(mesh, *part, *other);
+        if ((part->volume < 0.0) != is_even) return {};
+    }
+    return within;
 }
 
 }  // namespace
@@ -154,8 +204,8 @@ std::uint64_t make_faces_agree(working_mesh& mesh) {
     return flipped;
 }
 
-std::uint64_t turn_outward(working_mesh& mesh) {
-    std::vector<component> components = closed_components(mesh);
+std::uint64_t turn_outward(working_mesh& mesh, turned_as_one what) {
+    std::vector<component> components = closed_components(mesh, what);
     std::vector<component*> inward;
     for (component& part : components) {
         if (!(part.volume < 0.0)) continue;
@@ -164,18 +214,22 @@ std::uint64_t turn_outward(working_mesh& mesh) {
         });
         if (!is_cavity) inward.push_back(&part);
     }
-    for (const component* part : inward)
+    std::vector<component*> all = inward;
+    for (component* part : inward)
+        for (component* other : turned_with(mesh, *part, components))
+            if (std::ranges::find(all, other) == all.end()) all.push_back(other);
+    for (const component* part : all)
         for (const std::uint32_t f : part->faces) mesh.faces[f] = turned(mesh.faces[f]);
-    return inward.size();
+    return all.size();
 }
 
-bool is_outward(const working_mesh& mesh) {
-    return std::ranges::all_of(closed_components(mesh),
+bool is_outward(const working_mesh& mesh, turned_as_one what) {
+    return std::ranges::all_of(closed_components(mesh, what),
                                [](const component& part) { return part.volume > 0.0; });
 }
 
 bool is_well_nested(const working_mesh& mesh) {
-    std::vector<component> components = closed_components(mesh);
+    std::vector<component> components = closed_components(mesh, turned_as_one::component);
     return std::ranges::all_of(components, [&](const component& part) {
         int around = 0;
         for (component& other : components)

@@ -3,6 +3,7 @@
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
+#include <libmesh/repair/balance_patches.hpp>
 #include <libmesh/repair/border_edges.hpp>
 #include <libmesh/repair/close_cracks.hpp>
 #include <libmesh/repair/detach.hpp>
@@ -59,7 +60,7 @@ class repairer {
         join();
         orient();
         if (options_.fill && !options_.sheet) fill();
-        if (options_.orient) did_.turned = detail::repair::turn_outward(mesh_);
+        if (options_.orient) did_.turned = detail::repair::turn_outward(mesh_, turned_as_one_);
         measure();
         if (tally_.unbalanced > 0 && !options_.sheet) return open();
         make_surface();
@@ -100,7 +101,11 @@ class repairer {
             did_.repeated = detail::repair::drop_copies(mesh_);
             tally_ = detail::repair::tally_edges(mesh_);
         }
-        if (tally_.border > 0) close_cracks();
+        if (tally_.border == 0) return;
+        close_cracks();
+        if (tally_.crowded == 0) return;
+        did_.repeated += detail::repair::drop_copies(mesh_);  // that were torn off
+        tally_ = detail::repair::tally_edges(mesh_);
     }
 
     /// Of the gaps tried, the narrowest that leaves the fewest open edges.
@@ -114,7 +119,7 @@ class repairer {
                     1e-6 * diagonal_,
                     1e-5 * diagonal_,
                     1e-4 * diagonal_,
-                    1e-3 * diagonal_};
+                    1e-3 * diagonal_ * (1.0 + 1e-6)};  // cracks as wide as that, however rounded
         std::uint64_t fewest = tally_.border;
         working_mesh best;
         for (const double gap : gaps) {
@@ -135,6 +140,16 @@ class repairer {
         tally_ = detail::repair::tally_edges(mesh_);
     }
 
+    /// Whether faces disagree at so many edges of more than two that what they bound is anybody's
+    /// guess: half of the faces of tetrahedra, say.
+    [[nodiscard]] bool is_hopeless() const {
+        constexpr std::uint64_t most = 10;  // faces for each such edge
+        const std::uint64_t simple =
+            std::min(tally_.unbalanced, tally_.border + tally_.disagreeing);
+        return most * (tally_.unbalanced - simple) > mesh_.faces.size() &&
+               mesh_.faces.size() > 1000;
+    }
+
     void orient() {
         if (!options_.orient) return;
         if (tally_.disagreeing > 0 || tally_.crowded > 0)
@@ -143,10 +158,15 @@ class repairer {
             did_.strays = detail::repair::drop_strays(mesh_, options_.strays, options_.sheet);
         if (did_.strays > 0) did_.flipped += detail::repair::make_faces_agree(mesh_);
         tally_ = detail::repair::tally_edges(mesh_);
+        is_hopeless_ = is_hopeless();
+        if (tally_.crowded == 0 || tally_.unbalanced == 0 || is_hopeless_) return;
+        did_.flipped += detail::repair::balance_patches(mesh_);
+        if (did_.flipped > 0) turned_as_one_ = detail::repair::turned_as_one::shell;
+        tally_ = detail::repair::tally_edges(mesh_);
     }
 
     void fill() {
-        if (tally_.border == 0) return;
+        if (tally_.unbalanced == 0 || is_hopeless_) return;
         const detail::repair::filled_holes filled =
             detail::repair::fill_holes(mesh_, options_.largest_hole);
         did_.holes = filled.holes;
@@ -208,7 +228,8 @@ class repairer {
             case repair_rule::automatic:
                 break;
         }
-        return detail::repair::is_outward(mesh_) ? fill_rule::positive : fill_rule::nonzero;
+        return detail::repair::is_outward(mesh_, turned_as_one_) ? fill_rule::positive
+                                                                 : fill_rule::nonzero;
     }
 
     void make_surface() {
@@ -232,9 +253,14 @@ class repairer {
             result_.face_source.push_back(e.index == operand_element::none ? repair_result::none
                                                                            : mesh_.source[e.index]);
         for (const operand_element& e : made.vertex_source)
-            result_.vertex_source.push_back(e.index);
+            result_.vertex_source.push_back(source_of_point(e.index));
         did_.pairs = made.statistics.pairs;
         did_.split_vertices = made.statistics.split_vertices;
+    }
+
+    /// What fills holes may have points of its own.
+    [[nodiscard]] std::uint32_t source_of_point(std::uint32_t p) const {
+        return p < given_.points.size() ? p : repair_result::none;
     }
 
     void keep_as_it_is() {
@@ -242,7 +268,7 @@ class repairer {
         for (const std::uint32_t p : detail::base::used_points(mesh_.points.size(), mesh_.faces)) {
             number[p] = static_cast<std::uint32_t>(result_.mesh.points.size());
             result_.mesh.points.push_back(mesh_.points[p]);
-            result_.vertex_source.push_back(p);
+            result_.vertex_source.push_back(source_of_point(p));
         }
         for (const face& f : mesh_.faces)
             result_.mesh.faces.push_back({number[f[0]], number[f[1]], number[f[2]]});
@@ -334,6 +360,8 @@ class repairer {
     working_mesh mesh_{};
     double diagonal_ = 0.0;
     edge_tally tally_{};
+    bool is_hopeless_ = false;
+    detail::repair::turned_as_one turned_as_one_ = detail::repair::turned_as_one::component;
     repair_statistics did_{};
     repair_result result_{};
 };

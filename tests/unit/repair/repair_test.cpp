@@ -13,12 +13,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -120,6 +122,44 @@ TEST_CASE("repair: missing faces are filled, and faces around them stay") {
     CHECK(tf::repair(dirty, {.fill = false}).certificate.open_count > 0);
 }
 
+TEST_CASE("repair: a large hole of a ball is filled by a part of a ball, a flat one stays flat") {
+    const tf::mesh ball = test::ball(4, 1.0);
+    tf::mesh dirty = ball;
+    std::erase_if(dirty.faces, [&](const tf::face& f) {
+        return ball.points[f[0]].z > 0.8 || ball.points[f[1]].z > 0.8 || ball.points[f[2]].z > 0.8;
+    });
+    const tf::repair_result result = tf::repair(dirty);
+    REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+    CHECK(result.statistics.holes == 1);
+    for (std::size_t v = 0; v < result.mesh.points.size(); ++v) {
+        const tf::point3& p = result.mesh.points[v];
+        const double radius = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+        CHECK(radius == doctest::Approx(1.0).epsilon(0.02));
+        const bool is_given = result.vertex_source[v] != none;
+        CHECK((is_given ? p == dirty.points[result.vertex_source[v]] : p.z > 0.6));
+    }
+    CHECK(tf::signed_volume(result.mesh) > 0.995 * tf::signed_volume(ball));
+
+    tf::mesh block = test::inside_out(test::grid(8));  // its floor; the lid has a hole of 16 edges
+    tf::mesh lid = test::moved(test::grid(8), {0, 0, 1});
+    std::erase_if(lid.faces, [&](const tf::face& f) {
+        const tf::point3& p = lid.points[f[0]];
+        return p.x >= 2 && p.x < 6 && p.y >= 2 && p.y < 6;
+    });
+    block = test::together(block, lid);
+    for (std::uint32_t i = 0; i < 8; ++i)
+        for (const auto& [a, b] : {std::pair{i, i + 1}, std::pair{73 + i, 72 + i},
+                                   std::pair{9 * i + 9, 9 * i}, std::pair{9 * i + 8, 9 * i + 17}}) {
+            block.faces.push_back({a, b, b + 81});
+            block.faces.push_back({a, b + 81, a + 81});
+        }
+    const tf::repair_result flat = tf::repair(block);
+    REQUIRE_MESSAGE(flat.certificate, flat.certificate.message());
+    CHECK(tf::signed_volume(flat.mesh) == 64.0);
+    CHECK(flat.statistics.filled == 14);
+    CHECK(flat.mesh.points.size() == block.points.size() - 9);
+}
+
 TEST_CASE("repair: cracks are zipped, however the faces are turned") {
     const tf::mesh ball = test::ball(3, 1.0);
     tf::mesh soup = torn(ball, 1e-5);
@@ -163,6 +203,54 @@ TEST_CASE("repair: a face without area leaves no hole") {
     CHECK(result.statistics.split_edges == 1);
 }
 
+TEST_CASE("repair: a solid with a cavity, inside out, is turned with it") {
+    const tf::mesh inner = test::ball(2, 0.5);
+    const tf::mesh outer = test::ball(3, 1.0);
+    const double rest = tf::signed_volume(outer) - tf::signed_volume(inner);
+    const tf::mesh hollow = test::together(outer, test::inside_out(inner));
+    const tf::repair_result result = tf::repair(test::inside_out(hollow));
+    require_solid(result, rest);
+    CHECK(result.statistics.turned == 2);
+    CHECK(result.mesh.faces == test::inside_out(test::inside_out(hollow)).faces);
+}
+
+TEST_CASE("repair: a cavity stays one where the filling of a hole passes through it") {
+    const tf::mesh inner = test::ball(3, 0.8);
+    tf::mesh dirty = test::ball(4, 1.0);
+    std::erase_if(dirty.faces, [&](const tf::face& f) { return dirty.points[f[0]].z > 0.5; });
+    dirty = test::together(dirty, test::inside_out(inner));
+    const tf::repair_result result = tf::repair(dirty);
+    REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+    CHECK(result.statistics.turned == 0);
+    const double full = tf::signed_volume(test::ball(4, 1.0));
+    CHECK(tf::signed_volume(result.mesh) < full - 0.8 * tf::signed_volume(inner));
+}
+
+TEST_CASE("repair: copies of faces side by side go, turned or not") {
+    const tf::mesh ball = test::ball(3, 1.0);
+    for (const bool is_turned : {false, true}) {
+        tf::mesh dirty = ball;
+        for (const std::uint32_t f : {0U, 1U, 2U, 3U, 4U, 5U, 40U}) {
+            dirty.faces.push_back(ball.faces[f]);
+            if (is_turned && f % 2 == 0) turn(dirty.faces.back());
+        }
+        const tf::repair_result result = tf::repair(dirty);
+        REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+        CHECK(result.mesh == ball);
+        CHECK(result.statistics.repeated == 7);
+    }
+}
+
+TEST_CASE("repair: flaps that hang on one edge go") {
+    const tf::mesh box = test::box(1, 1, 1);
+    tf::mesh dirty = box;
+    dirty.points.insert(dirty.points.end(), {{0.5, 0.5, 0.4}, {2, 2, 2}});
+    dirty.faces.insert(dirty.faces.end(), {{0, 1, 8}, {1, 0, 9}});
+    const tf::repair_result result = tf::repair(dirty, {.max_loss = 1.0});
+    require_solid(result, 1.0);
+    CHECK(result.statistics.strays == 2);
+}
+
 TEST_CASE("repair: faces that are there twice") {
     const tf::mesh box = test::box(1, 1, 1);
     require_solid(tf::repair(test::together(box, box)), 1.0);
@@ -195,6 +283,37 @@ TEST_CASE("repair: strays and walls inside go") {
     result = tf::repair(dirty);
     require_solid(result, 1.0);
     CHECK(result.statistics.strays == 2);
+}
+
+TEST_CASE("repair: patches that disagree only at edges of four faces") {
+    const tf::mesh box = test::box(1, 1, 1);
+    // Face to face, and all of one but the square between them is turned.
+    tf::mesh dirty = test::together(box, test::moved(box, {1, 0, 0}));
+    for (std::size_t f = box.faces.size(); f < dirty.faces.size(); ++f)
+        if (f != 20 && f != 21) turn(dirty.faces[f]);
+    const tf::repair_result result = tf::repair(dirty);
+    require_solid(result, 2.0);
+    CHECK(result.statistics.filled == 0);
+    CHECK(result.statistics.flipped > 0);
+}
+
+TEST_CASE("repair: a hole along an edge of three faces is filled") {
+    tf::mesh dirty = test::box(1, 1, 1);
+    dirty.points.insert(dirty.points.end(), {{0.4, 0.4, -2}, {0.3, 0.5, -1}});
+    // An open cone on the edge from 0 to 1: with what fills it, a body of its own.
+    dirty.faces.insert(dirty.faces.end(), {{1, 0, 8}, {9, 1, 8}, {0, 9, 8}});
+    const tf::repair_result result = tf::repair(dirty);
+    REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+    CHECK(is_manifold_in_coordinates(result.mesh));
+    CHECK(result.statistics.filled == 1);
+    CHECK(tf::signed_volume(result.mesh) > 1.05);
+}
+
+TEST_CASE("repair: a mesh that is half of the faces of many tetrahedra is said to be open") {
+    test::random source(3);
+    tf::mesh dirty = test::lattice_soup(source, 2000, 60, 5);
+    const tf::repair_result result = tf::repair(dirty);
+    CHECK_FALSE(result.certificate);
 }
 
 TEST_CASE("repair: solids that overlap become one") {

@@ -118,8 +118,9 @@ struct repair_options {
     std::optional<double> gap{};
     /// Fill holes of at most this many edges.
     std::uint64_t largest_hole = std::numeric_limits<std::uint64_t>::max();
-    /// Loose open pieces below this share of the area are dropped. Where a larger component vanishes
-    /// since it bounds nothing, the status is `excessive_loss`, unless `max_loss` is 1.
+    /// Loose open pieces below this share of the area are dropped, and so are single triangles below
+    /// 1 %. Where a larger component vanishes since it bounds nothing, the status is
+    /// `excessive_loss`, unless `max_loss` is 1.
     double strays = 0.001;
     repair_rule inside = repair_rule::automatic;
     /// Losing more than this share has the status `excessive_loss`: of the volume, or of the area
@@ -192,8 +193,14 @@ struct TREEFORM_API repair_result {
 /// Which cracks close, which way faces point, and what fills a hole are guesses, and counted.
 /// Points with equal coordinates are one.
 ///
+/// Holes are filled by triangles between their vertices; large ones of smooth surfaces are filled
+/// by new points, so that the surface goes on as it does around them. A mesh is not filled, and said
+/// to be open, where at more than a tenth as many edges as it has faces more than two faces meet and
+/// disagree.
+///
 /// \throws std::invalid_argument as `boolean`; for a gap or share that is negative or not finite
-/// \cost   O(V log V + F log F), and as `resolve_self_intersections` where faces meet
+/// \cost   O(V log V + F log F), as `resolve_self_intersections` where faces meet, and for a hole of
+///         n edges O(n^3) up to 100, then O(n^2)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API repair_result repair(mesh_view mesh, const repair_options& options = {});
 
