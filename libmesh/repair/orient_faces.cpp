@@ -66,20 +66,10 @@ class turned_sets {
     std::vector<std::uint8_t> one_sided_;
 };
 
-/// A component: its faces, and what is known of it.
-struct component {
-    std::vector<std::uint32_t> faces{};
-    box3 box{};
-    double volume = 0.0;
-    bool is_filled = false;  ///< some of its faces are guesses
-    std::optional<prepared_mesh> surface{};
-    std::optional<prepared_mesh> given{};  ///< without these
-};
-
-box3 box_of(const working_mesh& mesh, const component& part) {
-    const point3& first = mesh.points[mesh.faces[part.faces[0]][0]];
+box3 box_of(const working_mesh& mesh, const std::vector<std::uint32_t>& faces) {
+    const point3& first = mesh.points[mesh.faces[faces[0]][0]];
     box3 box{first, first};
-    for (const std::uint32_t f : part.faces)
+    for (const std::uint32_t f : faces)
         for (const std::uint32_t corner : mesh.faces[f])
             for (std::size_t k = 0; k < 3; ++k) {
                 box.min[k] = std::min(box.min[k], mesh.points[corner][k]);
@@ -100,34 +90,32 @@ bool overlap(const box3& a, const box3& b) {
     return true;
 }
 
-/// Those that are closed.
-std::vector<component> closed_components(const working_mesh& mesh, turned_as_one what) {
-    const std::vector<std::uint32_t> part_of =
-        what == turned_as_one::shell ? shells(mesh) : parts_by_edges(mesh);
-    std::vector<component> all(mesh.faces.size());
-    for (std::uint32_t f = 0; f < part_of.size(); ++f) all[part_of[f]].faces.push_back(f);
-    for (const std::uint32_t f : faces_at_unbalanced_edges(mesh)) all[part_of[f]].faces.clear();
-    std::erase_if(all, [](const component& part) { return part.faces.empty(); });
-    std::vector<face> faces;
-    for (component& part : all) {
-        faces.clear();
-        for (const std::uint32_t f : part.faces) faces.push_back(mesh.faces[f]);
-        part.volume = signed_volume({mesh.points, faces});
-        part.box = box_of(mesh, part);
-        part.is_filled = std::ranges::any_of(
-            part.faces, [&](std::uint32_t f) { return mesh.source[f] == repair_result::none; });
+/// [parts] The faces of each part, the parts in the order of their lowest faces.
+std::vector<std::vector<std::uint32_t>> faces_of_parts(const std::vector<std::uint32_t>& part_of) {
+    std::vector<std::uint32_t> number(part_of.size());  // by root, which is the lowest face
+    std::vector<std::uint32_t> sizes;
+    for (std::uint32_t f = 0; f < part_of.size(); ++f) {
+        if (part_of[f] == f) {
+            number[f] = static_cast<std::uint32_t>(sizes.size());
+            sizes.push_back(0);
+        }
+        ++sizes[number[part_of[f]]];
     }
-    return all;
+    std::vector<std::vector<std::uint32_t>> faces(sizes.size());
+    for (std::size_t part = 0; part < faces.size(); ++part) faces[part].reserve(sizes[part]);
+    for (std::uint32_t f = 0; f < part_of.size(); ++f) faces[number[part_of[f]]].push_back(f);
+    return faces;
 }
 
 /// How often `other` winds around the first vertex of `part`.
-int winding_around(const working_mesh& mesh, const component& part, component& other) {
+int winding_around(const working_mesh& mesh, const closed_component& part,
+                   closed_component& other) {
     if (!holds(other.box, part.box)) return 0;
     if (!other.surface) other.surface.emplace(select_faces(mesh.view(), other.faces));
     return winding_number(*other.surface, mesh.points[mesh.faces[part.faces[0]][0]]);
 }
 
-const prepared_mesh& given_surface(const working_mesh& mesh, component& part) {
+const prepared_mesh& given_surface(const working_mesh& mesh, closed_component& part) {
     if (part.given) return *part.given;
     std::vector<std::uint32_t> given;
     for (const std::uint32_t f : part.faces)
@@ -138,7 +126,7 @@ const prepared_mesh& given_surface(const working_mesh& mesh, component& part) {
 /// With no vertex outside, and not with all on the other's surface: cavities may touch it. Where a
 /// hole was filled, the filling may be on either side of what lies inside: then most vertices tell,
 /// if what was given does not meet.
-bool is_inside(const working_mesh& mesh, component& part, component& other) {
+bool is_inside(const working_mesh& mesh, closed_component& part, closed_component& other) {
     if (!overlap(other.box, part.box)) return false;
     if (!other.surface) other.surface.emplace(select_faces(mesh.view(), other.faces));
     const point3& first = mesh.points[mesh.faces[part.faces[0]][0]];
@@ -157,14 +145,15 @@ bool is_inside(const working_mesh& mesh, component& part, component& other) {
 
 /// What lies inside of an inward component, if with it every second one from outside is inward:
 /// then all of it is inside out.
-std::vector<component*> turned_with(const working_mesh& mesh, component& outer,
-                                    std::vector<component>& components) {
-    std::vector<component*> within;
-    for (component& part : components)
+std::vector<closed_component*> turned_with(const working_mesh& mesh, closed_component& outer,
+                                           std::vector<closed_component>& components) {
+    std::vector<closed_component*> within;
+    for (closed_component& part : components)
         if (&part != &outer && is_inside(mesh, part, outer)) within.push_back(&part);
-    for (component* part : within) {
+    for (closed_component* part : within) {
         bool is_even = false;  // the number of those around it
-        for (component* other : within) is_even ^= other != part && is_inside(mesh, *part, *other);
+        for (closed_component* other : within)
+            is_even ^= other != part && is_inside(mesh, *part, *other);
         if ((part->volume < 0.0) != is_even) return {};
     }
     return within;
@@ -204,36 +193,70 @@ std::uint64_t make_faces_agree(working_mesh& mesh) {
     return flipped;
 }
 
-std::uint64_t turn_outward(working_mesh& mesh, turned_as_one what) {
-    std::vector<component> components = closed_components(mesh, what);
-    std::vector<component*> inward;
-    for (component& part : components) {
+closed_components::closed_components(working_mesh& mesh, turned_as_one what, bool is_closed)
+    : mesh_(mesh) {
+    const std::vector<std::uint32_t> part_of =
+        what == turned_as_one::shell ? shells(mesh) : parts_by_edges(mesh);
+    std::vector<std::vector<std::uint32_t>> parts = faces_of_parts(part_of);
+    if (!is_closed) {
+        std::vector<std::uint8_t> is_open(mesh.faces.size(), 0);  // by root
+        for (const std::uint32_t f : faces_at_unbalanced_edges(mesh)) is_open[part_of[f]] = 1;
+        std::erase_if(parts, [&](const auto& faces) { return is_open[faces[0]] != 0; });
+    }
+    std::vector<face> faces;
+    for (std::vector<std::uint32_t>& part : parts) {
+        closed_component& added = all_.emplace_back();
+        added.faces = std::move(part);
+        const bool is_all = added.faces.size() == mesh.faces.size();
+        if (!is_all) {
+            faces.clear();
+            for (const std::uint32_t f : added.faces) faces.push_back(mesh.faces[f]);
+        }
+        added.volume = signed_volume({mesh.points, is_all ? mesh.faces : faces});
+        added.box = box_of(mesh, added.faces);
+        added.is_filled = std::ranges::any_of(
+            added.faces, [&](std::uint32_t f) { return mesh.source[f] == repair_result::none; });
+    }
+}
+
+std::uint64_t closed_components::turn_outward() {
+    std::vector<closed_component*> inward;
+    for (closed_component& part : all_) {
         if (!(part.volume < 0.0)) continue;
-        const bool is_cavity = std::ranges::any_of(components, [&](component& other) {
-            return &other != &part && is_inside(mesh, part, other);
+        const bool is_cavity = std::ranges::any_of(all_, [&](closed_component& other) {
+            return &other != &part && is_inside(mesh_, part, other);
         });
         if (!is_cavity) inward.push_back(&part);
     }
-    std::vector<component*> all = inward;
-    for (component* part : inward)
-        for (component* other : turned_with(mesh, *part, components))
-            if (std::ranges::find(all, other) == all.end()) all.push_back(other);
-    for (const component* part : all)
-        for (const std::uint32_t f : part->faces) mesh.faces[f] = turned(mesh.faces[f]);
-    return all.size();
+    std::vector<closed_component*> turning = inward;
+    for (closed_component* part : inward)
+        for (closed_component* other : turned_with(mesh_, *part, all_))
+            if (std::ranges::find(turning, other) == turning.end()) turning.push_back(other);
+    for (closed_component* part : turning) {
+        for (const std::uint32_t f : part->faces) mesh_.faces[f] = turned(mesh_.faces[f]);
+        part->volume = -part->volume;
+        part->surface.reset();
+        part->given.reset();
+    }
+    return turning.size();
 }
 
-bool is_outward(const working_mesh& mesh, turned_as_one what) {
-    return std::ranges::all_of(closed_components(mesh, what),
-                               [](const component& part) { return part.volume > 0.0; });
+bool closed_components::is_outward() const {
+    return std::ranges::all_of(all_,
+                               [](const closed_component& part) { return part.volume > 0.0; });
 }
 
-bool is_well_nested(const working_mesh& mesh) {
-    std::vector<component> components = closed_components(mesh, turned_as_one::component);
-    return std::ranges::all_of(components, [&](const component& part) {
+double closed_components::volume() const {
+    double sum = 0.0;
+    for (const closed_component& part : all_) sum += part.volume;
+    return sum;
+}
+
+bool closed_components::is_well_nested() {
+    return std::ranges::all_of(all_, [&](const closed_component& part) {
         int around = 0;
-        for (component& other : components)
-            if (&other != &part) around += winding_around(mesh, part, other);
+        for (closed_component& other : all_)
+            if (&other != &part) around += winding_around(mesh_, part, other);
         return around == (part.volume < 0.0 ? 1 : 0);
     });
 }

@@ -60,7 +60,8 @@ class repairer {
         join();
         orient();
         if (options_.fill && !options_.sheet) fill();
-        if (options_.orient) did_.turned = detail::repair::turn_outward(mesh_, turned_as_one_);
+        closed_.emplace(mesh_, turned_as_one_, tally_.unbalanced == 0);
+        if (options_.orient) did_.turned = closed_->turn_outward();
         measure();
         if (tally_.unbalanced > 0 && !options_.sheet) return open();
         make_surface();
@@ -157,7 +158,7 @@ class repairer {
         if (tally_.border > 0 || tally_.crowded > 0)
             did_.strays = detail::repair::drop_strays(mesh_, options_.strays, options_.sheet);
         if (did_.strays > 0) did_.flipped += detail::repair::make_faces_agree(mesh_);
-        tally_ = detail::repair::tally_edges(mesh_);
+        if (did_.flipped + did_.strays > 0) tally_ = detail::repair::tally_edges(mesh_);
         is_hopeless_ = is_hopeless();
         if (tally_.crowded == 0 || tally_.unbalanced == 0 || is_hopeless_) return;
         did_.flipped += detail::repair::balance_patches(mesh_);
@@ -177,10 +178,9 @@ class repairer {
     }
 
     void measure() {
-        tally_ = detail::repair::tally_edges(mesh_);
         did_.open_edges = tally_.unbalanced;
         did_.area_before = area(mesh_.view());
-        if (tally_.unbalanced == 0) did_.volume_before = signed_volume(mesh_.view());
+        if (tally_.unbalanced == 0) did_.volume_before = closed_->volume();
     }
 
     /// Where the surface ends, in the numbers of the input.
@@ -213,8 +213,12 @@ class repairer {
     }
 
     /// Of a mesh no two faces of which meet.
-    [[nodiscard]] bool is_solid() const {
-        return detail::topology::is_manifold(mesh_.view()) && detail::repair::is_well_nested(mesh_);
+    [[nodiscard]] bool is_solid() {
+        if (!detail::topology::is_manifold(mesh_.view())) return false;
+        using detail::repair::turned_as_one;
+        if (turned_as_one_ == turned_as_one::shell)
+            closed_.emplace(mesh_, turned_as_one::component, tally_.unbalanced == 0);
+        return closed_->is_well_nested();
     }
 
     [[nodiscard]] fill_rule rule() const {
@@ -228,8 +232,7 @@ class repairer {
             case repair_rule::automatic:
                 break;
         }
-        return detail::repair::is_outward(mesh_, turned_as_one_) ? fill_rule::positive
-                                                                 : fill_rule::nonzero;
+        return closed_->is_outward() ? fill_rule::positive : fill_rule::nonzero;
     }
 
     void make_surface() {
@@ -264,6 +267,7 @@ class repairer {
     }
 
     void keep_as_it_is() {
+        is_kept_ = true;
         std::vector<std::uint32_t> number(mesh_.points.size(), repair_result::none);
         for (const std::uint32_t p : detail::base::used_points(mesh_.points.size(), mesh_.faces)) {
             number[p] = static_cast<std::uint32_t>(result_.mesh.points.size());
@@ -299,14 +303,16 @@ class repairer {
     void count_losses() {
         certificate& known = result_.certificate;
         if (known.status != status::ok && known.status != status::sheet) return;
-        did_.area_after = area(result_.mesh);
+        const bool is_as_measured = is_kept_ && did_.detached == 0;
+        did_.area_after = is_as_measured ? did_.area_before : area(result_.mesh);
         std::vector<std::uint8_t> is_left(given_.faces.size(), 0);
         for (const std::uint32_t f : result_.face_source)
             if (f != repair_result::none) is_left[f] = 1;
         did_.removed = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
         did_.removed -= std::min(did_.removed, did_.degenerate + did_.repeated + did_.strays);
         const bool is_solid = known.status == status::ok;
-        if (is_solid) did_.volume_after = signed_volume(result_.mesh);
+        if (is_solid)
+            did_.volume_after = is_as_measured ? did_.volume_before : signed_volume(result_.mesh);
         if (did_.resolved && is_solid) count_vanished(is_left);
         did_.area_lost = detail::repair::lost_area(given_, is_left, result_.mesh);
         if (options_.max_loss >= 1.0) return;
@@ -361,6 +367,8 @@ class repairer {
     double diagonal_ = 0.0;
     edge_tally tally_{};
     bool is_hopeless_ = false;
+    bool is_kept_ = false;  ///< nothing had to be cut
+    std::optional<detail::repair::closed_components> closed_{};
     detail::repair::turned_as_one turned_as_one_ = detail::repair::turned_as_one::component;
     repair_statistics did_{};
     repair_result result_{};

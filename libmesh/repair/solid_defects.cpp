@@ -17,12 +17,12 @@ void count_inverted(mesh joined, solid_defects& found) {
     const bool is_solid = found.open_edges + found.nonmanifold_edges + found.misoriented_edges +
                               found.nonmanifold_vertices + found.meeting_pairs ==
                           0;
-    if (is_solid && !detail::repair::is_well_nested(parts)) {
-        found.inverted = detail::repair::turn_outward(parts);
-        found.wrongly_nested = found.inverted == 0 || !detail::repair::is_well_nested(parts);
-    } else {
-        found.inverted = detail::repair::turn_outward(parts);
-    }
+    using detail::repair::turned_as_one;
+    detail::repair::closed_components closed(parts, turned_as_one::component, is_solid);
+    const bool is_nested = !is_solid || closed.is_well_nested();
+    if (is_solid && is_nested) return;
+    found.inverted = closed.turn_outward();
+    found.wrongly_nested = !is_nested && (found.inverted == 0 || !closed.is_well_nested());
 }
 
 }  // namespace
