@@ -90,20 +90,29 @@ bool overlap(const box3& a, const box3& b) {
     return true;
 }
 
-/// [parts] The faces of each part, the parts in the order of their lowest faces.
+/// [F] The parts by number, in the order of their lowest faces.
+std::vector<std::uint32_t> numbered_parts(const working_mesh& mesh, turned_as_one what,
+                                          edge_facts known) {
+    // With one fan at each vertex, what vertices link is what edges link.
+    if (known == edge_facts::manifold) return face_components(mesh.points.size(), mesh.faces);
+    std::vector<std::uint32_t> part_of =
+        what == turned_as_one::shell ? shells(mesh) : parts_by_edges(mesh);
+    std::uint32_t count = 0;
+    for (std::uint32_t f = 0; f < part_of.size(); ++f)
+        part_of[f] = part_of[f] == f ? count++ : part_of[part_of[f]];
+    return part_of;
+}
+
+/// [parts] The faces of each one.
 std::vector<std::vector<std::uint32_t>> faces_of_parts(const std::vector<std::uint32_t>& part_of) {
-    std::vector<std::uint32_t> number(part_of.size());  // by root, which is the lowest face
     std::vector<std::uint32_t> sizes;
-    for (std::uint32_t f = 0; f < part_of.size(); ++f) {
-        if (part_of[f] == f) {
-            number[f] = static_cast<std::uint32_t>(sizes.size());
-            sizes.push_back(0);
-        }
-        ++sizes[number[part_of[f]]];
+    for (const std::uint32_t part : part_of) {
+        if (part == sizes.size()) sizes.push_back(0);
+        ++sizes[part];
     }
     std::vector<std::vector<std::uint32_t>> faces(sizes.size());
     for (std::size_t part = 0; part < faces.size(); ++part) faces[part].reserve(sizes[part]);
-    for (std::uint32_t f = 0; f < part_of.size(); ++f) faces[number[part_of[f]]].push_back(f);
+    for (std::uint32_t f = 0; f < part_of.size(); ++f) faces[part_of[f]].push_back(f);
     return faces;
 }
 
@@ -193,15 +202,14 @@ std::uint64_t make_faces_agree(working_mesh& mesh) {
     return flipped;
 }
 
-closed_components::closed_components(working_mesh& mesh, turned_as_one what, bool is_closed)
+closed_components::closed_components(working_mesh& mesh, turned_as_one what, edge_facts known)
     : mesh_(mesh) {
-    const std::vector<std::uint32_t> part_of =
-        what == turned_as_one::shell ? shells(mesh) : parts_by_edges(mesh);
+    const std::vector<std::uint32_t> part_of = numbered_parts(mesh, what, known);
     std::vector<std::vector<std::uint32_t>> parts = faces_of_parts(part_of);
-    if (!is_closed) {
-        std::vector<std::uint8_t> is_open(mesh.faces.size(), 0);  // by root
+    if (known == edge_facts::unknown) {
+        std::vector<std::uint8_t> is_open(parts.size(), 0);
         for (const std::uint32_t f : faces_at_unbalanced_edges(mesh)) is_open[part_of[f]] = 1;
-        std::erase_if(parts, [&](const auto& faces) { return is_open[faces[0]] != 0; });
+        std::erase_if(parts, [&](const auto& faces) { return is_open[part_of[faces[0]]] != 0; });
     }
     std::vector<face> faces;
     for (std::vector<std::uint32_t>& part : parts) {
@@ -213,7 +221,8 @@ closed_components::closed_components(working_mesh& mesh, turned_as_one what, boo
             for (const std::uint32_t f : added.faces) faces.push_back(mesh.faces[f]);
         }
         added.volume = signed_volume({mesh.points, is_all ? mesh.faces : faces});
-        added.box = box_of(mesh, added.faces);
+        if (!is_all)
+            added.box = box_of(mesh, added.faces);  // which nobody asks for of a single one
         added.is_filled = std::ranges::any_of(
             added.faces, [&](std::uint32_t f) { return mesh.source[f] == repair_result::none; });
     }

@@ -25,6 +25,13 @@ std::uint64_t make_faces_agree(working_mesh& mesh);
 /// meant, and a shell may be a wedge where the surface passes through itself.
 enum class turned_as_one : std::uint8_t { component, shell };
 
+/// What is known of all edges of a mesh.
+enum class edge_facts : std::uint8_t {
+    unknown,
+    closed,   ///< faces run as often one way as the other
+    manifold  ///< closed, and the faces at each vertex are one fan
+};
+
 /// Its faces, and what is known of it.
 struct closed_component {
     std::vector<std::uint32_t> faces{};
@@ -39,9 +46,8 @@ struct closed_component {
 /// edge, and which way they face.
 class closed_components {
   public:
-    /// \param is_closed whether every component is known to be closed
-    /// \cost  O(V + F)
-    closed_components(working_mesh& mesh, turned_as_one what, bool is_closed);
+    /// \cost O(V + F)
+    closed_components(working_mesh& mesh, turned_as_one what, edge_facts known);
 
     /// Turns those outward that have a negative volume and lie inside no other; returns how many.
     /// What lies inside of one is turned with it, if from outside every second one is inward: a

@@ -60,7 +60,7 @@ class repairer {
         join();
         orient();
         if (options_.fill && !options_.sheet) fill();
-        closed_.emplace(mesh_, turned_as_one_, tally_.unbalanced == 0);
+        closed_.emplace(mesh_, turned_as_one_, known_edges());
         if (options_.orient) did_.turned = closed_->turn_outward();
         measure();
         if (tally_.unbalanced > 0 && !options_.sheet) return open();
@@ -97,6 +97,8 @@ class repairer {
             return;
         }
         did_.degenerate = detail::repair::drop_degenerate(mesh_);
+        is_manifold_ = detail::topology::is_manifold(mesh_.view());
+        if (is_manifold_) return;  // nothing to tally
         tally_ = detail::repair::tally_edges(mesh_);
         if (tally_.crowded > 0 || tally_.disagreeing > 0) {
             did_.repeated = detail::repair::drop_copies(mesh_);
@@ -212,12 +214,17 @@ class repairer {
         return !found.cancelled && found.pairs.empty();
     }
 
+    [[nodiscard]] detail::repair::edge_facts known_edges() const {
+        using enum detail::repair::edge_facts;
+        return is_manifold_ ? manifold : tally_.unbalanced == 0 ? closed : unknown;
+    }
+
     /// Of a mesh no two faces of which meet.
     [[nodiscard]] bool is_solid() {
-        if (!detail::topology::is_manifold(mesh_.view())) return false;
+        if (!is_manifold_ && !detail::topology::is_manifold(mesh_.view())) return false;
         using detail::repair::turned_as_one;
         if (turned_as_one_ == turned_as_one::shell)
-            closed_.emplace(mesh_, turned_as_one::component, tally_.unbalanced == 0);
+            closed_.emplace(mesh_, turned_as_one::component, known_edges());
         return closed_->is_well_nested();
     }
 
@@ -366,6 +373,7 @@ class repairer {
     working_mesh mesh_{};
     double diagonal_ = 0.0;
     edge_tally tally_{};
+    bool is_manifold_ = false;  ///< as it came, but for faces turned
     bool is_hopeless_ = false;
     bool is_kept_ = false;  ///< nothing had to be cut
     std::optional<detail::repair::closed_components> closed_{};

@@ -18,7 +18,9 @@ void count_inverted(mesh joined, solid_defects& found) {
                               found.nonmanifold_vertices + found.meeting_pairs ==
                           0;
     using detail::repair::turned_as_one;
-    detail::repair::closed_components closed(parts, turned_as_one::component, is_solid);
+    detail::repair::closed_components closed(
+        parts, turned_as_one::component,
+        is_solid ? detail::repair::edge_facts::manifold : detail::repair::edge_facts::unknown);
     const bool is_nested = !is_solid || closed.is_well_nested();
     if (is_solid && is_nested) return;
     found.inverted = closed.turn_outward();
