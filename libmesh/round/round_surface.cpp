@@ -9,6 +9,7 @@
 #include <libmesh/round/mending_schedule.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/round/snap_nearby.hpp>
+#include <libmesh/round/snap_to_grid.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <libmesh/round/surface_faults.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
@@ -67,7 +68,7 @@ class rounding {
             const bool sound = check();
             if (result_.steps == 0 && (vanished_ || !sound)) remember_parts();
             if (sound || is_cancelled()) break;
-            if (!schedule_.mends_surface(state())) break;
+            if (!goes_on()) break;
             ++result_.steps;
             last_meeting_count_ = result_.certificate.meeting_count;
             if (!cut_again()) break;
@@ -92,6 +93,15 @@ class rounding {
                 .faces = result_.surface.faces.size(),
                 .faces_given = faces_given_,
                 .only_cut = only_cut_};
+    }
+
+    [[nodiscard]] bool is_on_grid() const { return options_.grid > 0.0; }
+
+    /// Whether the broken surface gets one more step.
+    [[nodiscard]] bool goes_on() const {
+        if (!is_on_grid()) return schedule_.mends_surface(state());
+        return result_.steps < options_.steps &&
+               detail::round::mending_schedule::mends_on_grid(state());
     }
 
     /// Each phase has half of the work that was left; nobody knows how many there will be.
@@ -290,8 +300,9 @@ class rounding {
     /// The rounded surface, with what is next to each other joined, and cut along itself, becomes
     /// the exact one; false when that fails.
     bool cut_again() {
-        const detail::round::joined_near near = join_what_is_near();
+        const detail::round::joined_near near = is_on_grid() ? join_on_grid() : join_what_is_near();
         const mesh& now = near.surface;
+        if (is_on_grid() && is_too_much(now)) return false;
         arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
         if (arranged.cancelled) result_.certificate.status = status::cancelled;
         if (arranged.cancelled) return false;
@@ -323,6 +334,24 @@ class rounding {
         exact_.constructed = std::move(cut.constructed);
         point_of_.resize(exact_.given.size() + exact_.constructed.size(), rounded_surface::none);
         return true;
+    }
+
+    detail::round::joined_near join_on_grid() {
+        detail::round::joined_near near = detail::round::snap_to_grid(
+            result_.surface, offending_, {.step = options_.grid, .solid = options_.solid});
+        result_.certificate.max_displacement += near.moved;
+        return near;
+    }
+
+    /// Whether cutting it would take far more than it took to cut what was given. Then the surface
+    /// is left as it is.
+    [[nodiscard]] bool is_too_much(mesh_view now) const {
+        const auto found = self_intersections(
+            now,
+            {.vertices = vertex_identity::by_index, .limit = 0, .progress = options_.progress});
+        const std::uint64_t pairs =
+            std::accumulate(found.counts.begin(), found.counts.end(), std::uint64_t{0});
+        return detail::round::mending_schedule::is_too_much(pairs, faces_given_);
     }
 
     /// Faces that meet once others are joined are next to something, too.
