@@ -343,15 +343,15 @@ class rounding {
         return near;
     }
 
-    /// Whether cutting it would take far more than it took to cut what was given. Then the surface
-    /// is left as it is.
-    [[nodiscard]] bool is_too_much(mesh_view now) const {
+    /// Whether cutting it would take far more than it took to cut what was given, or nobody waits
+    /// for it. Then the surface is left as it is.
+    bool is_too_much(mesh_view now) {
         const auto found = self_intersections(
-            now,
-            {.vertices = vertex_identity::by_index, .limit = 0, .progress = options_.progress});
+            now, {.vertices = vertex_identity::by_index, .limit = 0, .progress = next_phase()});
+        if (found.cancelled) result_.certificate.status = status::cancelled;
         const std::uint64_t pairs =
             std::accumulate(found.counts.begin(), found.counts.end(), std::uint64_t{0});
-        return detail::round::mending_schedule::is_too_much(pairs, faces_given_);
+        return found.cancelled || detail::round::mending_schedule::is_too_much(pairs, faces_given_);
     }
 
     /// Faces that meet once others are joined are next to something, too.
