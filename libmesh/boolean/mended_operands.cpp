@@ -5,6 +5,7 @@
 #include <libmesh/round/mending_schedule.hpp>
 #include <libmesh/round/snap_nearby.hpp>
 #include <libmesh/round/snap_to_grid.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/search.hpp>
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -111,12 +113,13 @@ class mending {
   public:
     /// \pre the operands have been checked
     mending(std::span<const mesh_view> operands, const boolean_options& options,
-            const round::mending_schedule& schedule, int rounds)
+            const round::mending_schedule& schedule, const boolean_statistics& so_far)
         : options_(options),
           schedule_(schedule),
           given_(join_operands(operands)),
           operand_of_face_(given_.operand_of_face()),
-          rounds_(schedule.precision == precision::float32 ? rounds : 0) {
+          pairs_given_(so_far.pairs),
+          rounds_(schedule.precision == precision::float32 ? so_far.rounding_steps : 0) {
         source_.resize(given_.all.faces.size());
         std::iota(source_.begin(), source_.end(), 0U);
     }
@@ -126,9 +129,11 @@ class mending {
         return schedule_.reach_of_operands(given_.all.points, number);
     }
 
+    /// None where the grid makes far more faces meet than met.
     template <class Ask>
-    unmended_result step(const operand_try& next, const std::vector<aabb<double, 3>>& broken,
-                         const Ask& ask) {
+    std::optional<unmended_result> step(const operand_try& next,
+                                        const std::vector<aabb<double, 3>>& broken,
+                                        const Ask& ask) {
         const double reach = this->reach(next.number);
         const round::joined_near near = join(next_to(broken, given_.all, reach), reach, next.grid);
         const near_operands joined(near, operand_of_face_, given_.first_face.size() - 1);
@@ -137,6 +142,9 @@ class mending {
         if (next.grid)
             put_on_grid(how, schedule_.grid_of_surface(given_.all.points, next.number),
                         round::mending_schedule::most_rounds - rounds_);
+        const bool has_limit = next.grid || options_.precision == precision::float32;
+        if (has_limit && !schedule_.asks_operands(count_pairs(near.surface), pairs_given_))
+            return std::nullopt;
         how.volumes = false;
         if (options_.progress) how.progress = [&](double) { return options_.progress(1.0); };
         std::vector<std::uint32_t> groups;
@@ -148,7 +156,7 @@ class mending {
         const std::vector<mesh_view> views(joined.meshes.begin(), joined.meshes.end());
         unmended_result made = ask(std::span<const mesh_view>(views), how);
         boolean_result& result = made.result;
-        if (next.grid) rounds_ += result.statistics.rounding_steps;
+        if (how.grid > 0.0) rounds_ += result.statistics.rounding_steps;
         result.certificate.max_displacement += near.moved;
         for (operand_element& face : result.face_source) face = face_source(joined, face);
         for (operand_element& face : result.face_of_cut_vertex) face = face_source(joined, face);
@@ -157,6 +165,14 @@ class mending {
     }
 
   private:
+    [[nodiscard]] std::uint64_t count_pairs(mesh_view mesh) const {
+        progress_callback progress;
+        if (options_.progress) progress = [&](double) { return options_.progress(1.0); };
+        const auto found = self_intersections(
+            mesh, {.vertices = vertex_identity::by_index, .limit = 0, .progress = progress});
+        return std::accumulate(found.counts.begin(), found.counts.end(), std::uint64_t{0});
+    }
+
     /// The operands with what is next to the faces marked, on a grid or not.
     [[nodiscard]] round::joined_near join(const std::vector<std::uint8_t>& marked, double reach,
                                           bool grid) const {
@@ -194,7 +210,8 @@ class mending {
     joined_operands given_;
     std::vector<std::uint32_t> operand_of_face_;
     std::vector<std::uint32_t> source_;
-    int rounds_ = 0;  ///< that were taken on grids
+    std::uint64_t pairs_given_;  ///< of faces of the operands as they are
+    int rounds_ = 0;             ///< that were taken on grids
 };
 
 /// The surface of `mended`, and what is certain about it, with the rest as it was said before.
@@ -208,13 +225,12 @@ void take_surface(boolean_result& result, boolean_result&& mended) {
     result.vanished_at = std::move(mended.vanished_at);
 }
 
-/// float64 keeps what it has: grids come last there, and first where coordinates are coarse.
+/// Grids come last for float64, which so keeps what it has, and first where coordinates are coarse.
 std::vector<operand_try> tries_of(const round::mending_schedule& schedule) {
+    const bool grid_first = schedule.precision == precision::float32;
     std::vector<operand_try> tries;
-    for (const bool grid : {false, true})
-        if (grid || schedule.precision != precision::float32)
-            for (int step = 1; step <= schedule.operand_steps; ++step)
-                tries.push_back({step, grid});
+    for (const bool grid : {grid_first, !grid_first})
+        for (int step = 1; step <= schedule.operand_steps; ++step) tries.push_back({step, grid});
     return tries;
 }
 
@@ -230,13 +246,15 @@ boolean_result with_mended_operands(
         return c.status != status::not_certified || !std::isfinite(c.max_displacement);
     };
     if (is_done(result.certificate) || schedule.operand_steps == 0) return std::move(result);
-    mending again(operands, options, schedule, result.statistics.rounding_steps);
-    bool grows = false, on_grid = false;
+    mending again(operands, options, schedule, result.statistics);
+    bool grows = false, on_grid = options.precision == precision::float32;
     for (const operand_try& next : tries_of(schedule)) {
         if (next.grid != on_grid) grows = false;
         on_grid = next.grid;
         if (grows || again.reach(next.number) > options.max_displacement) continue;
-        auto [mended, broken_again] = again.step(next, broken, ask);
+        std::optional<unmended_result> tried = again.step(next, broken, ask);
+        if (!tried) continue;
+        auto& [mended, broken_again] = *tried;
         if (mended.certificate.status == status::cancelled) {
             result.certificate.status = status::cancelled;
             break;

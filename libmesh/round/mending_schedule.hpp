@@ -63,11 +63,15 @@ struct mending_schedule {
     /// \pre coordinates are finite \cost O(V)
     [[nodiscard]] double grid_of_surface(points_view points, int step) const;
     [[nodiscard]] double grid_of_operands(points_view points, int step) const;
+    /// Whether only few faces meet, so that one more step costs little.
+    [[nodiscard]] static bool are_few(const mending_state& state);
     /// Whether a broken surface gets one more round on its grid, as all do that have left fewer
-    /// faces that meet, to 15 for all tries of a result together.
+    /// faces that meet, or only few, to 15 for all tries of a result together.
     [[nodiscard]] static bool mends_on_grid(const mending_state& state);
     /// Whether so many pairs of faces are too many to be cut, of a surface that had so many faces.
     [[nodiscard]] static bool is_too_much(std::uint64_t pairs, std::size_t faces_given);
+    /// Whether operands on a grid, with so many pairs of faces that meet, are worth cutting.
+    [[nodiscard]] static bool asks_operands(std::uint64_t pairs, std::uint64_t pairs_given);
     static constexpr int most_rounds = 15;
 };
 

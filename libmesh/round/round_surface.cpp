@@ -53,7 +53,8 @@ class rounding {
   public:
     rounding(exact_surface exact, const round_options& options)
         : options_(options),
-          schedule_{options.precision, options.steps},
+          schedule_{options.precision,
+                    options.grid > 0.0 ? std::min(options.steps, 2) : options.steps},
           exact_(std::move(exact)),
           faces_given_(exact_.faces.size()) {
         point_of_.resize(exact_.given.size() + exact_.constructed.size());
@@ -95,13 +96,14 @@ class rounding {
                 .only_cut = only_cut_};
     }
 
-    [[nodiscard]] bool is_on_grid() const { return options_.grid > 0.0; }
-
-    /// Whether the broken surface gets one more step.
-    [[nodiscard]] bool goes_on() const {
-        if (!is_on_grid()) return schedule_.mends_surface(state());
-        return result_.steps < options_.steps &&
-               detail::round::mending_schedule::mends_on_grid(state());
+    /// Whether the broken surface gets one more step. Where only few faces meet at first, joining
+    /// what is near does best.
+    [[nodiscard]] bool goes_on() {
+        const detail::round::mending_state now = state();
+        if (now.steps == 0)
+            on_grid_ = options_.grid > 0.0 && !detail::round::mending_schedule::are_few(now);
+        if (!on_grid_) return schedule_.mends_surface(now);
+        return now.steps < options_.steps && detail::round::mending_schedule::mends_on_grid(now);
     }
 
     /// Each phase has half of the work that was left; nobody knows how many there will be.
@@ -300,9 +302,9 @@ class rounding {
     /// The rounded surface, with what is next to each other joined, and cut along itself, becomes
     /// the exact one; false when that fails.
     bool cut_again() {
-        const detail::round::joined_near near = is_on_grid() ? join_on_grid() : join_what_is_near();
+        const detail::round::joined_near near = on_grid_ ? join_on_grid() : join_what_is_near();
         const mesh& now = near.surface;
-        if (is_on_grid() && is_too_much(now)) return false;
+        if ((on_grid_ || to_float32()) && is_too_much(now)) return false;
         arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
         if (arranged.cancelled) result_.certificate.status = status::cancelled;
         if (arranged.cancelled) return false;
@@ -403,6 +405,7 @@ class rounding {
     std::uint64_t last_meeting_count_ = 0;
     double moved_ = 0.0;     ///< how far, in the last rounding; infinite where points were joined
     bool vanished_ = false;  ///< some faces, so that points may be left that none has
+    bool on_grid_ = false;   ///< mending is
     bool only_cut_ = false;  ///< joining what is near has been seen to spread
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between

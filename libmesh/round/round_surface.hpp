@@ -39,7 +39,7 @@ struct round_options {
     int steps = 4;
     /// Where it is not 0, mending puts the corners of faces that meet on the grid of this step,
     /// instead of joining what is near; in `steps` rounds at most, as long as each leaves fewer
-    /// faces that meet. A power of two, at least the precision's step at the largest coordinate.
+    /// faces that meet, or few. A power of two, at least the precision's step at the largest coordinate.
     double grid = 0.0;
     progress_callback progress{};
 };

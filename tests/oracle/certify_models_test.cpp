@@ -89,7 +89,8 @@ void repair_in_all_ways(const tf::mesh& mesh, const std::string& file,
             const auto result = tf::resolve_self_intersections(
                 mesh, mode,
                 {.precision = to_float ? tf::precision::float32 : tf::precision::float64,
-                 .touching = true});
+                 .touching = true,
+                 .max_loss = 1.0});
             if (result.certificate.open_count > 0) continue;  // bounds nothing, and is told so
             if (!std::isfinite(result.certificate.max_displacement))
                 continue;  // beyond the range of float
