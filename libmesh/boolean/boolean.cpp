@@ -37,6 +37,7 @@ namespace {
 
 using detail::base::part_of;
 using detail::boolean::joined_operands;
+using detail::boolean::rounding_try;
 using detail::boolean::unmended_result;
 
 /// Operands, joined, and their arrangement, which has taken their points; their faces stay.
@@ -120,7 +121,7 @@ std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uin
 /// `face_of` is of the input.
 void finish(unmended_result& made, mesh_arrangement& cut, std::vector<face> exact_faces,
             std::vector<std::uint32_t> face_of, joined_operands& joined, bool solid,
-            const boolean_options& options) {
+            const rounding_try& options) {
     boolean_result& result = made.result;
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(exact_faces), std::vector<std::uint8_t>(face_of.size())};
@@ -146,6 +147,7 @@ void finish(unmended_result& made, mesh_arrangement& cut, std::vector<face> exac
         round_surface(std::move(exact), {.precision = options.precision,
                                          .solid = solid,
                                          .steps = options.rounding_steps,
+                                         .grid = options.grid,
                                          .progress = part_of(options.progress, 0.7, 1.0)});
     result.certificate = std::move(r.certificate);
     if (result.certificate.status == status::cancelled) return;
@@ -249,7 +251,7 @@ detail::round::solid_faces kept_of_sheet(mesh_arrangement& cut, const arrangemen
 }
 
 unmended_result boolean_of(std::span<const mesh_view> operands,
-                           const boolean_expression& expression, const boolean_options& options,
+                           const boolean_expression& expression, const rounding_try& options,
                            bool sound) {
     check_expression("boolean", operands, expression);
     if (sound)
@@ -279,7 +281,7 @@ unmended_result boolean_of(std::span<const mesh_view> operands,
 }
 
 unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
-                        const boolean_expression& expression, const boolean_options& options) {
+                        const boolean_expression& expression, const rounding_try& options) {
     check_expression("clip", operands, expression);
     if (sheet >= operands.size())
         throw std::invalid_argument("treeform::clip: the sheet is no operand");
@@ -306,7 +308,7 @@ unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet
     return made;
 }
 
-unmended_result split_of(std::span<const mesh_view> operands, const boolean_options& options) {
+unmended_result split_of(std::span<const mesh_view> operands, const rounding_try& options) {
     auto [joined, arranged] = arrange_operands(operands, part_of(options.progress, 0.0, 0.7));
     unmended_result made{with_counts(arranged), {}};
     boolean_result& result = made.result;
@@ -314,7 +316,7 @@ unmended_result split_of(std::span<const mesh_view> operands, const boolean_opti
     std::vector<std::uint32_t> all(arranged.cut.faces.size());
     std::iota(all.begin(), all.end(), 0U);
     result.statistics.covered = count_covered(arranged, joined.all.faces.size());
-    boolean_options as_cut = options;
+    rounding_try as_cut = options;
     as_cut.simplify = false;
     finish(made, arranged.cut, std::move(arranged.cut.faces), std::move(all), joined, false,
            as_cut);
@@ -347,6 +349,9 @@ template <class Make>
 boolean_result evaluate(const char* function, std::span<const mesh_view> operands,
                         const boolean_options& options, bool solid, const Make& make) {
     detail::boolean::check_operands(function, operands);
+    if (!(options.max_displacement >= 0.0))
+        throw std::invalid_argument("treeform::" + std::string(function) +
+                                    ": the largest displacement is negative or not a number");
     try {
         return finished(detail::boolean::with_mended_operands(operands, options, make), solid,
                         options.precision);
@@ -383,7 +388,7 @@ boolean_result evaluate(const char* function, std::span<const mesh_operand> oper
         double looked = 0.0;
         try {
             const bool sound = both_sound(operands, how.progress, looked);
-            boolean_options rest = how;
+            rounding_try rest = how;
             rest.progress = part_of(how.progress, looked, 1.0);
             return boolean_of(given, expression, rest, sound);
         } catch (const detail::boolean::stopped&) {

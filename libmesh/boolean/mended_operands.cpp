@@ -1,14 +1,19 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/mended_operands.hpp>
 #include <libmesh/round/mending_schedule.hpp>
 #include <libmesh/round/snap_nearby.hpp>
+#include <libmesh/round/snap_to_grid.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/search.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -63,29 +68,83 @@ std::vector<std::uint8_t> next_to(const std::vector<aabb<double, 3>>& broken, me
     return marked;
 }
 
+/// Of all corners, the largest coordinate there is, without its sign.
+point3 largest_point(std::span<const mesh_view> operands) {
+    double largest = 0.0;
+    for (const mesh_view& operand : operands)
+        for (const face& f : operand.faces)
+            for (const std::uint32_t corner : f) {
+                const double here = base::largest_of(operand.points[corner]);
+                if (std::isfinite(here)) largest = std::max(largest, here);
+            }
+    return {largest, largest, largest};
+}
+
+/// A try of the operands after that of them as they are.
+struct operand_try {
+    int number = 0;  ///< from 1; each reaches further
+    bool grid = false;
+};
+
+/// With at most `rounds` rounds, none where they may not move points so far.
+void put_on_grid(rounding_try& how, double step, int rounds) {
+    how.grid = step;
+    how.rounding_steps = how.rounding_steps > 0 && step <= how.max_displacement ? rounds : 0;
+}
+
+/// Of the operands as they are.
+rounding_try first_try(std::span<const mesh_view> operands, const boolean_options& options,
+                       const round::mending_schedule& schedule) {
+    rounding_try how{options};
+    how.rounding_steps = schedule.surface_steps;
+    const bool to_float = options.precision == precision::float32;
+    if (!to_float && !std::isfinite(options.max_displacement)) return how;
+    const point3 largest = largest_point(operands);
+    if (to_float)
+        put_on_grid(how, schedule.grid_of_surface({&largest, 1}, 0),
+                    round::mending_schedule::most_rounds);
+    else if (schedule.reach_of_surface({&largest, 1}, 4) > options.max_displacement)
+        how.rounding_steps = 0;
+    return how;
+}
+
 /// The question once more, of operands joined where they are next to broken places.
 class mending {
   public:
     /// \pre the operands have been checked
     mending(std::span<const mesh_view> operands, const boolean_options& options,
-            const round::mending_schedule& schedule)
+            const round::mending_schedule& schedule, const boolean_statistics& so_far)
         : options_(options),
           schedule_(schedule),
           given_(join_operands(operands)),
-          operand_of_face_(given_.operand_of_face()) {
+          operand_of_face_(given_.operand_of_face()),
+          pairs_given_(so_far.pairs),
+          rounds_(schedule.precision == precision::float32 ? so_far.rounding_steps : 0) {
         source_.resize(given_.all.faces.size());
         std::iota(source_.begin(), source_.end(), 0U);
     }
 
+    /// How far steps reach.
+    [[nodiscard]] double reach(int number) const {
+        return schedule_.reach_of_operands(given_.all.points, number);
+    }
+
+    /// None where the grid makes far more faces meet than met.
     template <class Ask>
-    unmended_result step(int number, const std::vector<aabb<double, 3>>& broken, const Ask& ask) {
-        const double reach = schedule_.reach_of_operands(given_.all.points, number);
-        const round::joined_near near = round::snap_nearby(
-            given_.all, next_to(broken, given_.all, reach),
-            {.reach = reach, .source = source_, .solid = false, .operand = operand_of_face_});
+    std::optional<unmended_result> step(const operand_try& next,
+                                        const std::vector<aabb<double, 3>>& broken,
+                                        const Ask& ask) {
+        const double reach = this->reach(next.number);
+        const round::joined_near near = join(next_to(broken, given_.all, reach), reach, next.grid);
         const near_operands joined(near, operand_of_face_, given_.first_face.size() - 1);
-        boolean_options how = options_;
+        rounding_try how{options_};
         how.rounding_steps = schedule_.surface_steps;
+        if (next.grid)
+            put_on_grid(how, schedule_.grid_of_surface(given_.all.points, next.number),
+                        round::mending_schedule::most_rounds - rounds_);
+        const bool has_limit = next.grid || options_.precision == precision::float32;
+        if (has_limit && !schedule_.asks_operands(count_pairs(near.surface), pairs_given_))
+            return std::nullopt;
         how.volumes = false;
         if (options_.progress) how.progress = [&](double) { return options_.progress(1.0); };
         std::vector<std::uint32_t> groups;
@@ -97,6 +156,7 @@ class mending {
         const std::vector<mesh_view> views(joined.meshes.begin(), joined.meshes.end());
         unmended_result made = ask(std::span<const mesh_view>(views), how);
         boolean_result& result = made.result;
+        if (how.grid > 0.0) rounds_ += result.statistics.rounding_steps;
         result.certificate.max_displacement += near.moved;
         for (operand_element& face : result.face_source) face = face_source(joined, face);
         for (operand_element& face : result.face_of_cut_vertex) face = face_source(joined, face);
@@ -105,6 +165,34 @@ class mending {
     }
 
   private:
+    [[nodiscard]] std::uint64_t count_pairs(mesh_view mesh) const {
+        progress_callback progress;
+        if (options_.progress) progress = [&](double) { return options_.progress(1.0); };
+        const auto found = self_intersections(
+            mesh, {.vertices = vertex_identity::by_index, .limit = 0, .progress = progress});
+        return std::accumulate(found.counts.begin(), found.counts.end(), std::uint64_t{0});
+    }
+
+    /// The operands with what is next to the faces marked, on a grid or not.
+    [[nodiscard]] round::joined_near join(const std::vector<std::uint8_t>& marked, double reach,
+                                          bool grid) const {
+        round::joined_near near{given_.all, source_};
+        if (grid)
+            near = round::snap_to_grid(given_.all, marked, {.step = reach, .of_operands = true});
+        std::vector<std::uint8_t> still_marked;
+        std::vector<std::uint32_t> operand;
+        for (const std::uint32_t f : near.face_of) {
+            still_marked.push_back(marked[f]);
+            operand.push_back(operand_of_face_[f]);
+        }
+        round::joined_near last = round::snap_nearby(
+            near.surface, still_marked,
+            {.reach = reach, .source = near.face_of, .solid = false, .operand = operand});
+        for (std::uint32_t& f : last.face_of) f = near.face_of[f];
+        last.moved += near.moved;
+        return last;
+    }
+
     [[nodiscard]] operand_element face_source(const near_operands& joined,
                                               const operand_element& face) const {
         if (face.operand == operand_element::none) return face;
@@ -122,6 +210,8 @@ class mending {
     joined_operands given_;
     std::vector<std::uint32_t> operand_of_face_;
     std::vector<std::uint32_t> source_;
+    std::uint64_t pairs_given_;  ///< of faces of the operands as they are
+    int rounds_ = 0;             ///< that were taken on grids
 };
 
 /// The surface of `mended`, and what is certain about it, with the rest as it was said before.
@@ -135,23 +225,36 @@ void take_surface(boolean_result& result, boolean_result&& mended) {
     result.vanished_at = std::move(mended.vanished_at);
 }
 
+/// Grids come last for float64, which so keeps what it has, and first where coordinates are coarse.
+std::vector<operand_try> tries_of(const round::mending_schedule& schedule) {
+    const bool grid_first = schedule.precision == precision::float32;
+    std::vector<operand_try> tries;
+    for (const bool grid : {grid_first, !grid_first})
+        for (int step = 1; step <= schedule.operand_steps; ++step) tries.push_back({step, grid});
+    return tries;
+}
+
 }  // namespace
 
 boolean_result with_mended_operands(
     std::span<const mesh_view> operands, const boolean_options& options,
-    function_ref<unmended_result(std::span<const mesh_view>, const boolean_options&)> ask) {
+    function_ref<unmended_result(std::span<const mesh_view>, const rounding_try&)> ask) {
     const auto schedule =
         round::mending_schedule::of_operands(options.rounding_steps, options.precision);
-    boolean_options first = options;
-    first.rounding_steps = schedule.surface_steps;
-    auto [result, broken] = ask(operands, first);
+    auto [result, broken] = ask(operands, first_try(operands, options, schedule));
     const auto is_done = [&](const certificate& c) {
         return c.status != status::not_certified || !std::isfinite(c.max_displacement);
     };
-    if (is_done(result.certificate) || schedule.operand_steps == 0) return result;
-    mending again(operands, options, schedule);
-    for (int step = 1; step <= schedule.operand_steps; ++step) {
-        auto [mended, broken_again] = again.step(step, broken, ask);
+    if (is_done(result.certificate) || schedule.operand_steps == 0) return std::move(result);
+    mending again(operands, options, schedule, result.statistics);
+    bool grows = false, on_grid = options.precision == precision::float32;
+    for (const operand_try& next : tries_of(schedule)) {
+        if (next.grid != on_grid) grows = false;
+        on_grid = next.grid;
+        if (grows || again.reach(next.number) > options.max_displacement) continue;
+        std::optional<unmended_result> tried = again.step(next, broken, ask);
+        if (!tried) continue;
+        auto& [mended, broken_again] = *tried;
         if (mended.certificate.status == status::cancelled) {
             result.certificate.status = status::cancelled;
             break;
@@ -162,7 +265,8 @@ boolean_result with_mended_operands(
         const std::uint64_t before = result.certificate.meeting_count;
         const std::uint64_t after = mended.certificate.meeting_count;
         if (mended.certificate || after < before) take_surface(result, std::move(mended));
-        if (result.certificate || !schedule.mends_operands(before, after)) break;
+        if (result.certificate) break;
+        grows = !round::mending_schedule::mends_operands(before, after);
     }
     return std::move(result);
 }

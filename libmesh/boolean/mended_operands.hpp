@@ -12,6 +12,11 @@
 
 namespace treeform::detail::boolean {
 
+/// What is asked of operands, and how the result is rounded: with `rounding_steps` steps.
+struct rounding_try : boolean_options {
+    double grid = 0.0;  ///< as in `round_options`
+};
+
 /// The answer to the operands as they are.
 struct unmended_result {
     boolean_result result;
@@ -30,6 +35,6 @@ struct unmended_result {
 /// \same   on any number of threads, if `ask` is
 [[nodiscard]] boolean_result with_mended_operands(
     std::span<const mesh_view> operands, const boolean_options& options,
-    function_ref<unmended_result(std::span<const mesh_view>, const boolean_options&)> ask);
+    function_ref<unmended_result(std::span<const mesh_view>, const rounding_try&)> ask);
 
 }  // namespace treeform::detail::boolean

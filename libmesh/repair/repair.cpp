@@ -253,6 +253,7 @@ class repairer {
         const boolean_options how{.inside = rule(),
                                   .precision = options_.precision,
                                   .rounding_steps = options_.rounding_steps,
+                                  .max_displacement = options_.max_displacement,
                                   .progress = part_of(options_.progress, 0.4, 0.95)};
         boolean_result made = options_.sheet ? detail::boolean::resolve_by_split(mesh_.view(), how)
                                              : detail::boolean::resolve_by_union(mesh_.view(), how);

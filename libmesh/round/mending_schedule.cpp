@@ -48,4 +48,30 @@ double mending_schedule::reach_of_operands(points_view points, int step) const {
     return reach_of_bits(points, bits_of_first_step(precision) - 4 * (step - 1));
 }
 
+double mending_schedule::grid_of_surface(points_view points, int step) const {
+    return reach_of_bits(points, bits_of_first_step(precision) - 1 - 4 * step);
+}
+
+double mending_schedule::grid_of_operands(points_view points, int step) const {
+    return reach_of_operands(points, step);
+}
+
+bool mending_schedule::are_few(const mending_state& state) {
+    return state.meeting < state.faces / 32;
+}
+
+bool mending_schedule::mends_on_grid(const mending_state& state) {
+    const bool is_better = state.meeting < state.meeting_before;
+    return (state.steps == 0 || is_better || are_few(state)) &&
+           state.faces <= 3 * state.faces_given + 1000;
+}
+
+bool mending_schedule::is_too_much(std::uint64_t pairs, std::size_t faces_given) {
+    return pairs > 3 * faces_given + 1000;
+}
+
+bool mending_schedule::asks_operands(std::uint64_t pairs, std::uint64_t pairs_given) {
+    return pairs <= 4 * pairs_given + 1000;
+}
+
 }  // namespace treeform::detail::round

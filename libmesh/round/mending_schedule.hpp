@@ -27,6 +27,17 @@ struct mending_state {
 /// Next to each other is what is nearer than 2^-48 of the largest coordinate in the first step of
 /// each kind, 2^-22 for float32: four times as far in each further step of the surface, sixteen
 /// times in each of the operands.
+///
+/// The numbers of one precision get denser toward the origin, so that rounding makes smaller and
+/// smaller features there, and joining them ends nowhere. So, for float32 from the start, and for
+/// float64 where the steps above have failed, mending is on uniform grids: what is next to broken
+/// places is put on one, of operands and of the surface, and cut again, in rounds. The first grids
+/// are those of 2^-22 of the largest coordinate for operands, 2^-48 for float64, with one of 2^-17 or
+/// 2^-43 for their surface; the following ones are sixteen times as wide. Operands as they are have
+/// a surface on a grid of 2^-21. All are wider than the precision, to which cuts are rounded: on
+/// a grid of just the precision, cuts move as far as features are wide, and each round breaks more
+/// than it mends. For the same reason each grid starts from the operands, not from what the grid
+/// before has cut to pieces.
 struct mending_schedule {
     treeform::precision precision = treeform::precision::float64;
     int surface_steps = 0;  ///< that are taken whether they help or not; none at all for 0
@@ -47,6 +58,21 @@ struct mending_schedule {
     /// \pre coordinates are finite \cost O(V)
     [[nodiscard]] double reach_of_surface(points_view points, int step) const;
     [[nodiscard]] double reach_of_operands(points_view points, int step) const;
+    /// The grids in step 1, 2, ... of operands; of the surface also in step 0, for the operands as
+    /// they are.
+    /// \pre coordinates are finite \cost O(V)
+    [[nodiscard]] double grid_of_surface(points_view points, int step) const;
+    [[nodiscard]] double grid_of_operands(points_view points, int step) const;
+    /// Whether only few faces meet, so that one more step costs little.
+    [[nodiscard]] static bool are_few(const mending_state& state);
+    /// Whether a broken surface gets one more round on its grid, as all do that have left fewer
+    /// faces that meet, or only few, to 15 for all tries of a result together.
+    [[nodiscard]] static bool mends_on_grid(const mending_state& state);
+    /// Whether so many pairs of faces are too many to be cut, of a surface that had so many faces.
+    [[nodiscard]] static bool is_too_much(std::uint64_t pairs, std::size_t faces_given);
+    /// Whether operands on a grid, with so many pairs of faces that meet, are worth cutting.
+    [[nodiscard]] static bool asks_operands(std::uint64_t pairs, std::uint64_t pairs_given);
+    static constexpr int most_rounds = 15;
 };
 
 }  // namespace treeform::detail::round

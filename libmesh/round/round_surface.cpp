@@ -9,6 +9,7 @@
 #include <libmesh/round/mending_schedule.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/round/snap_nearby.hpp>
+#include <libmesh/round/snap_to_grid.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <libmesh/round/surface_faults.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
@@ -52,7 +53,8 @@ class rounding {
   public:
     rounding(exact_surface exact, const round_options& options)
         : options_(options),
-          schedule_{options.precision, options.steps},
+          schedule_{options.precision,
+                    options.grid > 0.0 ? std::min(options.steps, 2) : options.steps},
           exact_(std::move(exact)),
           faces_given_(exact_.faces.size()) {
         point_of_.resize(exact_.given.size() + exact_.constructed.size());
@@ -67,7 +69,7 @@ class rounding {
             const bool sound = check();
             if (result_.steps == 0 && (vanished_ || !sound)) remember_parts();
             if (sound || is_cancelled()) break;
-            if (!schedule_.mends_surface(state())) break;
+            if (!goes_on()) break;
             ++result_.steps;
             last_meeting_count_ = result_.certificate.meeting_count;
             if (!cut_again()) break;
@@ -92,6 +94,16 @@ class rounding {
                 .faces = result_.surface.faces.size(),
                 .faces_given = faces_given_,
                 .only_cut = only_cut_};
+    }
+
+    /// Whether the broken surface gets one more step. Where only few faces meet at first, joining
+    /// what is near does best.
+    [[nodiscard]] bool goes_on() {
+        const detail::round::mending_state now = state();
+        if (now.steps == 0)
+            on_grid_ = options_.grid > 0.0 && !detail::round::mending_schedule::are_few(now);
+        if (!on_grid_) return schedule_.mends_surface(now);
+        return now.steps < options_.steps && detail::round::mending_schedule::mends_on_grid(now);
     }
 
     /// Each phase has half of the work that was left; nobody knows how many there will be.
@@ -290,8 +302,9 @@ class rounding {
     /// The rounded surface, with what is next to each other joined, and cut along itself, becomes
     /// the exact one; false when that fails.
     bool cut_again() {
-        const detail::round::joined_near near = join_what_is_near();
+        const detail::round::joined_near near = on_grid_ ? join_on_grid() : join_what_is_near();
         const mesh& now = near.surface;
+        if ((on_grid_ || to_float32()) && is_too_much(now)) return false;
         arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
         if (arranged.cancelled) result_.certificate.status = status::cancelled;
         if (arranged.cancelled) return false;
@@ -323,6 +336,24 @@ class rounding {
         exact_.constructed = std::move(cut.constructed);
         point_of_.resize(exact_.given.size() + exact_.constructed.size(), rounded_surface::none);
         return true;
+    }
+
+    detail::round::joined_near join_on_grid() {
+        detail::round::joined_near near = detail::round::snap_to_grid(
+            result_.surface, offending_, {.step = options_.grid, .solid = options_.solid});
+        result_.certificate.max_displacement += near.moved;
+        return near;
+    }
+
+    /// Whether cutting it would take far more than it took to cut what was given, or nobody waits
+    /// for it. Then the surface is left as it is.
+    bool is_too_much(mesh_view now) {
+        const auto found = self_intersections(
+            now, {.vertices = vertex_identity::by_index, .limit = 0, .progress = next_phase()});
+        if (found.cancelled) result_.certificate.status = status::cancelled;
+        const std::uint64_t pairs =
+            std::accumulate(found.counts.begin(), found.counts.end(), std::uint64_t{0});
+        return found.cancelled || detail::round::mending_schedule::is_too_much(pairs, faces_given_);
     }
 
     /// Faces that meet once others are joined are next to something, too.
@@ -374,6 +405,7 @@ class rounding {
     std::uint64_t last_meeting_count_ = 0;
     double moved_ = 0.0;     ///< how far, in the last rounding; infinite where points were joined
     bool vanished_ = false;  ///< some faces, so that points may be left that none has
+    bool on_grid_ = false;   ///< mending is
     bool only_cut_ = false;  ///< joining what is near has been seen to spread
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between

@@ -37,6 +37,10 @@ struct round_options {
     /// Steps of mending before what rounding has broken is reported, and more, to 4, or 12 where
     /// no points are joined, while each leaves fewer faces that meet; none for 0.
     int steps = 4;
+    /// Where it is not 0, mending puts the corners of faces that meet on the grid of this step,
+    /// instead of joining what is near; in `steps` rounds at most, as long as each leaves fewer
+    /// faces that meet, or few. A power of two, at least the precision's step at the largest coordinate.
+    double grid = 0.0;
     progress_callback progress{};
 };
 
@@ -71,6 +75,10 @@ struct rounded_surface {
 /// largest coordinate in the first step (2^-22 for float32), four times as far in each that
 /// follows. Faces that lose their area or cover each other in opposite directions vanish; points of
 /// these places may move by that much.
+///
+/// On a grid (`round_options::grid`), corners of faces that meet are put there instead, with what
+/// would come to the same places. It ends, too, where a step would have to cut more than three
+/// times as many pairs of faces as there were faces.
 ///
 /// No number of steps is sure to suffice: the certificate tells. Mending also ends when the surface
 /// only grows by it. Status `out_of_range`: a coordinate was too large to be rounded.

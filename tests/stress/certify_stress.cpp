@@ -70,7 +70,8 @@ void check_case(const test::solid_case& made, const std::string& name,
     REQUIRE(arranged.closed());
     const auto volumes = test::exact_volumes(arranged, made.asked);
     const double area = area_of(made.operands);
-    for (std::size_t k = 0; k < made.asked.size(); ++k)
+    for (std::size_t k = 0; k < made.asked.size(); ++k) {
+        bool in_doubles = false;
         for (const bool to_float : {false, true}) {
             const std::string what =
                 name + " question " + std::to_string(k) + (to_float ? " in floats" : " in doubles");
@@ -83,9 +84,13 @@ void check_case(const test::solid_case& made, const std::string& name,
             if (too_large) continue;
             look_at(result, to_float);
             if (result.certificate) compare_volume(result, volumes[k], area);
+            const bool certified = test::is_certified(result.certificate);
+            CHECK((!to_float || !in_doubles || certified));
+            in_doubles = certified;
             tally.count(result.certificate,
                         what + ", " + std::to_string(result.certificate.meeting_count));
         }
+    }
 }
 
 /// Links that are joined to the last result, one by one.

@@ -54,14 +54,18 @@ inline std::uint64_t count_meeting(const tf::mesh& mesh) {
            tf::self_intersections(mesh).pairs.size();
 }
 
+/// A result of which nothing is left is known for certain, too.
+inline bool is_certified(const tf::certificate& known) {
+    return known || known.status == tf::status::vanished;
+}
+
 /// Results that were asked for, and how many were certified; the others by name.
 class certified_tally {
   public:
     explicit certified_tally(std::string name) : name_(std::move(name)) {}
 
-    /// A result of which nothing is left is known for certain, too.
     void count(const tf::certificate& known, const std::string& what) {
-        const bool certified = known || known.status == tf::status::vanished;
+        const bool certified = is_certified(known);
         const auto now = std::chrono::steady_clock::now();
         slowest_ = std::max(slowest_, std::chrono::duration<double>(now - last_).count());
         last_ = now;

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -91,8 +92,12 @@ struct boolean_options {
     /// How often to mend what rounding has broken, before it is reported. The first two steps, or
     /// more while they help, mend the surface. Further ones mend the operands next to such places:
     /// what is nearer than 2^-48, 2^-44, 2^-40 ... of the largest coordinate (2^-22, 2^-18, 2^-14
-    /// ... for float32) is joined, and everything is decided once more, exactly.
+    /// ... for float32) is joined, and everything is decided once more, exactly. For float32, and
+    /// for float64 where that did not do, corners there are put on a uniform grid as wide.
     int rounding_steps = 5;
+    /// Mending tries no grid or distance wider than this, in the mesh's own length unit. Several
+    /// steps may add up to more: see `certificate::max_displacement`. Not negative.
+    double max_displacement = std::numeric_limits<double>::infinity();
     /// Merge coplanar faces of the result, exactly and before rounding: a vertex is removed where
     /// only coplanar faces meet, or only faces along one straight edge.
     bool simplify = false;

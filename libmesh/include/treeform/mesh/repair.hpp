@@ -30,6 +30,8 @@ struct resolve_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     int rounding_steps = 5;  ///< for `split` and `outer`: see `boolean_options`
+    /// For `split` and `outer`: as in `boolean_options`.
+    double max_displacement = std::numeric_limits<double>::infinity();
     /// For `remove`: delete faces that only touch (`pair_kind::touching`), too. Otherwise they
     /// stay.
     bool touching = false;
@@ -132,6 +134,8 @@ struct repair_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     int rounding_steps = 5;  ///< as in `boolean_options`
+    /// As in `boolean_options`.
+    double max_displacement = std::numeric_limits<double>::infinity();
     progress_callback progress{};
 };
 

@@ -1,0 +1,108 @@
+/// \file
+/// Whether large hard solids can be written in floats: gears of long thin triangles, gantries of
+/// overlapping shells, layers of noise, and a model that others fail on.
+///
+/// TREEFORM_STRESS_COUNT sets the cases of each kind (default 1), TREEFORM_STRESS_SEED the seed.
+
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/float_output.hpp>
+#include <support/machine_parts.hpp>
+#include <support/models.hpp>
+#include <support/random.hpp>
+#include <support/settings.hpp>
+#include <support/solid_families.hpp>
+#include <support/solids.hpp>
+#include <support/soups.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+constexpr tf::precision to_float = tf::precision::float32;
+
+std::vector<std::uint64_t> seeds() {
+    std::vector<std::uint64_t> all;
+    for (std::uint64_t i = 0; i < test::stress_count(1); ++i)
+        all.push_back(test::stress_seed() + i);
+    return all;
+}
+
+void check_formula(const std::vector<tf::mesh>& operands, const tf::boolean_expression& formula) {
+    const std::vector<tf::mesh_view> views(operands.begin(), operands.end());
+    test::check_floats(tf::boolean(views, formula),
+                       tf::boolean(views, formula, {.precision = to_float}));
+}
+
+void check_repair(const tf::mesh& mesh) {
+    test::check_floats(
+        tf::resolve_self_intersections(mesh),
+        tf::resolve_self_intersections(mesh, tf::resolve_mode::outer, {.precision = to_float}));
+}
+
+}  // namespace
+
+TEST_CASE("two gears of 20,000 long thin triangles each, less one another, can be written") {
+    for (const std::uint64_t seed : seeds()) {
+        CAPTURE(seed);
+        test::random source(seed);
+        check_formula(test::gears(source, 20'000), {"a-b", 2});
+    }
+}
+
+TEST_CASE("a gantry of 60,000 faces in 80 overlapping shells can be written") {
+    for (const std::uint64_t seed : seeds()) {
+        CAPTURE(seed);
+        test::random source(seed);
+        check_repair(test::gantry(source, 80, 60'000));
+    }
+}
+
+TEST_CASE("layers of noise can be written") {
+    for (const test::solid_family& family : test::solid_families()) {
+        if (family.name != "noise") continue;
+        for (std::size_t number = 0; number < 20 * seeds().size(); ++number) {
+            CAPTURE(number);
+            test::random source(1'000'003 * test::stress_seed() + number);
+            const test::solid_case made = family.make(number, source);
+            const std::vector<tf::mesh_view> views(made.operands.begin(), made.operands.end());
+            for (const tf::boolean_expression& asked : made.asked) {
+                const auto floats = tf::boolean(views, asked, {.precision = to_float});
+                if (floats.certificate.status != tf::status::vanished)
+                    test::check_floats(tf::boolean(views, asked), floats);
+            }
+        }
+    }
+}
+
+TEST_CASE("a model of OpenSCAD's crash reports, repaired and cut, can be written") {
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
+    const tf::mesh mesh =
+        tf::join_equal_points(tf::read(folder / "selfint/openscad_crash_1k.obj").mesh);
+    check_repair(mesh);
+    const auto box = *tf::bounding_box(mesh.points);
+    const tf::point3 middle{(box.min[0] + box.max[0]) / 2, (box.min[1] + box.max[1]) / 2,
+                            (box.min[2] + box.max[2]) / 2};
+    const tf::point3 back{-middle.x, -middle.y, -middle.z};
+    const double size =
+        std::hypot(box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]);
+    check_formula({mesh, test::moved(test::scaled(test::ball(4, 1.0), 0.25 * size), middle)},
+                  {"a-b", 2});
+    check_formula({mesh, test::moved(mesh, {0.01 * size, 0.017 * size, 0.007 * size})}, {"a-b", 2});
+    check_formula(
+        {mesh, test::moved(test::turned(test::moved(mesh, back), {1, 2, 3}, 0.3), middle)},
+        {"a-b", 2});
+}
