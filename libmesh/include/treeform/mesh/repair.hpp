@@ -191,9 +191,10 @@ struct TREEFORM_API repair_result {
 /// Points with equal coordinates are one.
 ///
 /// Holes are filled by triangles between their vertices; large ones of smooth surfaces are filled
-/// by new points, so that the surface goes on as it does around them. A mesh is not filled, and said
-/// to be open, where at more than a tenth as many edges as it has faces more than two faces meet and
-/// disagree.
+/// by new points, so that the surface goes on as it does around them. Sheets are not filled, but said
+/// to be open, unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close
+/// them. Nor is a mesh where at more than a tenth as many edges as it has faces more than two faces
+/// meet and disagree.
 ///
 /// \throws std::invalid_argument as `boolean`; for a gap or share that is negative or not finite
 /// \cost   O(V log V + F log F), as `resolve_self_intersections` where faces meet, and for a hole of
