@@ -16,16 +16,16 @@ namespace treeform::detail::repair {
 /// \same on any number of threads
 std::uint64_t make_faces_agree(working_mesh& mesh);
 
-/// What is turned as one: all that edges link, or shells (`shells`), of which several may touch along
-/// edges. Shells are for meshes that disagreed there: else what runs along an edge says what is
-/// meant, and a shell may be a wedge where the surface passes through itself.
+/// What is turned as one: all that edges link, or shells (`shells`), of which several may touch
+/// along edges. Shells are for meshes that disagreed there: else what runs along an edge says what
+/// is meant, and a shell may be a wedge where the surface passes through itself.
 enum class turned_as_one : std::uint8_t { component, shell };
 
-/// Turns closed components outward that have a negative volume and lie inside no other; returns how
-/// many. A component is closed when its faces run as often one way as the other along each edge.
-/// What lies inside of one is turned with it, if from outside every second one is inward: a solid
-/// with cavities, inside out. Cavities stay inside of what was filled, whether or not the filling
-/// passes through them.
+/// Turns closed components outward that have a negative volume and lie inside no other; returns
+/// how many. A component is closed when its faces run as often one way as the other along each
+/// edge. What lies inside of one is turned with it, if from outside every second one is inward: a
+/// solid with cavities, inside out. Cavities stay inside of what was filled, whether or not the
+/// filling passes through them.
 ///
 /// \cost O(V + F); for a component turned inward, a winding number around each one whose box holds
 ///       its own
