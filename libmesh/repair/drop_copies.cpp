@@ -108,6 +108,7 @@ class tally_of_copies {
         for (std::uint32_t g = 0; g < groups_.size(); ++g)
             if (is_settled[g] == 0) by_root[linked.root(g)].push_back(g);
         std::vector<std::vector<std::size_t>> all;
+        all.reserve(by_root.size());
         for (auto& [root, region] : by_root) all.push_back(std::move(region));
         return all;
     }

@@ -156,7 +156,7 @@ bool is_to_be_fair(const working_mesh& mesh, const open_rim& rim,
         if (cosine >= cos_of_45 * most) smooth += length;
         if (cosine >= cos_of_2 * most) flat += length;
     }
-    return 2.0 * smooth >= all && 10.0 * flat < 9.0 * all;
+    return 2.0 * smooth >= all && 10.0 * flat < 9.0 * smooth;
 }
 
 void make_fair(working_mesh& mesh, const open_rim& rim, const std::vector<face>& filling,

@@ -13,8 +13,9 @@ namespace treeform::detail::repair {
 
 /// Whether triangles that close a rim are so many, and bend away from the faces around it so
 /// little, that a smooth surface is meant: by 45 degrees at most along half of the rim, but not by
-/// less than 2 degrees along nearly all of it. Where a body was cut off, and where the surface
-/// around a hole is flat, the filling stays flat.
+/// less than 2 degrees along nearly all of that half. Where a body was cut off, and where the
+/// surface around a hole is flat, also if it ends at the hole in a sharp edge, the filling stays
+/// flat.
 [[nodiscard]] bool is_to_be_fair(const working_mesh& mesh, const open_rim& rim,
                                  const std::vector<face>& filling);
 

@@ -1,11 +1,13 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
+#include <libmesh/repair/edge_parts.hpp>
 #include <libmesh/repair/fair_patch.hpp>
 #include <libmesh/repair/fill_hole.hpp>
 #include <libmesh/repair/fill_holes.hpp>
 #include <libmesh/repair/open_rims.hpp>
 #include <libmesh/repair/refined_patch.hpp>
 #include <libmesh/repair/triangulate_rim.hpp>
+#include <libmesh/topology/area.hpp>
 #include <treeform/mesh/repair.hpp>
 
 #include <cstddef>
@@ -29,18 +31,41 @@ std::vector<face> cone_over(working_mesh& mesh, const open_rim& rim) {
     return faces;
 }
 
+/// How large the parts of a mesh are that holes are in.
+class part_areas {
+  public:
+    explicit part_areas(const working_mesh& mesh)
+        : part_of_(parts_by_edges(mesh)), areas_(part_of_.size(), 0.0) {
+        for (std::uint32_t f = 0; f < part_of_.size(); ++f)
+            areas_[part_of_[f]] += topology::area({mesh.points, {&mesh.faces[f], 1}});
+    }
+
+    /// A sheet has about the area of what closes it, a half of a ball twice as much.
+    [[nodiscard]] bool is_sheet_without(const working_mesh& mesh, const open_rim& rim,
+                                        const std::vector<face>& filling) const {
+        constexpr double most = 0.6;
+        return topology::area({mesh.points, filling}) > most * areas_[part_of_[rim.faces[0]]];
+    }
+
+  private:
+    std::vector<std::uint32_t> part_of_;  ///< [F]
+    std::vector<double> areas_;           ///< by part
+};
+
 }  // namespace
 
-filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest) {
+filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sheets) {
     filled_holes done;
     const directed_edges edges(mesh.faces);
     std::optional<base::stars> stars;  // of the mesh before the first hole was filled
+    const part_areas parts(mesh);
     for (const open_rim& rim : open_rims(mesh)) {
         if (rim.points.size() > largest) continue;
         std::vector<face> faces = triangulate_rim(mesh, rim, edges);
-        if (faces.empty()) {
-            faces = cone_over(mesh, rim);
-        } else if (is_to_be_fair(mesh, rim, faces)) {
+        const bool is_cone = faces.empty();
+        if (is_cone) faces = cone_over(mesh, rim);
+        if (sheets == sheets_too::no && parts.is_sheet_without(mesh, rim, faces)) continue;
+        if (!is_cone && is_to_be_fair(mesh, rim, faces)) {
             if (!stars) stars.emplace(mesh.points.size(), mesh.faces);
             const std::size_t first = mesh.points.size();
             faces = refined_patch(mesh, rim, faces, edges);

@@ -14,11 +14,15 @@ struct filled_holes {
     std::uint64_t faces = 0;  ///< that fill them
 };
 
-/// Fills each hole of at most `largest` edges: `triangulate_rim`, or else a cone over the rim. Large
-/// holes of smooth surfaces are refined and made fair.
-/// Afterwards, faces run as often one way as the other along each edge of every rim filled.
+/// Whether to fill what then bounds little or nothing.
+enum class sheets_too : std::uint8_t { no, yes };
+
+/// Fills each hole of at most `largest` edges: `triangulate_rim`, or else a cone over the rim.
+/// Large holes of smooth surfaces are refined and made fair. Unless asked for, sheets stay open: a
+/// hole whose filling has more than 0.6 times the area of the part that it is in. Afterwards,
+/// faces run as often one way as the other along each edge of every rim filled.
 ///
 /// What fills a hole may meet other faces: to cut it is the next step's.
-filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest);
+filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sheets);
 
 }  // namespace treeform::detail::repair

@@ -37,8 +37,7 @@ double area_of_distinct(mesh_view mesh) {
     joined = join_equal_points(std::move(joined));
     for (face& f : joined.faces) std::ranges::sort(f);
     std::ranges::sort(joined.faces);
-    const auto copies = std::ranges::unique(joined.faces);
-    joined.faces.erase(copies.begin(), copies.end());
+    joined.faces.erase(std::unique(joined.faces.begin(), joined.faces.end()), joined.faces.end());
     return topology::area(joined);
 }
 

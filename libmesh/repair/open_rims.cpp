@@ -19,6 +19,9 @@ struct rim_edge {
     bool used = false;
 };
 
+std::uint32_t from_of(const rim_edge& e) { return e.from; }
+std::uint32_t from_of(std::uint32_t from) { return from; }
+
 std::vector<rim_edge> rim_edges_of(const working_mesh& mesh) {
     const weld::edge_uses edges(mesh.points.size(), mesh.faces, weld::repeated_corners::left_out);
     std::vector<std::vector<rim_edge>> found(edges.chunks());
@@ -75,10 +78,12 @@ class rim_walker {
 
     /// The first open edge around the end of one, else the lowest that starts there.
     [[nodiscard]] std::optional<std::size_t> next(const rim_edge& e) const {
-        const auto leaving = std::ranges::equal_range(rim_edges_, e.to, {}, &rim_edge::from);
+        const auto [begin, end] =
+            std::equal_range(rim_edges_.begin(), rim_edges_.end(), e.to,
+                             [](const auto& a, const auto& b) { return from_of(a) < from_of(b); });
         std::optional<std::size_t> lowest;
         std::size_t count = 0;
-        for (auto at = leaving.begin(); at != leaving.end(); ++at) {
+        for (auto at = begin; at != end; ++at) {
             if (at->used) continue;
             if (count++ == 0) lowest = static_cast<std::size_t>(at - rim_edges_.begin());
         }
@@ -87,7 +92,7 @@ class rim_walker {
         std::uint32_t toward = e.from;
         for (std::size_t steps = 0; steps <= mesh_.faces.size(); ++steps) {
             toward = third_corner(mesh_.faces[f], e.to, toward);
-            for (auto at = leaving.begin(); at != leaving.end(); ++at)
+            for (auto at = begin; at != end; ++at)
                 if (!at->used && at->to == toward)
                     return static_cast<std::size_t>(at - rim_edges_.begin());
             f = edges_.face_along(e.to, toward);

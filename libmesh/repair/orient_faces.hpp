@@ -20,9 +20,9 @@ namespace treeform::detail::repair {
 /// \same on any number of threads
 std::uint64_t make_faces_agree(working_mesh& mesh);
 
-/// What is turned as one: all that edges link, or shells (`shells`), of which several may touch along
-/// edges. Shells are for meshes that disagreed there: else what runs along an edge says what is
-/// meant, and a shell may be a wedge where the surface passes through itself.
+/// What is turned as one: all that edges link, or shells (`shells`), of which several may touch
+/// along edges. Shells are for meshes that disagreed there: else what runs along an edge says what
+/// is meant, and a shell may be a wedge where the surface passes through itself.
 enum class turned_as_one : std::uint8_t { component, shell };
 
 /// What is known of all edges of a mesh.

@@ -170,8 +170,10 @@ class repairer {
 
     void fill() {
         if (tally_.unbalanced == 0 || is_hopeless_) return;
+        using detail::repair::sheets_too;
         const detail::repair::filled_holes filled =
-            detail::repair::fill_holes(mesh_, options_.largest_hole);
+            detail::repair::fill_holes(mesh_, options_.largest_hole,
+                                       options_.max_loss >= 1.0 ? sheets_too::yes : sheets_too::no);
         did_.holes = filled.holes;
         did_.hole_edges = filled.edges;
         did_.filled = filled.faces;

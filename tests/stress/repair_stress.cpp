@@ -109,7 +109,7 @@ triangle corners(const tf::mesh& mesh, const tf::face& f) {
 /// From the lowest corner on.
 triangle turned_to_lowest(triangle t) {
     const auto key = [](const tf::point3& p) { return std::array{p.x, p.y, p.z}; };
-    std::ranges::rotate(t, std::ranges::min_element(t, {}, key));
+    std::rotate(t.begin(), std::ranges::min_element(t, {}, key), t.end());
     return t;
 }
 

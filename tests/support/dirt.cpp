@@ -321,7 +321,7 @@ void copy(soiler& s) {
     }
     for (const std::uint32_t f : s.some_faces(s.count(1, 50, 0))) {
         tf::face again = s.clean.faces[f];
-        std::ranges::rotate(again, again.begin() + static_cast<std::ptrdiff_t>(s.source.below(3)));
+        std::rotate(again.begin(), again.begin() + s.source.below(3), again.end());
         if (s.source.below(2) == 0) std::swap(again[0], again[1]);
         s.made.mesh.faces.push_back(again);
     }

@@ -120,8 +120,8 @@ struct repair_options {
     std::optional<double> gap{};
     /// Fill holes of at most this many edges.
     std::uint64_t largest_hole = std::numeric_limits<std::uint64_t>::max();
-    /// Loose open pieces below this share of the area are dropped, and so are single triangles below
-    /// 1 %. Where a larger component vanishes since it bounds nothing, the status is
+    /// Loose open pieces below this share of the area are dropped, and so are single triangles
+    /// below 1 %. Where a larger component vanishes since it bounds nothing, the status is
     /// `excessive_loss`, unless `max_loss` is 1.
     double strays = 0.001;
     repair_rule inside = repair_rule::automatic;
@@ -198,9 +198,10 @@ struct TREEFORM_API repair_result {
 /// Points with equal coordinates are one.
 ///
 /// Holes are filled by triangles between their vertices; large ones of smooth surfaces are filled
-/// by new points, so that the surface goes on as it does around them. A mesh is not filled, and said
-/// to be open, where at more than a tenth as many edges as it has faces more than two faces meet and
-/// disagree.
+/// by new points, so that the surface goes on as it does around them. Sheets are not filled, but
+/// said to be open, unless any loss is allowed: parts of less than 1 / 0.6 of the area that would
+/// close them. Nor is a mesh where at more than a tenth as many edges as it has faces more than
+/// two faces meet and disagree.
 ///
 /// \throws std::invalid_argument as `boolean`; for a gap or share that is negative or not finite
 /// \cost   O(V log V + F log F), as `resolve_self_intersections` where faces meet, and for a hole of
