@@ -431,29 +431,30 @@ TEST_CASE("repair: defects are found as they are") {
     CHECK(found.degenerate == 1);
     CHECK(found.nonmanifold_edges == 3);
     CHECK(tf::find_solid_defects(ball, [](double) { return false; }).cancelled);
+}
 
-    TEST_CASE("repair: a sheet is not filled, half of a ball is") {
-        tf::mesh part = test::ball(4, 1.0);
-        std::erase_if(part.faces, [&](const tf::face& f) {
-            return part.points[f[0]].z + part.points[f[1]].z + part.points[f[2]].z < 0.0;
-        });
-        const tf::repair_result half = tf::repair(part);
-        REQUIRE_MESSAGE(half.certificate, half.certificate.message());
-        CHECK(tf::signed_volume(half.mesh) == doctest::Approx(2.07).epsilon(0.01));
-        std::erase_if(part.faces, [&](const tf::face& f) { return part.points[f[0]].z < 0.7; });
-        const tf::repair_result sheet = tf::repair(part);
-        CHECK(sheet.certificate.status == tf::status::open_input);
-        CHECK(sheet.statistics.holes == 0);
-        CHECK(tf::repair(part, {.max_loss = 1.0}).certificate);  // a lens
-    }
+TEST_CASE("repair: a sheet is not filled, half of a ball is") {
+    tf::mesh part = test::ball(4, 1.0);
+    std::erase_if(part.faces, [&](const tf::face& f) {
+        return part.points[f[0]].z + part.points[f[1]].z + part.points[f[2]].z < 0.0;
+    });
+    const tf::repair_result half = tf::repair(part);
+    REQUIRE_MESSAGE(half.certificate, half.certificate.message());
+    CHECK(tf::signed_volume(half.mesh) == doctest::Approx(2.07).epsilon(0.01));
+    std::erase_if(part.faces, [&](const tf::face& f) { return part.points[f[0]].z < 0.7; });
+    const tf::repair_result sheet = tf::repair(part);
+    CHECK(sheet.certificate.status == tf::status::open_input);
+    CHECK(sheet.statistics.holes == 0);
+    CHECK(tf::repair(part, {.max_loss = 1.0}).certificate);  // a lens
+}
 
-    TEST_CASE("repair: bad arguments") {
-        const tf::mesh box = test::box(1, 1, 1);
-        CHECK_THROWS_AS((void)tf::repair(box, {.gap = -1.0}), std::invalid_argument);
-        CHECK_THROWS_AS((void)tf::repair(box, {.strays = std::numeric_limits<double>::infinity()}),
-                        std::invalid_argument);
-        tf::mesh broken = box;
-        broken.faces[3][1] = 8;
-        CHECK_THROWS_AS((void)tf::repair(broken), std::invalid_argument);
-        CHECK(tf::repair(tf::mesh{}).mesh == tf::mesh{});
-    }
+TEST_CASE("repair: bad arguments") {
+    const tf::mesh box = test::box(1, 1, 1);
+    CHECK_THROWS_AS((void)tf::repair(box, {.gap = -1.0}), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::repair(box, {.strays = std::numeric_limits<double>::infinity()}),
+                    std::invalid_argument);
+    tf::mesh broken = box;
+    broken.faces[3][1] = 8;
+    CHECK_THROWS_AS((void)tf::repair(broken), std::invalid_argument);
+    CHECK(tf::repair(tf::mesh{}).mesh == tf::mesh{});
+}
