@@ -139,10 +139,24 @@ void miss(soiler& s) {
     }
 }
 
-/// A disk of faces around one, with a rim of about so many edges.
+/// How many faces edges link to one, with it.
+std::size_t size_of_part(const std::vector<std::array<std::uint32_t, 3>>& beyond,
+                         std::uint32_t first) {
+    std::set<std::uint32_t> seen{first};
+    for (std::vector<std::uint32_t> open{first}; !open.empty();) {
+        const std::uint32_t f = open.back();
+        open.pop_back();
+        for (const std::uint32_t g : beyond[f])
+            if (seen.insert(g).second) open.push_back(g);
+    }
+    return seen.size();
+}
+
+/// A disk of faces around one, with a rim of about so many edges, and at most a sixth of its part.
 std::set<std::uint32_t> disk(soiler& s, std::size_t rim_wanted) {
     const auto beyond = neighbors_of(s.clean);
     const std::uint32_t first = s.any_face();
+    const std::size_t most = size_of_part(beyond, first) / 6;
     const point3 center = s.middle(first);
     std::set<std::uint32_t> faces{first}, tried{first};
     std::set<std::uint32_t> points(s.clean.faces[first].begin(), s.clean.faces[first].end());
@@ -153,7 +167,7 @@ std::set<std::uint32_t> disk(soiler& s, std::size_t rim_wanted) {
     };
     look_beyond(first);
     std::size_t rim = 3;
-    while (!next.empty() && rim < rim_wanted && 6 * faces.size() < s.clean.faces.size()) {
+    while (!next.empty() && rim < rim_wanted && faces.size() < most) {
         const std::uint32_t g = next.begin()->second;
         next.erase(next.begin());
         std::size_t known_edges = 0, known_points = 0;
