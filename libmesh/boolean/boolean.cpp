@@ -148,12 +148,14 @@ void finish(unmended_result& made, mesh_arrangement& cut, std::vector<face> exac
                                          .solid = solid,
                                          .steps = options.rounding_steps,
                                          .grid = options.grid,
+                                         .join_few = options.join_few,
                                          .progress = part_of(options.progress, 0.7, 1.0)});
     result.certificate = std::move(r.certificate);
     if (result.certificate.status == status::cancelled) return;
     result.mesh = std::move(r.surface);
     result.statistics.rounding_steps = r.steps;
     made.broken = std::move(r.broken);
+    made.on_grid = r.on_grid;
     result.vanished_components = r.vanished_components;
     result.vanished_at = std::move(r.vanished_at);
     detail::base::parallel_invoke([&] { result.face_source.resize(r.face_of.size()); },

@@ -100,6 +100,7 @@ rounding_try first_try(std::span<const mesh_view> operands, const boolean_option
     const bool to_float = options.precision == precision::float32;
     if (!to_float && !std::isfinite(options.max_displacement)) return how;
     const point3 largest = largest_point(operands);
+    how.join_few = true;
     if (to_float)
         put_on_grid(how, schedule.grid_of_surface({&largest, 1}, 0),
                     round::mending_schedule::most_rounds);
@@ -225,9 +226,8 @@ void take_surface(boolean_result& result, boolean_result&& mended) {
     result.vanished_at = std::move(mended.vanished_at);
 }
 
-/// Grids come last for float64, which so keeps what it has, and first where coordinates are coarse.
-std::vector<operand_try> tries_of(const round::mending_schedule& schedule) {
-    const bool grid_first = schedule.precision == precision::float32;
+/// Grids come first where so many faces met at first that they were mended on one.
+std::vector<operand_try> tries_of(const round::mending_schedule& schedule, bool grid_first) {
     std::vector<operand_try> tries;
     for (const bool grid : {grid_first, !grid_first})
         for (int step = 1; step <= schedule.operand_steps; ++step) tries.push_back({step, grid});
@@ -241,26 +241,26 @@ boolean_result with_mended_operands(
     function_ref<unmended_result(std::span<const mesh_view>, const rounding_try&)> ask) {
     const auto schedule =
         round::mending_schedule::of_operands(options.rounding_steps, options.precision);
-    auto [result, broken] = ask(operands, first_try(operands, options, schedule));
+    auto [result, broken, on_grid] = ask(operands, first_try(operands, options, schedule));
     const auto is_done = [&](const certificate& c) {
         return c.status != status::not_certified || !std::isfinite(c.max_displacement);
     };
     if (is_done(result.certificate) || schedule.operand_steps == 0) return std::move(result);
     mending again(operands, options, schedule, result.statistics);
-    bool grows = false, on_grid = options.precision == precision::float32;
-    for (const operand_try& next : tries_of(schedule)) {
+    bool grows = false;
+    for (const operand_try& next : tries_of(schedule, on_grid)) {
         if (next.grid != on_grid) grows = false;
         on_grid = next.grid;
         if (grows || again.reach(next.number) > options.max_displacement) continue;
         std::optional<unmended_result> tried = again.step(next, broken, ask);
         if (!tried) continue;
-        auto& [mended, broken_again] = *tried;
+        boolean_result& mended = tried->result;
         if (mended.certificate.status == status::cancelled) {
             result.certificate.status = status::cancelled;
             break;
         }
         ++result.statistics.rounding_steps;
-        broken.insert(broken.end(), broken_again.begin(), broken_again.end());
+        broken.insert(broken.end(), tried->broken.begin(), tried->broken.end());
         if (is_done(mended.certificate) && !mended.certificate) continue;
         const std::uint64_t before = result.certificate.meeting_count;
         const std::uint64_t after = mended.certificate.meeting_count;

@@ -14,7 +14,8 @@ namespace treeform::detail::boolean {
 
 /// What is asked of operands, and how the result is rounded: with `rounding_steps` steps.
 struct rounding_try : boolean_options {
-    double grid = 0.0;  ///< as in `round_options`
+    double grid = 0.0;      ///< as in `round_options`
+    bool join_few = false;  ///< as in `round_options`
 };
 
 /// The answer to the operands as they are.
@@ -22,6 +23,7 @@ struct unmended_result {
     boolean_result result;
     /// Boxes of all faces that met after a step of mending or before; of faces as rounded.
     std::vector<aabb<double, 3>> broken{};
+    bool on_grid = false;  ///< as in `rounded_surface`
 };
 
 /// What `ask` says of the operands; where that cannot be certified, of operands whose faces next to

@@ -57,12 +57,12 @@ double mending_schedule::grid_of_operands(points_view points, int step) const {
 }
 
 bool mending_schedule::are_few(const mending_state& state) {
-    return state.meeting < state.faces / 32;
+    return state.meeting < state.faces / 16;
 }
 
 bool mending_schedule::mends_on_grid(const mending_state& state) {
     const bool is_better = state.meeting < state.meeting_before;
-    return (state.steps == 0 || is_better || are_few(state)) &&
+    return (state.steps == 0 || is_better || 2 * state.meeting < state.faces / 16) &&
            state.faces <= 3 * state.faces_given + 1000;
 }
 

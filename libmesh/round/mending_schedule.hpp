@@ -29,8 +29,8 @@ struct mending_state {
 /// times in each of the operands.
 ///
 /// The numbers of one precision get denser toward the origin, so that rounding makes smaller and
-/// smaller features there, and joining them ends nowhere. So, for float32 from the start, and for
-/// float64 where the steps above have failed, mending is on uniform grids: what is next to broken
+/// smaller features there, and joining them ends nowhere. So, for float32 from the start unless few
+/// faces meet, and else where the steps above have failed, mending is on uniform grids: what is next to broken
 /// places is put on one, of operands and of the surface, and cut again, in rounds. The first grids
 /// are those of 2^-22 of the largest coordinate for operands, 2^-48 for float64, with one of 2^-17 or
 /// 2^-43 for their surface; the following ones are sixteen times as wide. Operands as they are have

@@ -101,8 +101,9 @@ class rounding {
     [[nodiscard]] bool goes_on() {
         const detail::round::mending_state now = state();
         if (now.steps == 0)
-            on_grid_ = options_.grid > 0.0 && !detail::round::mending_schedule::are_few(now);
-        if (!on_grid_) return schedule_.mends_surface(now);
+            result_.on_grid = options_.grid > 0.0 &&
+                              !(options_.join_few && detail::round::mending_schedule::are_few(now));
+        if (!result_.on_grid) return schedule_.mends_surface(now);
         return now.steps < options_.steps && detail::round::mending_schedule::mends_on_grid(now);
     }
 
@@ -302,9 +303,10 @@ class rounding {
     /// The rounded surface, with what is next to each other joined, and cut along itself, becomes
     /// the exact one; false when that fails.
     bool cut_again() {
-        const detail::round::joined_near near = on_grid_ ? join_on_grid() : join_what_is_near();
+        const detail::round::joined_near near =
+            result_.on_grid ? join_on_grid() : join_what_is_near();
         const mesh& now = near.surface;
-        if ((on_grid_ || to_float32()) && is_too_much(now)) return false;
+        if ((result_.on_grid || to_float32()) && is_too_much(now)) return false;
         arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
         if (arranged.cancelled) result_.certificate.status = status::cancelled;
         if (arranged.cancelled) return false;
@@ -405,7 +407,6 @@ class rounding {
     std::uint64_t last_meeting_count_ = 0;
     double moved_ = 0.0;     ///< how far, in the last rounding; infinite where points were joined
     bool vanished_ = false;  ///< some faces, so that points may be left that none has
-    bool on_grid_ = false;   ///< mending is
     bool only_cut_ = false;  ///< joining what is near has been seen to spread
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between

@@ -41,6 +41,7 @@ struct round_options {
     /// instead of joining what is near; in `steps` rounds at most, as long as each leaves fewer
     /// faces that meet, or few. A power of two, at least the precision's step at the largest coordinate.
     double grid = 0.0;
+    bool join_few = false;  ///< with a grid: where few faces meet at first, do without it
     progress_callback progress{};
 };
 
@@ -57,6 +58,7 @@ struct rounded_surface {
     /// often one way as the other and have its inside behind them.
     treeform::certificate certificate{};
     int steps = 0;                          ///< of mending that were taken
+    bool on_grid = false;                   ///< the steps were on `round_options::grid`
     std::vector<aabb<double, 3>> broken{};  ///< boxes of all faces that met in any step
     /// Components of the exact surface, by points, no face of which is left: all of each was within
     /// what the rounded coordinates tell apart.

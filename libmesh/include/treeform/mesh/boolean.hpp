@@ -92,8 +92,8 @@ struct boolean_options {
     /// How often to mend what rounding has broken, before it is reported. The first two steps, or
     /// more while they help, mend the surface. Further ones mend the operands next to such places:
     /// what is nearer than 2^-48, 2^-44, 2^-40 ... of the largest coordinate (2^-22, 2^-18, 2^-14
-    /// ... for float32) is joined, and everything is decided once more, exactly. For float32, and
-    /// for float64 where that did not do, corners there are put on a uniform grid as wide.
+    /// ... for float32) is joined, and everything is decided once more, exactly. Where that does not
+    /// do, and first for float32 where many faces meet, corners there go on a uniform grid as wide.
     int rounding_steps = 5;
     /// Mending tries no grid or distance wider than this, in the mesh's own length unit. Several
     /// steps may add up to more: see `certificate::max_displacement`. Not negative.
