@@ -170,6 +170,7 @@ tf::repaired_file mend(tools::job& work, const tools::dirty_mesh& input,
     tf::repair_options options = settings.steps;
     if (settings.gap) options.gap = settings.gap->used(input.diagonal);
     options.precision = precision;
+    options.max_displacement = settings.rails.max_move.used(input.diagonal);
     options.progress = work.progress("repair");
     tf::repaired_file made = tf::repair_file(input.source(), options);
     work.call_ended(made.certificate.status == tf::status::cancelled);

@@ -19,13 +19,14 @@ tf::resolve_result compute(job& work, const findings& result, const repair_setti
                            tf::precision precision) {
     check_arrangeable(work.name, result.part.mesh);
     const auto timing = work.time("repair");
-    tf::resolve_result repaired =
-        tf::resolve_self_intersections(result.part.mesh, settings.mode,
-                                       {.inside = settings.inside,
-                                        .precision = precision,
-                                        .touching = settings.touching,
-                                        .max_loss = settings.rails.loss(),
-                                        .progress = work.progress("repair")});
+    tf::resolve_result repaired = tf::resolve_self_intersections(
+        result.part.mesh, settings.mode,
+        {.inside = settings.inside,
+         .precision = precision,
+         .max_displacement = settings.rails.max_move.used(result.diagonal()),
+         .touching = settings.touching,
+         .max_loss = settings.rails.loss(),
+         .progress = work.progress("repair")});
     work.call_ended(repaired.certificate.status == tf::status::cancelled);
     return repaired;
 }
@@ -157,9 +158,9 @@ bool repair_and_write(job& work, tf::mesh_file& input, const findings& result,
     tf::resolve_result repaired =
         compute(work, result, settings, written_precision(work.options, form, {&inputs, 1}));
     enter_repair(work, result, settings, repaired);
-    const std::string too_far = move_objection(work.entry["repair"], settings.rails,
-                                               result.box ? tf::diagonal(*result.box) : 0.0,
-                                               repaired.certificate, repaired.mesh.points);
+    const std::string too_far =
+        move_objection(work.entry["repair"], settings.rails, result.diagonal(),
+                       repaired.certificate, repaired.mesh.points);
     if (const std::string why = objection(result, settings, repaired, too_far); !why.empty()) {
         work.out.result(work.name + ": not repaired, nothing written: " + why);
         return false;

@@ -61,7 +61,7 @@ findings search(job& work, tf::mesh_file& file, const search_settings& settings,
                       work.name + ": no triangles (" +
                           counted(file.mesh.points.size(), "point", "points") + ")");
     result.box = tf::bounding_box(file.mesh.points);
-    result.tolerance_used = settings.tolerance.used(result.box ? tf::diagonal(*result.box) : 0.0);
+    result.tolerance_used = settings.tolerance.used(result.diagonal());
     {
         const job::timer timing = work.time("prepare");
         result.part =
@@ -94,7 +94,7 @@ void hint_at_near_points(job& work, const findings& result) {
     if (!result.box || result.tolerance_used > 0.0 || mesh.points.size() > most) return;
     std::array<double, steps.size()> lengths{};
     for (std::size_t i = 0; i < steps.size(); ++i)
-        lengths[i] = parse_distance("-t", steps[i]).used(tf::diagonal(*result.box));
+        lengths[i] = parse_distance("-t", steps[i]).used(result.diagonal());
     const auto closing = tf::closing_tolerance(mesh, lengths);
     const std::size_t step = closing.value_or(0);
     if (const auto near = tf::count_nearly_equal(mesh.points, lengths[step]); near > 0)
