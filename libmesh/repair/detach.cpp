@@ -16,6 +16,9 @@
 namespace treeform::detail::repair {
 namespace {
 
+// Of float32, tried first: some programs make floats of doubles, and some join what is nearer than a
+// micrometer (OpenSCAD: 2^-20).
+constexpr double wide_steps = 32.0;
 constexpr int least_doublings = 6;    // 2, 4, 8 ... steps of the coordinates
 constexpr double farthest = 0x1p-23;  // of the diagonal, where that is more
 constexpr int likely_ways = 3;
@@ -43,6 +46,7 @@ class detacher {
         : solid_(solid),
           of_(of),
           step_(coordinate_step(solid.points, of)),
+          wide_(wide_steps * coordinate_step(solid.points, precision::float32)),
           stars_(solid.points.size(), solid.faces),
           groups_(groups_of_equal(solid.points)) {
         for (std::size_t g = 0; g < groups_.size(); ++g)
@@ -51,14 +55,16 @@ class detacher {
     }
 
     detached run() {
+        for (int way = 0; way < likely_ways && !vertices_left().empty(); ++way)
+            move(vertices_left(), way, wide_);
         const int most = most_doublings();
         for (int tried = 0; tried < most * likely_ways && !vertices_left().empty(); ++tried)
-            move(vertices_left(), tried % likely_ways, tried / likely_ways);
+            move(vertices_left(), tried % likely_ways, steps(tried / likely_ways));
         // Neighbors may be in each other's way: each alone, while they are few.
         if (const auto left = vertices_left(); left.size() <= most_alone)
             for (const std::uint32_t v : left)
                 for (int tried = 0; tried < least_doublings * all_ways && is_left(v); ++tried)
-                    move({v}, tried % all_ways, tried / all_ways);
+                    move({v}, tried % all_ways, steps(tried / all_ways));
         detached result;
         result.touching = vertices_left().size();
         for (const auto& [v, twin] : twins_) {
@@ -152,9 +158,10 @@ class detacher {
         return {octant & 1 ? 1.0 : -1.0, octant & 2 ? 1.0 : -1.0, octant & 4 ? 1.0 : -1.0};
     }
 
+    [[nodiscard]] double steps(int doublings) const { return step_ * std::ldexp(2.0, doublings); }
+
     /// Moves vertices; those that then meet something go back.
-    void move(const std::vector<std::uint32_t>& vertices, int way, int doublings) {
-        const double by = step_ * std::ldexp(2.0, doublings);
+    void move(const std::vector<std::uint32_t>& vertices, int way, double by) {
         std::vector<point3> places;
         for (const std::uint32_t v : vertices) {
             point3 place = base::plus(twins_.at(v).given, base::scaled(direction(v, way), by));
@@ -222,6 +229,7 @@ class detacher {
     mesh& solid_;
     precision of_;
     double step_;
+    double wide_;
     base::stars stars_;
     std::vector<std::vector<std::uint32_t>> groups_;
     std::map<std::uint32_t, twin_vertex> twins_{};  ///< those of groups

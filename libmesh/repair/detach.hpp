@@ -15,7 +15,8 @@ struct detached {
     double max_displacement = 0.0;  ///< of a coordinate
 };
 
-/// Moves vertices with equal coordinates apart, each towards the inside of the solid behind its
+/// Moves vertices with equal coordinates apart, by 32 steps of float32 or, where that breaks
+/// something, by some other number of steps, each towards the inside of the solid behind its
 /// faces, so that programs which join equal coordinates see a manifold. What is moved is checked
 /// exactly; what would break is left, and counted.
 ///
