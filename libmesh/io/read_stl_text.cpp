@@ -37,8 +37,10 @@ class stl_text_reader {
     /// a line of coordinates they may be digits that were lost, and are refused.
     [[nodiscard]] static bool separates(char c) { return is_space(c) || c == '\0'; }
     void skip_to_word() {
-        for (; text_.at < text_.end && separates(*text_.at); ++text_.at)
-            zero_bytes_ += *text_.at == '\0' ? 1U : 0U;
+        for (text_.skip_spaces(); !text_.done() && *text_.at == '\0'; text_.skip_spaces()) {
+            ++zero_bytes_;
+            ++text_.at;
+        }
     }
 
     [[nodiscard]] bool next_is_end() {
