@@ -27,6 +27,10 @@ SHEETS = ("open/mountain_51k.obj", "open/moebius.obj", "duplicates/degenerated.o
           "selfint/cloth_ball_92k.ply")
 # Panels of cars, which bound no solid as a whole.
 PANELS = ("nonmanifold/beetle_2k.obj", "nonmanifold/truck_5k.obj")
+# What should become a solid and does not yet. Whatever does has to go from here.
+NOT_YET = {("duplicates/cube_40k.obj", "ply"), ("duplicates/cube_40k.obj", "stl"),
+           ("selfint/ht90_actuator_4k.stl", "ply"), ("selfint/ht90_actuator_4k.stl", "stl"),
+           ("selfint/openscad_crash_1k.obj", "stl")}
 COLUMNS = ("file", "mode", "format", "status", "seconds", "faces", "volume", "bad_edges",
            "bad_vertices", "meeting", "said")
 JUDGED = ("faces", "volume", "area", "bad_edges", "bad_vertices", "meeting")
@@ -63,18 +67,28 @@ def broken_promises(rows):
     volumes = {row["file"]: row["volume"] for row in rows
                if (row["mode"], row["format"]) == ("tf-repair", "ply")}
     for row in rows:
-        name, label = row["file"], f"{row['file']} {row['mode']} {row['format']}"
-        bad = [row[column] for column in ("bad_edges", "bad_vertices", "meeting")]
         if row["mode"] != "tf-repair":
             continue
-        if row["status"] == "0" and bad != ["0", "0", "0"]:
-            yield f"{label}: called a solid, with {'/'.join(bad)} bad edges, vertices, pairs"
-        if name not in SHEETS + PANELS and row["status"] != "0":
-            yield f"{label}: no solid: {row['said']}"
-        if row["status"] == "0" and volumes.get(name):
-            expected = float(volumes[name])
-            if abs(float(row["volume"]) - expected) > 0.005 * abs(expected):
-                yield f"{label}: volume {row['volume']}, not {volumes[name]}"
+        wrong = what_is_wrong(row, volumes.get(row["file"]))
+        label = f"{row['file']} {row['mode']} {row['format']}"
+        if (row["file"], row["format"]) not in NOT_YET:
+            yield from (f"{label}: {what}" for what in wrong)
+        elif not wrong:
+            yield f"{label}: a solid now; NOT_YET lists it as none"
+
+
+def what_is_wrong(row, volume_of_ply):
+    wrong = []
+    bad = [row[column] for column in ("bad_edges", "bad_vertices", "meeting")]
+    if row["status"] == "0" and bad != ["0", "0", "0"]:
+        wrong.append(f"called a solid, with {'/'.join(bad)} bad edges, vertices, pairs")
+    if row["file"] not in SHEETS + PANELS and row["status"] != "0":
+        wrong.append(f"no solid: {row['said']}")
+    if row["status"] == "0" and volume_of_ply:
+        expected = float(volume_of_ply)
+        if abs(float(row["volume"]) - expected) > 0.005 * abs(expected):
+            wrong.append(f"volume {row['volume']}, not {volume_of_ply}")
+    return wrong
 
 
 def differences(old, new):
