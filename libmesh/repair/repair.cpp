@@ -278,15 +278,22 @@ class repairer {
 
     void keep_as_it_is() {
         is_kept_ = true;
-        std::vector<std::uint32_t> number(mesh_.points.size(), repair_result::none);
-        for (const std::uint32_t p : detail::base::used_points(mesh_.points.size(), mesh_.faces)) {
+        const std::vector<std::uint32_t> used =
+            detail::base::used_points(mesh_.points.size(), mesh_.faces);
+        result_.vertex_source.reserve(used.size());
+        for (const std::uint32_t p : used) result_.vertex_source.push_back(source_of_point(p));
+        result_.face_source = std::move(mesh_.source);
+        if (used.size() == mesh_.points.size()) {
+            result_.mesh = {mesh_.points, mesh_.faces};
+            return;
+        }
+        std::vector<std::uint32_t> number(mesh_.points.size());
+        for (const std::uint32_t p : used) {
             number[p] = static_cast<std::uint32_t>(result_.mesh.points.size());
             result_.mesh.points.push_back(mesh_.points[p]);
-            result_.vertex_source.push_back(source_of_point(p));
         }
         for (const face& f : mesh_.faces)
             result_.mesh.faces.push_back({number[f[0]], number[f[1]], number[f[2]]});
-        result_.face_source = std::move(mesh_.source);
     }
 
     void finish() {
@@ -301,7 +308,8 @@ class repairer {
     }
 
     void detach() {
-        if (!options_.detach || !options_.resolve) return;
+        // Of equal points, faces use one from the beginning: what was kept has no twins.
+        if (!options_.detach || !options_.resolve || is_kept_) return;
         const detail::repair::detached done =
             detail::repair::detach(result_.mesh, options_.precision);
         did_.detached = done.moved;

@@ -25,8 +25,9 @@ std::string move_objection(json& entry, const rails& limits, double diagonal,
                          {"largest", moved},
                          {"step", tf::coordinate_step(points, known.precision)}};
     if (moved <= allowed) return {};
-    return "a point would move by " + shortest(moved) + ", more than " + shortest(allowed) +
-           " (--max-move)";
+    // Six digits round by at most 5e-6 of the number: the limit that is shown is large enough.
+    return "a point would move by " + brief(moved * (1.0 + 5e-6)) + ", more than " +
+           brief(allowed) + " (--max-move)";
 }
 
 }  // namespace tools
