@@ -1,24 +1,184 @@
+#include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/carry/solid_parts.hpp>
 #include <treeform/mesh/carry.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace treeform {
+namespace {
 
-repaired_file repair_file(const carry_source& input, const repair_options& options) {
-    repair_result made = repair(input.file->mesh, options);
-    repaired_file result;
-    for (const std::uint32_t f : made.face_source)
-        result.face_source.push_back(f == repair_result::none ? f : input.stored_face(f));
-    for (open_edge& e : made.certificate.open)
-        if (e.face.index != repair_result::none) e.face.index = input.stored_face(e.face.index);
-    result.file.mesh = std::move(made.mesh);
-    result.file.stored_faces = result.file.mesh.faces.size();
-    result.file.stored_as = made.certificate.precision;
-    result.file.format = input.file->format;
-    carry(result.file, input, made.face_source, made.vertex_source);
-    result.certificate = std::move(made.certificate);
-    result.statistics = made.statistics;
-    return result;
+using detail::carry::solid_part;
+
+void add(repair_statistics& sum, const repair_statistics& part) {
+    sum.degenerate += part.degenerate;
+    sum.repeated += part.repeated;
+    sum.closed_edges += part.closed_edges;
+    sum.split_edges += part.split_edges;
+    sum.gap = std::max(sum.gap, part.gap);
+    sum.widest = std::max(sum.widest, part.widest);
+    sum.flipped += part.flipped;
+    sum.turned += part.turned;
+    sum.strays += part.strays;
+    sum.holes += part.holes;
+    sum.hole_edges += part.hole_edges;
+    sum.filled += part.filled;
+    sum.open_edges += part.open_edges;
+    sum.resolved = sum.resolved || part.resolved;
+    sum.pairs += part.pairs;
+    sum.removed += part.removed;
+    sum.split_vertices += part.split_vertices;
+    sum.detached += part.detached;
+    sum.touching += part.touching;
+    sum.vanished_components += part.vanished_components;
+    sum.volume_before += part.volume_before;
+    sum.volume_after += part.volume_after;
+    sum.area_before += part.area_before;
+    sum.area_after += part.area_after;
+    sum.area_lost += part.area_lost;
+}
+
+bool is_as_asked(const certificate& known) {
+    return known.status == status::ok || known.status == status::sheet;
+}
+
+/// A repair of parts, one after the other, as one of the whole.
+class repair_of_parts {
+  public:
+    explicit repair_of_parts(const carry_source& input) : input_(input) {}
+
+    void take(repair_result made, const solid_part& of) {
+        const auto first_face = static_cast<std::uint32_t>(done_.file.mesh.faces.size());
+        const auto faces = static_cast<std::uint32_t>(made.mesh.faces.size());
+        append(std::move(made.mesh));
+        for (const std::uint32_t f : made.face_source)
+            face_source_.push_back(in_whole(f, of.faces));
+        for (const std::uint32_t v : made.vertex_source)
+            vertex_source_.push_back(in_whole(v, of.points));
+        certificate& known = made.certificate;
+        for (auto& [f, g] : known.meeting) {
+            f += first_face;
+            g += first_face;
+        }
+        for (open_edge& e : known.open) e.face.index = stored(in_whole(e.face.index, of.faces));
+        add(done_.statistics, made.statistics);
+        join(known);
+        done_.parts.push_back({of.name, first_face, faces, std::move(known), made.statistics});
+    }
+
+    repaired_file finish() {
+        for (const std::uint32_t f : face_source_) done_.face_source.push_back(stored(f));
+        done_.file.stored_faces = done_.file.mesh.faces.size();
+        done_.file.stored_as = done_.certificate.precision;
+        done_.file.format = input_.file->format;
+        carry(done_.file, input_, face_source_, vertex_source_);
+        return std::move(done_);
+    }
+
+  private:
+    void append(mesh part) {
+        mesh& all = done_.file.mesh;
+        if (all.faces.empty()) {
+            all = std::move(part);
+            return;
+        }
+        const auto first_point = static_cast<std::uint32_t>(all.points.size());
+        all.points.insert(all.points.end(), part.points.begin(), part.points.end());
+        for (const auto& [a, b, c] : part.faces)
+            all.faces.push_back({first_point + a, first_point + b, first_point + c});
+    }
+
+    static std::uint32_t in_whole(std::uint32_t number, const std::vector<std::uint32_t>& whole) {
+        return number == repair_result::none || whole.empty() ? number : whole[number];
+    }
+
+    [[nodiscard]] std::uint32_t stored(std::uint32_t f) const {
+        return f == repair_result::none ? f : input_.stored_face(f);
+    }
+
+    void join(const certificate& part) {
+        certificate& all = done_.certificate;
+        const double farthest = std::max(all.max_displacement, part.max_displacement);
+        const bool is_first = done_.parts.empty();
+        if (is_first || (is_as_asked(all) && part.status != status::ok)) all = part;
+        all.max_displacement = farthest;
+    }
+
+    const carry_source& input_;
+    repaired_file done_{};
+    std::vector<std::uint32_t> face_source_{};
+    std::vector<std::uint32_t> vertex_source_{};
+};
+
+std::vector<solid_part> parts_of(const carry_source& input, repair_scope scope) {
+    return scope == repair_scope::each_part ? detail::carry::solid_parts(input)
+                                            : std::vector<solid_part>{};
+}
+
+/// Progress over parts, by their faces.
+class faces_done {
+  public:
+    faces_done(const progress_callback& callback, std::size_t all)
+        : callback_(callback), all_(static_cast<double>(all)) {}
+
+    [[nodiscard]] progress_callback next(std::size_t faces) {
+        const double begin = done_ / all_;
+        done_ += static_cast<double>(faces);
+        return detail::base::part_of(callback_, begin, done_ / all_);
+    }
+
+  private:
+    const progress_callback& callback_;
+    double all_;
+    double done_ = 0.0;
+};
+
+}  // namespace
+
+repaired_file repair_file(const carry_source& input, const repair_options& options,
+                          repair_scope scope) {
+    const std::vector<solid_part> parts = parts_of(input, scope);
+    repair_of_parts all(input);
+    if (parts.empty()) {
+        all.take(repair(input.file->mesh, options), {});
+        repaired_file done = all.finish();
+        done.parts.clear();
+        return done;
+    }
+    repair_options how = options;
+    faces_done progress(options.progress, input.file->mesh.faces.size());
+    for (const solid_part& part : parts) {
+        how.progress = progress.next(part.faces.size());
+        repair_result made = repair(part.mesh, how);
+        const bool is_cancelled = made.certificate.status == status::cancelled;
+        all.take(std::move(made), part);
+        if (is_cancelled) break;
+    }
+    return all.finish();
+}
+
+solid_defects find_solid_defects(const carry_source& input, repair_scope scope,
+                                 const progress_callback& progress) {
+    const std::vector<solid_part> parts = parts_of(input, scope);
+    if (parts.empty()) return find_solid_defects(input.file->mesh, progress);
+    faces_done part_of(progress, input.file->mesh.faces.size());
+    solid_defects all;
+    for (const solid_part& part : parts) {
+        const solid_defects found = find_solid_defects(part.mesh, part_of.next(part.faces.size()));
+        all.degenerate += found.degenerate;
+        all.repeated += found.repeated;
+        all.open_edges += found.open_edges;
+        all.nonmanifold_edges += found.nonmanifold_edges;
+        all.misoriented_edges += found.misoriented_edges;
+        all.nonmanifold_vertices += found.nonmanifold_vertices;
+        all.meeting_pairs += found.meeting_pairs;
+        all.inverted += found.inverted;
+        all.wrongly_nested = all.wrongly_nested || found.wrongly_nested;
+        all.cancelled = found.cancelled;
+        if (found.cancelled) break;
+    }
+    return all;
 }
 
 }  // namespace treeform

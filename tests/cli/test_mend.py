@@ -151,8 +151,7 @@ class Mend(ToolTest):
         self.run_tool("scene.obj", "-o", "out.obj", status=0)
         text = self.read("out.obj")
         self.assertEqual([l for l in text.splitlines() if l.split()[0] in ("o", "usemtl", "mtllib")],
-                         ["mtllib m.mtl", "o left", "usemtl left_m", "o right", "usemtl right_m",
-                          "o left", "usemtl left_m"])  # of what fills the hole
+                         ["mtllib m.mtl", "o left", "usemtl left_m", "o right", "usemtl right_m"])
         self.run_tool("scene.obj", "-o", "out.3mf", status=0)
         with zipfile.ZipFile(self.path("out.3mf")) as package:
             model = package.read("3D/3dmodel.model").decode()
@@ -160,6 +159,27 @@ class Mend(ToolTest):
                          ["left", "right"])
         entry = self.mended("out.3mf", "-o", "again.3mf")
         self.assertEqual(entry["repair"]["steps"]["fill"]["holes"], 0)
+
+    def test_overlapping_objects_stay_apart_where_the_output_has_objects(self):
+        lines, first = [], 1
+        for name, (points, faces) in (("a", cube()), ("b", cube((0.5, 0, 0)))):
+            lines += [f"o {name}", *(f"v {x} {y} {z}" for x, y, z in points),
+                      *("f " + " ".join(str(c + first) for c in face) for face in faces)]
+            first += len(points)
+        self.put("scene.obj", "\n".join([*lines, ""]))
+        run = self.run_tool("scene.obj", "-o", "out.3mf", status=0)
+        self.assertIn("2 parts, each a solid, 24 faces, volume 2 (was 2): nothing to mend", run.text)
+        entry = self.mended("scene.obj", "-o", "again.3mf")
+        self.assertEqual([(p["name"], p["faces"], p["solid"]) for p in entry["repair"]["parts"]],
+                         [("a", 12, True), ("b", 12, True)])
+        self.run_tool("out.3mf", "--check", status=0)
+        run = self.run_tool("scene.obj", "-o", "out.stl", status=0)
+        self.assertIn(": solid, ", run.text)
+        self.assertIn("volume 1.5 (was 2)", run.text)
+        self.put("scene.obj", "\n".join([*lines, "o c", "v 5 0 0", "v 6 0 0", "v 5 1 0",
+                                         "f 17 18 19", ""]))
+        run = self.run_tool("scene.obj", "-o", "no.3mf", status=1)
+        self.assertIn('not written: part "c": open at 3 edges', run.text)
 
     def test_many_files_at_once(self):
         write(self.path("in-a.obj"), CLEAN)

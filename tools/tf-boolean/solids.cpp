@@ -48,7 +48,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
 void mend(job& work, solid& s, json& about) {
     const std::string name = name_of(s);
     const tf::repair_options options{.progress = work.progress("repair")};
-    tf::repaired_file made = tf::repair_file(s.source(), options);
+    tf::repaired_file made = tf::repair_file(s.source(), options, tf::repair_scope::whole_file);
     work.call_ended(made.certificate.status == tf::status::cancelled);
     about["repair"] = steps_entry(made.statistics, options);
     if (!made.certificate) {

@@ -99,6 +99,10 @@ const char* const epilogue =
     "two faces meet. Loss is measured in volume; where there were holes, in area of\n"
     "which nothing is left, except for what is hidden in the solid.\n"
     "\n"
+    "Objects of a file are mended one by one where the output has objects, too (3MF,\n"
+    "GLB, OBJ): each is a solid of its own, and they may overlap. As STL, PLY or OFF\n"
+    "they become one solid. --check looks at each object.\n"
+    "\n"
     "auto is positive where every part is turned outward, and nonzero otherwise.\n"
     "\n"
     "Examples:\n"
@@ -158,21 +162,30 @@ tools::dirty_mesh read_mesh(tools::job& work) {
 
 exit_status check_only(tools::job& work, const tools::dirty_mesh& input) {
     const auto timing = work.time("check");
-    const tf::solid_defects found = tf::find_solid_defects(input.file.mesh, work.progress("check"));
+    const tf::solid_defects found =
+        tf::find_solid_defects(input.source(), tf::repair_scope::each_part, work.progress("check"));
     work.call_ended(found.cancelled);
     tools::say_defects(work, input, found);
     return found.any() || input.left_out > 0 ? tools::found : tools::done;
 }
 
+/// Where the output has no objects, overlapping ones become one solid.
+tf::repair_scope scope_for(const common_options& options, const std::filesystem::path& output) {
+    const std::string format = tools::mesh_format(options, output);
+    return format == "3mf" || format == "glb" || format == "obj" ? tf::repair_scope::each_part
+                                                                 : tf::repair_scope::whole_file;
+}
+
 tf::repaired_file mend(tools::job& work, const tools::dirty_mesh& input,
-                       const repair_settings& settings, tf::precision precision) {
+                       const repair_settings& settings, tf::precision precision,
+                       tf::repair_scope scope) {
     const auto timing = work.time("repair");
     tf::repair_options options = settings.steps;
     if (settings.gap) options.gap = settings.gap->used(input.diagonal);
     options.precision = precision;
     options.max_displacement = settings.rails.max_move.used(input.diagonal);
     options.progress = work.progress("repair");
-    tf::repaired_file made = tf::repair_file(input.source(), options);
+    tf::repaired_file made = tf::repair_file(input.source(), options, scope);
     work.call_ended(made.certificate.status == tf::status::cancelled);
     return made;
 }
@@ -188,7 +201,8 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
     std::optional<tools::written_form> form;
     if (output) form = tools::form_of(work, input.file, *output);
     const tf::mesh_file* const inputs = &input.file;
-    tf::repaired_file made = mend(work, input, s, tools::written_precision(o, form, {&inputs, 1}));
+    tf::repaired_file made = mend(work, input, s, tools::written_precision(o, form, {&inputs, 1}),
+                                  output ? scope_for(o, *output) : tf::repair_scope::each_part);
     tools::enter_repair(work, input, s, made);
     std::string why = tools::objection(s, made);
     const std::string too_far = tools::move_objection(work.entry["repair"], s.rails, input.diagonal,

@@ -21,6 +21,19 @@ void add_sources(tf::mesh_file& file, const std::string& name,
                    tf::make_column<std::int32_t>(name, sources));
 }
 
+json parts_entry(const tf::repaired_file& made) {
+    json list = json::array();
+    for (const tf::repaired_part& part : made.parts)
+        list.push_back({{"name", part.name},
+                        {"certified", static_cast<bool>(part.certificate) ||
+                                          part.certificate.status == tf::status::sheet},
+                        {"solid", static_cast<bool>(part.certificate)},
+                        {"first_face", part.first_face},
+                        {"faces", part.faces},
+                        {"volume", part.statistics.volume_after}});
+    return list;
+}
+
 }  // namespace
 
 void enter_blank_report(job& work, const dirty_mesh& input, const repair_settings& settings) {
@@ -44,6 +57,7 @@ void enter_repair(job& work, const dirty_mesh& input, const repair_settings& set
         {"certified", static_cast<bool>(known) || known.status == tf::status::sheet},
         {"solid", static_cast<bool>(known)},
         {"steps", steps_entry(did, settings.steps)},
+        {"parts", parts_entry(made)},
         {"open", open_entry(known, [](std::uint32_t f) { return f; })},
         {"meeting", meeting_entry(known)},
         {"volume", {{"before", input.volume}, {"after", or_null(is_made, did.volume_after)}}},

@@ -6,20 +6,17 @@
 #include <string>
 
 namespace tools {
+namespace {
 
-std::string verdict(const dirty_mesh& input, const tf::repaired_file& made) {
-    const tf::repair_statistics& did = made.statistics;
-    const bool is_sheet = made.certificate.status == tf::status::sheet;
-    std::string text = is_sheet ? "sheet, " : "solid, ";
-    text += counted(made.file.mesh.faces.size(), "face", "faces");
-    if (is_sheet)
-        text += ", area " + brief(did.area_after);
-    else
-        text += ", volume " + brief(did.volume_after) + " (was " + brief(input.volume) + ")";
-    return text + ": " + deeds(did);
+/// The name of the part that is not as asked for, where there are several.
+std::string faulty_part(const tf::repaired_file& made) {
+    for (const tf::repaired_part& part : made.parts)
+        if (part.certificate.status == made.certificate.status)
+            return "part \"" + part.name + "\": ";
+    return {};
 }
 
-std::string objection(const repair_settings& settings, const tf::repaired_file& made) {
+std::string reason(const repair_settings& settings, const tf::repaired_file& made) {
     const tf::certificate& known = made.certificate;
     const std::string text = known.message();
     switch (known.status) {
@@ -42,6 +39,26 @@ std::string objection(const repair_settings& settings, const tf::repaired_file& 
         default:
             return text;
     }
+}
+
+}  // namespace
+
+std::string verdict(const dirty_mesh& input, const tf::repaired_file& made) {
+    const tf::repair_statistics& did = made.statistics;
+    const bool is_sheet = made.certificate.status == tf::status::sheet;
+    std::string text = is_sheet ? "sheet, " : "solid, ";
+    if (made.parts.size() > 1) text = grouped(made.parts.size()) + " parts, each a " + text;
+    text += counted(made.file.mesh.faces.size(), "face", "faces");
+    if (is_sheet)
+        text += ", area " + brief(did.area_after);
+    else
+        text += ", volume " + brief(did.volume_after) + " (was " + brief(input.volume) + ")";
+    return text + ": " + deeds(did);
+}
+
+std::string objection(const repair_settings& settings, const tf::repaired_file& made) {
+    const std::string why = reason(settings, made);
+    return why.empty() ? why : faulty_part(made) + why;
 }
 
 void say_defects(job& work, const dirty_mesh& input, const tf::solid_defects& found) {

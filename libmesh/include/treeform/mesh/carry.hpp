@@ -88,22 +88,55 @@ struct file_part {
 /// \cost   O(V + F) for each part and column
 [[nodiscard]] TREEFORM_API std::vector<file_part> split_parts(const carry_source& whole);
 
+/// What of a file is mended at a time.
+enum class repair_scope : std::uint8_t {
+    /// Each part of a scene is a solid of its own. Parts may overlap before and after.
+    each_part,
+    whole_file  ///< overlapping parts become one solid
+};
+
+/// A part of a file, mended.
+struct repaired_part {
+    std::string name{};            ///< as `scene_part::name`
+    std::uint32_t first_face = 0;  ///< in the mended mesh; its faces follow one another
+    std::uint32_t faces = 0;
+    treeform::certificate certificate{};  ///< with numbers of the mended mesh and the input file
+    repair_statistics statistics{};
+};
+
 /// A file whose mesh was mended.
 struct repaired_file {
     mesh_file file{};  ///< in the format of the input, with its attributes (`carry`)
     /// [F'] the number in the input file of the face that each lies in, or `repair_result::none`.
     std::vector<std::uint32_t> face_source{};
-    treeform::certificate certificate{};  ///< with numbers of the input file in `open`
-    repair_statistics statistics{};
+    /// Of the first part that is not what was asked for; where all are, of all together.
+    /// Numbers in `open` are those of the input file.
+    treeform::certificate certificate{};
+    repair_statistics statistics{};      ///< of all parts
+    std::vector<repaired_part> parts{};  ///< empty where all was mended as one
 };
 
-/// `repair` of a file's mesh.
+/// `repair` of a file's mesh, or of each of its parts.
+///
+/// Parts are those of `scene_parts` with the vertices as the file numbers them; those whose open
+/// edges coincide are patches of one surface, and one part. What `repair_options` says of the mesh,
+/// such as `max_loss`, then holds of each part.
 ///
 /// \throws std::invalid_argument as `repair`
 /// \cost   as `repair` and `carry`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API repaired_file repair_file(const carry_source& input,
-                                                     const repair_options& options = {});
+                                                     const repair_options& options = {},
+                                                     repair_scope scope = repair_scope::each_part);
+
+/// What `repair_file` would have to mend, of all parts together. Nothing is changed.
+///
+/// \throws std::invalid_argument as `self_intersections`
+/// \cost   as `find_solid_defects` of a mesh
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API solid_defects
+find_solid_defects(const carry_source& input, repair_scope scope = repair_scope::each_part,
+                   const progress_callback& progress = {});
 
 /// [F of all inputs, in order] A group for each face, for `boolean_options::face_groups`. With
 /// `by_values`, a group has one material and equal values in all columns that are carried; a face
