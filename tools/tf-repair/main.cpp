@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 
 namespace {
 
@@ -225,7 +226,8 @@ int main(int argc, char** argv) {
     command_line line("tf-repair", "[OPTIONS] INPUT...",
                       "Make solids of dirty meshes: closed, oriented, manifold and free of\n"
                       "self-intersections in the file that is written, or say why not.");
-    request r;
+    const auto asked = std::make_unique<request>();  // on the stack, GCC 12 sees it uninitialized
+    request& r = *asked;
     common_options options;
     options.suffix = "-repaired";
     line.inputs(options.inputs, tools::mesh_inputs);
