@@ -284,6 +284,10 @@ class Reports(PlaceTest):
         self.mesh("bad.obj", together((points, faces[1:]), ([(3 + x, y, z) for x, y, z in grid(1)[0]],
                                                             grid(1)[1])))
         self.mesh("inverted.obj", (points, [(a, c, b) for a, b, c in faces]))
+        self.put("scene.obj", "".join(
+            [f"o {name}\n" + "".join(f"v {x + at} {y} {z}\n" for x, y, z in points) +
+             "".join(f"f {a + first} {b + first} {c + first}\n" for a, b, c in faces)
+             for name, at, first in (("left", 0, 1), ("right", 5, 1 + len(points)))]))
         for arguments, status in [
                 (["hole.obj", "-o", "filled.stl", "--precision", "float"], 0),
                 (["hole.obj", "--sheet", "-n", "--no-join", "--no-orient", "--no-resolve",
@@ -293,6 +297,7 @@ class Reports(PlaceTest):
                 (["two.obj", "--check"], 1),
                 (["inverted.obj", "nan.obj", "missing.obj", "-n"], 3),
                 (["large.obj", "-o", "large3.stl"], 1),
+                (["scene.obj", "-n"], 0),
                 (["huge.obj", "-n"], 0)]:
             yield arguments, status
 
