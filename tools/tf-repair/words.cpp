@@ -18,7 +18,7 @@ std::string faulty_part(const tf::repaired_file& made) {
 
 std::string reason(const repair_settings& settings, const tf::repaired_file& made) {
     const tf::certificate& known = made.certificate;
-    const std::string text = known.message();
+    std::string text = known.message();
     switch (known.status) {
         case tf::status::ok:
         case tf::status::sheet:
