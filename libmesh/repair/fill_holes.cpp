@@ -54,12 +54,13 @@ class part_areas {
 
 }  // namespace
 
-filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sheets) {
+filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sheets,
+                        rim_edges rims) {
     filled_holes done;
     const directed_edges edges(mesh.faces);
     std::optional<base::stars> stars;  // of the mesh before the first hole was filled
     const part_areas parts(mesh);
-    for (const open_rim& rim : open_rims(mesh)) {
+    for (const open_rim& rim : open_rims(mesh, rims)) {
         if (rim.points.size() > largest) continue;
         std::vector<face> faces = triangulate_rim(mesh, rim, edges);
         const bool is_cone = faces.empty();
@@ -71,6 +72,7 @@ filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sh
             faces = refined_patch(mesh, rim, faces, edges);
             make_fair(mesh, rim, faces, first, *stars);
         }
+        done.first_faces.push_back(static_cast<std::uint32_t>(mesh.faces.size()));
         for (const face& f : faces) mesh.append(f, repair_result::none);
         ++done.holes;
         done.edges += rim.points.size();
