@@ -23,20 +23,17 @@ struct labeled_cells {
 
 /// The labels with the least disagreement. None where `stop` says so.
 ///
-/// A cell has the winding number w of the given faces on its side of its largest faces, averaged by
-/// area, without its sign, and no more than 1. Disagreement is an area:
-/// - of a cell that is inside (1 - w) times the area around it, of one that is outside w times;
+/// Disagreement is an area:
+/// - of a cell that is inside (1 - w) times the area around it, of one that is outside w times, for
+///   its winding number w (`find_cell_windings`);
 /// - of an outer face, between the unbounded cell and another one, its own where that is outside:
 ///   then it is lost from sight;
 /// - of an inner face a quarter of its own where it has the same on both sides, all of it with the
-///   inside in front, none with the inside behind;
+///   inside in front, none with the inside behind; half of that where it is doubted;
 /// - of a filling, which is a guess and counts for no winding number, half of it where it separates.
 ///
-/// Outer faces are outward, however they were: what is behind them is meant to be inside, or they
-/// are in vain. Inner faces count for half where they are not balanced, so that walls between rooms
-/// say less than cavities. Faces with one cell on both sides count for nothing. The area around a
-/// cell and not its volume is its weight, since faces are weighed by area, too: so the unit of
-/// length is of no effect, and what is thin counts for as much as can be seen of it.
+/// The area around a cell and not its volume is its weight, since faces are weighed by area, too: so
+/// the unit of length is of no effect, and what is thin counts for as much as can be seen of it.
 ///
 /// This is a least cut of a network with a node for each cell. Capacities are whole numbers: areas
 /// in shares of 2^-40 of all area. Of several labelings with the least disagreement, it is that
@@ -44,7 +41,7 @@ struct labeled_cells {
 ///
 /// \param is_filling [F] of the input: 1 for fillings
 /// \pre    `cells` are those of `open_cells_of`
-/// \cost   O(F log^2 F), and that of `minimum_cut` for the cells and the faces between them
+/// \cost   that of `find_cell_windings`, and of `minimum_cut` for the cells and the faces between them
 /// \same   on any number of threads
 /// \source Jacobson, Kavan and Sorkine-Hornung, Robust Inside-Outside Segmentation using Generalized
 ///         Winding Numbers, SIGGRAPH 2013, section 4; Diazzi and Attene, Convex Polyhedral Meshing
