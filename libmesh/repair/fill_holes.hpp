@@ -10,11 +10,19 @@
 
 namespace treeform::detail::repair {
 
+struct filled_hole {
+    std::uint32_t first_face = 0;  ///< of what fills it, in the mesh
+    std::uint32_t edges = 0;       ///< around it
+};
+
 struct filled_holes {
     std::uint64_t holes = 0;
-    std::uint64_t edges = 0;                   ///< around them
-    std::uint64_t faces = 0;                   ///< that fill them
-    std::vector<std::uint32_t> first_faces{};  ///< [holes] of the filling of each, in the mesh
+    std::uint64_t edges = 0;  ///< around them
+    std::uint64_t faces = 0;  ///< that fill them
+    std::vector<filled_hole> all{};
+
+    /// Those of which some of the faces are used, and these faces.
+    [[nodiscard]] filled_holes used(std::vector<std::uint32_t> faces_of_mesh) const;
 };
 
 /// Whether to fill what then bounds little or nothing.

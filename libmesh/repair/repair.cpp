@@ -222,13 +222,16 @@ class repairer {
         if (tally_.unbalanced == 0 || is_hopeless_) return;
         const detail::repair::filled_holes filled =
             fill_rims(is_by_labels() ? rim_edges::free : rim_edges::open);
-        did_.holes = filled.holes;
-        did_.hole_edges = filled.edges;
-        did_.filled = filled.faces;
+        count(filled);
         did_.degenerate += detail::repair::drop_degenerate(mesh_);
         tally_ = detail::repair::tally_edges(mesh_);
-        if (way_ == inside_by::labels_and_guesses)
-            guesses_ = fill_rims(rim_edges::open).first_faces;
+        if (way_ == inside_by::labels_and_guesses) guesses_ = fill_rims(rim_edges::open);
+    }
+
+    void count(const detail::repair::filled_holes& filled) {
+        did_.holes += filled.holes;
+        did_.hole_edges += filled.edges;
+        did_.filled += filled.faces;
     }
 
     detail::repair::filled_holes fill_rims(rim_edges along) {
@@ -326,7 +329,8 @@ class repairer {
     void make_labeled_surface() {
         did_.resolved = true;
         std::vector<std::uint32_t> is_guess(mesh_.faces.size(), 0);
-        std::fill(is_guess.begin() + static_cast<std::ptrdiff_t>(first_guess()), is_guess.end(), 1);
+        for (std::size_t f = mesh_.faces.size() - guesses_.faces; f < is_guess.size(); ++f)
+            is_guess[f] = 1;
         boolean_options how = how_to_resolve();
         how.face_groups = is_guess;
         detail::boolean::labeled_result labeled =
@@ -334,26 +338,11 @@ class repairer {
         did_.labeled_cells = labeled.counts.cells;
         did_.dropped_area = labeled.counts.dropped_area;
         did_.turned_area = labeled.counts.turned_area;
-        count_guesses(labeled.made.face_source);
+        std::vector<std::uint32_t> left;
+        for (const operand_element& e : labeled.made.face_source)
+            if (e.index != operand_element::none) left.push_back(e.index);
+        count(guesses_.used(std::move(left)));
         take(std::move(labeled.made));
-    }
-
-    [[nodiscard]] std::size_t first_guess() const {
-        return guesses_.empty() ? mesh_.faces.size() : guesses_.front();
-    }
-
-    /// Of the holes that were filled on trial, those of which something is left.
-    void count_guesses(const std::vector<operand_element>& face_source) {
-        std::vector<std::uint32_t> used;
-        for (const operand_element& e : face_source)
-            if (e.index != operand_element::none && e.index >= first_guess())
-                used.push_back(e.index);
-        std::ranges::sort(used);
-        used.erase(std::unique(used.begin(), used.end()), used.end());
-        did_.filled += used.size();
-        for (std::uint32_t& f : used) f = *(std::ranges::upper_bound(guesses_, f) - 1);
-        did_.holes +=
-            static_cast<std::uint64_t>(std::unique(used.begin(), used.end()) - used.begin());
     }
 
     void take(boolean_result&& made) {
@@ -464,7 +453,7 @@ class repairer {
     bool is_kept_ = false;                        ///< nothing had to be cut
     std::uint64_t inner_faces_ = 0;               ///< of tetrahedra
     std::vector<std::uint32_t> dropped_walls_{};  ///< input faces
-    std::vector<std::uint32_t> guesses_{};        ///< first faces of what fills holes on trial
+    detail::repair::filled_holes guesses_{};      ///< holes filled on trial: the last faces
     std::optional<detail::repair::closed_components> closed_{};
     detail::repair::turned_as_one turned_as_one_ = detail::repair::turned_as_one::component;
     repair_statistics did_{};
