@@ -13,6 +13,7 @@
 #include <libmesh/repair/fill_holes.hpp>
 #include <libmesh/repair/loss.hpp>
 #include <libmesh/repair/orient_faces.hpp>
+#include <libmesh/repair/tangle.hpp>
 #include <libmesh/repair/tetrahedra.hpp>
 #include <libmesh/repair/working_mesh.hpp>
 #include <libmesh/topology/area.hpp>
@@ -75,7 +76,8 @@ class repairer {
         orient();
         if (options_.fill && !options_.sheet) fill();
         closed_.emplace(mesh_, turned_as_one_, known_edges());
-        if (options_.orient) did_.turned = closed_->turn_outward();
+        // What is outer is outward by its label, and a cavity of what is open looks like no cavity.
+        if (options_.orient && !is_by_labels()) did_.turned = closed_->turn_outward();
         measure();
         if (is_by_labels())
             make_labeled_surface();
@@ -93,6 +95,9 @@ class repairer {
         const bool is_complete = options_.join && options_.orient && options_.fill &&
                                  options_.resolve && !options_.sheet;
         if (!is_complete || options_.inside != repair_rule::automatic) return false;
+        progress_callback progress;
+        if (options_.progress) progress = [this](double) { return options_.progress(1.0); };
+        if (is_hopeless_ && detail::repair::is_tangle(mesh_.view(), progress)) return false;
         if (!made.certificate) {
             const status known = made.certificate.status;
             return (known == status::open_input || known == status::excessive_loss ||
@@ -189,16 +194,6 @@ class repairer {
         tally_ = detail::repair::tally_edges(mesh_);
     }
 
-    /// Whether faces disagree at so many edges of more than two that what they bound is anybody's
-    /// guess: half of the faces of tetrahedra, say.
-    [[nodiscard]] bool is_hopeless() const {
-        constexpr std::uint64_t most = 10;  // faces for each such edge
-        const std::uint64_t simple =
-            std::min(tally_.unbalanced, tally_.border + tally_.disagreeing);
-        return most * (tally_.unbalanced - simple) > mesh_.faces.size() &&
-               mesh_.faces.size() > 1000;
-    }
-
     void orient() {
         if (!options_.orient) return;
         if (tally_.disagreeing > 0 || tally_.crowded > 0)
@@ -211,7 +206,7 @@ class repairer {
         }
         if (did_.strays > 0) did_.flipped += detail::repair::make_faces_agree(mesh_);
         if (did_.flipped + did_.strays > 0) tally_ = detail::repair::tally_edges(mesh_);
-        is_hopeless_ = is_hopeless();
+        is_hopeless_ = detail::repair::is_hopeless(tally_, mesh_.faces.size());
         if (tally_.crowded == 0 || tally_.unbalanced == 0 || is_hopeless_) return;
         did_.flipped += detail::repair::balance_patches(mesh_);
         if (did_.flipped > 0) turned_as_one_ = detail::repair::turned_as_one::shell;
