@@ -12,7 +12,7 @@
 namespace treeform::detail::boolean {
 namespace {
 
-constexpr std::size_t faces_asked = 32;  // of a cell
+constexpr std::size_t faces_asked = 8;  // of a cell
 constexpr double share_doubted = 0.5;
 constexpr double full_angle = 12.566370614359172;
 
@@ -78,10 +78,16 @@ std::optional<cell_windings> find_cell_windings(const cell_faces& known,
     const asker ask(known, faces, sum);
     const std::size_t count = known.begin.size() - 1;
     cell_windings found{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
-    for_chunks(count, 1, [&](std::size_t c, std::size_t, std::size_t) {
-        for (const std::uint32_t f : known.of_cell(c)) found.area[c] += known.all[f].area;
-        if (c > 0) found.winding[c] = ask.winding_of(static_cast<std::uint32_t>(c));
-    });
+    constexpr std::size_t cells_between_questions = 4096;
+    for (std::size_t first = 0; first < count; first += cells_between_questions) {
+        const std::size_t some = std::min(count - first, cells_between_questions);
+        for_chunks(some, 1, [&](std::size_t i, std::size_t, std::size_t) {
+            const std::size_t c = first + i;
+            for (const std::uint32_t f : known.of_cell(c)) found.area[c] += known.all[f].area;
+            if (c > 0) found.winding[c] = ask.winding_of(static_cast<std::uint32_t>(c));
+        });
+        if (stop()) return std::nullopt;
+    }
     return found;
 }
 

@@ -18,7 +18,7 @@ struct cell_windings {
 };
 
 /// The generalized winding number of each cell, without its sign, and no more than 1: on its side of
-/// the middles of its 32 largest faces, averaged by their areas. Of closed faces it is the winding
+/// the middles of its 8 largest faces, averaged by their areas. Of closed faces it is the winding
 /// number. None where `stop` says so.
 ///
 /// Faces that are doubted count for half, and only for the cells that they bound. They end
@@ -26,7 +26,7 @@ struct cell_windings {
 /// twenty floors would have a winding number of about ten more or less.
 ///
 /// \param faces of the arrangement
-/// \cost  O(F log^2 F), and 32 solid angles for each side of a doubted face
+/// \cost  O(F log^2 F), and 8 solid angles for each side of a doubted face
 /// \same  on any number of threads
 /// \source Jacobson, Kavan and Sorkine-Hornung, Robust Inside-Outside Segmentation using Generalized
 ///         Winding Numbers, SIGGRAPH 2013

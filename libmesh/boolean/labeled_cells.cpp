@@ -37,7 +37,7 @@ class disagreement {
 
   private:
     [[nodiscard]] std::int64_t whole(double area) const {
-        return static_cast<std::int64_t>(area * scale_ + 0.5);
+        return static_cast<std::int64_t>(area * scale_);
     }
 
     void add(const cell_face& f) {

@@ -14,8 +14,8 @@ using base::minus;
 using base::plus;
 using base::scaled;
 
-constexpr std::size_t faces_in_leaf = 8;
-constexpr double far = 3.0;  // radii from which on a dipole will do
+constexpr std::size_t faces_in_leaf = 4;
+constexpr double far = 2.0;  // radii from which on a dipole will do
 constexpr double full_angle = 12.566370614359172;
 
 double length(const point3& v) { return std::sqrt(base::dot(v, v)); }

@@ -1,6 +1,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/solid_angle.hpp>
 
+#include <array>
 #include <cmath>
 
 namespace treeform::detail::geometry {
@@ -17,11 +18,13 @@ constexpr double eighth_of_turn = 0.7853981633974483;
 /// less than ten units in the last place.
 double angle_with_tangent(double t) {
     constexpr double tangent_of_half = 0.41421356237309503;
+    constexpr std::array shares{1.0 / 23, 1.0 / 21, 1.0 / 19, 1.0 / 17, 1.0 / 15, 1.0 / 13,
+                                1.0 / 11, 1.0 / 9,  1.0 / 7,  1.0 / 5,  1.0 / 3,  1.0};
     const bool is_steep = t > tangent_of_half;
     const double u = is_steep ? (t - 1.0) / (t + 1.0) : t;
     const double v = u * u;
     double sum = 0.0;
-    for (int n = 23; n >= 1; n -= 2) sum = 1.0 / n - v * sum;
+    for (const double share : shares) sum = share - v * sum;
     return (is_steep ? eighth_of_turn : 0.0) + u * sum;
 }
 

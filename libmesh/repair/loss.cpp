@@ -52,7 +52,7 @@ loss find_loss(mesh_view given, std::span<const std::uint8_t> is_left, mesh_view
     if (is_huge) return {};
     const repair_result meant = treeform::repair(
         given, {.fill = false, .detach = false, .max_loss = 1.0, .progress = progress});
-    if (meant.certificate)
+    if (meant.certificate && meant.statistics.tetrahedra == 0)
         return {meant.statistics.volume_after, std::abs(signed_volume(made)), true};
     const double before = area_of_distinct(given);
     const double fall = std::min(before - topology::area(made), lost_area(given, is_left, made));

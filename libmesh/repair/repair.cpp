@@ -307,7 +307,8 @@ class repairer {
             return;
         }
         did_.resolved = !clean;
-        const boolean_options how = how_to_resolve();
+        boolean_options how = how_to_resolve();
+        how.progress = part_of(options_.progress, 0.4, 0.95);
         take(options_.sheet ? detail::boolean::resolve_by_split(mesh_.view(), how)
                             : detail::boolean::resolve_by_union(mesh_.view(), how));
     }
@@ -316,8 +317,7 @@ class repairer {
         return {.inside = rule(),
                 .precision = options_.precision,
                 .rounding_steps = options_.rounding_steps,
-                .max_displacement = options_.max_displacement,
-                .progress = part_of(options_.progress, 0.4, 0.95)};
+                .max_displacement = options_.max_displacement};
     }
 
     /// What fills holes along edges of several faces is there for the labels to use or not.
@@ -327,6 +327,7 @@ class repairer {
         for (std::size_t f = mesh_.faces.size() - guesses_.faces; f < is_guess.size(); ++f)
             is_guess[f] = 1;
         boolean_options how = how_to_resolve();
+        how.progress = part_of(options_.progress, 0.4, 0.95);
         how.face_groups = is_guess;
         detail::boolean::labeled_result labeled =
             detail::boolean::resolve_by_labels(mesh_.view(), how);
@@ -471,8 +472,11 @@ repair_result repair(mesh_view mesh, const repair_options& options) {
     for (const inside_by way : {inside_by::labels, inside_by::labels_and_guesses}) {
         repair_result made = repairer(mesh, again, way).run();
         if (made.certificate.status == status::cancelled) return made;
-        const bool is_better = !best.certificate || made.statistics.area_lost <
-                                                        best.statistics.area_lost - noise_of(best);
+        // A guess has to be a manifold also for programs that join equal coordinates.
+        const bool is_better =
+            made.statistics.touching <= best.statistics.touching &&
+            (!best.certificate ||
+             made.statistics.area_lost < best.statistics.area_lost - noise_of(best));
         if (made.certificate && is_better) best = std::move(made);
         if (best.certificate && best.statistics.area_lost <= noise_of(best)) break;
     }
