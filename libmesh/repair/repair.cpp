@@ -97,7 +97,10 @@ class repairer {
         if (!is_complete || options_.inside != repair_rule::automatic) return false;
         progress_callback progress;
         if (options_.progress) progress = [this](double) { return options_.progress(1.0); };
-        if (is_hopeless_ && detail::repair::is_tangle(mesh_.view(), progress)) return false;
+        const double most = is_hopeless_ ? 0.1 : 2.0;  // pairs of each face
+        if (made.certificate.status == status::open_input &&
+            detail::repair::is_tangle(mesh_.view(), most, progress))
+            return false;
         if (!made.certificate) {
             const status known = made.certificate.status;
             return (known == status::open_input || known == status::excessive_loss ||

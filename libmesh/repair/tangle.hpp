@@ -14,10 +14,10 @@ namespace treeform::detail::repair {
 /// half of the faces of tetrahedra, say.
 [[nodiscard]] bool is_hopeless(const edge_tally& tally, std::size_t face_count);
 
-/// Whether so many faces meet that they cut space into splinters. False where `progress` asks to
-/// stop.
+/// Whether more than `most` pairs of faces meet for each face, so that they cut space into splinters.
+/// False where `progress` asks to stop.
 ///
 /// \cost one `self_intersections`
-[[nodiscard]] bool is_tangle(mesh_view mesh, const progress_callback& progress);
+[[nodiscard]] bool is_tangle(mesh_view mesh, double most, const progress_callback& progress);
 
 }  // namespace treeform::detail::repair
