@@ -228,6 +228,32 @@ class winding_flood {
     std::vector<std::uint32_t> patches_at_;  ///< cell by cell
 };
 
+/// What looks into one region is one cell; `joined` is known to so far.
+numbered_sets number_cells(mesh_view mesh, const mesh_arrangement& cut,
+                           const surface_patches& patches, regions& joined) {
+    join_about_edges(mesh, cut, patches, joined);
+    for (const auto& [outer, beyond] :
+         detail::arrange::place_parts(mesh, cut, patches, find_parts(patches)))
+        if (beyond)
+            joined.join(outer, *beyond);
+        else
+            joined.join_infinity(outer);
+    return joined.number();
+}
+
+std::vector<std::array<std::uint32_t, 2>> cells_beside_faces(const mesh_arrangement& cut,
+                                                             const surface_patches& patches,
+                                                             const numbered_sets& cells) {
+    std::vector<std::array<std::uint32_t, 2>> cell_of_side(cut.faces.size());
+    for_chunks(cut.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const std::size_t p = patches.patch[f];
+            cell_of_side[f] = {cells[2 * p + 1], cells[2 * p + 2]};
+        }
+    });
+    return cell_of_side;
+}
+
 }  // namespace
 
 arrangement_cells find_cells(mesh_view mesh, const mesh_arrangement& cut,
@@ -253,23 +279,20 @@ arrangement_cells detail::arrange::cells_of(mesh_view mesh, const mesh_arrangeme
     for (std::uint32_t p = 0; p < patches.count(); ++p)
         if (const std::uint32_t f = patches.first_face(p); labels.cancel(f))
             joined.join(detail::arrange::front_of(f), detail::arrange::behind(f));
-    join_about_edges(mesh, cut, patches, joined);
-    for (const auto& [outer, beyond] :
-         detail::arrange::place_parts(mesh, cut, patches, find_parts(patches)))
-        if (beyond)
-            joined.join(outer, *beyond);
-        else
-            joined.join_infinity(outer);
-
-    const numbered_sets cells = joined.number();
+    const numbered_sets cells = number_cells(mesh, cut, patches, joined);
     result.winding = winding_flood(patches, cells, labels, operand_count).run();
-    result.cell_of_side.resize(cut.faces.size());
-    for_chunks(cut.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t f = begin; f < end; ++f) {
-            const std::size_t p = patches.patch[f];
-            result.cell_of_side[f] = {cells[2 * p + 1], cells[2 * p + 2]};
-        }
-    });
+    result.cell_of_side = cells_beside_faces(cut, patches, cells);
+    return result;
+}
+
+detail::arrange::open_cells detail::arrange::open_cells_of(mesh_view mesh,
+                                                           const mesh_arrangement& cut) {
+    const std::vector<std::uint32_t> one_operand(mesh.faces.size(), 0);
+    const surface_patches patches = find_patches(cut, one_operand);
+    regions joined(patches);
+    const numbered_sets cells = number_cells(mesh, cut, patches, joined);
+    open_cells result{cells.count(), {}};
+    result.cells.cell_of_side = cells_beside_faces(cut, patches, cells);
     return result;
 }
 

@@ -7,11 +7,13 @@
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/boolean/inside_of_cells.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
+#include <libmesh/boolean/labeled_cells.hpp>
 #include <libmesh/boolean/mended_operands.hpp>
 #include <libmesh/boolean/merged_faces.hpp>
 #include <libmesh/boolean/open_input_edges.hpp>
 #include <libmesh/boolean/operand_tree.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
+#include <libmesh/boolean/sheet_faces.hpp>
 #include <libmesh/boolean/sound_operand.hpp>
 #include <libmesh/boolean/sound_pair.hpp>
 #include <libmesh/boolean/split_nonmanifold.hpp>
@@ -37,6 +39,7 @@ namespace {
 
 using detail::base::part_of;
 using detail::boolean::joined_operands;
+using detail::boolean::label_counts;
 using detail::boolean::rounding_try;
 using detail::boolean::unmended_result;
 
@@ -193,65 +196,6 @@ std::uint64_t count_covered(const arrange_faces_result& arranged, std::size_t fa
     return static_cast<std::uint64_t>(std::count(is_lowest.begin(), is_lowest.end(), 0));
 }
 
-/// [F'] 0 for faces of `cut` that are not of the sheet, 1 for those oriented as the lowest of its
-/// faces there, 2 for those oriented the other way.
-std::vector<std::uint8_t> sheet_faces(const mesh_arrangement& cut,
-                                      const std::vector<std::uint32_t>& operand_of_face,
-                                      std::uint32_t sheet) {
-    std::vector<std::uint8_t> way(cut.faces.size(), 0);
-    for (std::size_t f = 0; f < way.size(); ++f)
-        for (const auto& [face, opposite] : cut.covers_of(f))
-            if (operand_of_face[face] == sheet) {
-                way[f] = opposite ? 2 : 1;
-                break;
-            }
-    return way;
-}
-
-/// Faces of the sheet become covers both ways: then it is closed and bounds nothing, and cells are
-/// those of the others.
-void cover_from_both_sides(mesh_arrangement& cut, const std::vector<std::uint32_t>& operand_of_face,
-                           std::uint32_t sheet) {
-    std::vector<covering_face> covers;
-    covers.reserve(2 * cut.covers.size());
-    for (std::size_t f = 0; f < cut.faces.size(); ++f) {
-        const auto before = cut.covers_of(f);
-        cut.cover_begin[f] = covers.size();
-        for (const covering_face& cover : before) {
-            covers.push_back(cover);
-            if (operand_of_face[cover.face] == sheet)
-                covers.push_back({cover.face, !cover.opposite});
-        }
-    }
-    cut.cover_begin.back() = covers.size();
-    cut.covers = std::move(covers);
-}
-
-/// The faces that the expression keeps, now first covered by the sheet. A piece is in a solid when
-/// one of its sides is.
-detail::round::solid_faces kept_of_sheet(mesh_arrangement& cut, const arrangement_cells& cells,
-                                         const std::vector<std::uint32_t>& operand_of_face,
-                                         const std::vector<std::uint8_t>& way, std::uint32_t sheet,
-                                         const boolean_expression& expression, fill_rule rule) {
-    detail::round::solid_faces kept;
-    const auto in = std::make_unique<bool[]>(cells.operands);
-    for (std::size_t f = 0; f < way.size(); ++f) {
-        if (way[f] == 0) continue;
-        const auto [front, behind] = cells.cell_of_side[f];
-        for (std::size_t k = 0; k < cells.operands; ++k)
-            in[k] = k == sheet || detail::boolean::is_inside(rule, cells.winding_of(front)[k]) ||
-                    detail::boolean::is_inside(rule, cells.winding_of(behind)[k]);
-        if (!expression({in.get(), cells.operands})) continue;
-        auto first = cut.covers.begin() + static_cast<std::ptrdiff_t>(cut.cover_begin[f]);
-        for (auto at = first; operand_of_face[first->face] != sheet; ++at)
-            if (operand_of_face[at->face] == sheet) std::iter_swap(first, at);
-        const auto [a, b, c] = cut.faces[f];
-        kept.faces.push_back(way[f] == 1 ? face{a, b, c} : face{a, c, b});
-        kept.face_of.push_back(static_cast<std::uint32_t>(f));
-    }
-    return kept;
-}
-
 unmended_result boolean_of(std::span<const mesh_view> operands,
                            const boolean_expression& expression, const rounding_try& options,
                            bool sound) {
@@ -282,6 +226,27 @@ unmended_result boolean_of(std::span<const mesh_view> operands,
     return made;
 }
 
+/// `counts` are of the operand as given, not of what it is mended to.
+unmended_result labeled_of(mesh_view mesh, const rounding_try& options,
+                           std::optional<label_counts>& counts) {
+    auto [joined, arranged] = arrange_operands({&mesh, 1}, part_of(options.progress, 0.0, 0.5));
+    unmended_result made{with_counts(arranged), {}};
+    if (arranged.cancelled) return made;
+    const auto [count, cells] =
+        detail::arrange::open_cells_of(input_of(arranged.cut, joined), arranged.cut);
+    const auto labels =
+        detail::boolean::label_cells(arranged.cut, cells, count, options.face_groups,
+                                     [&] { return options.progress && !options.progress(0.6); });
+    if (!labels) return made;
+    made.result.statistics.cells = count;
+    if (!counts) counts = {count - 1, labels->dropped_area, labels->turned_area};
+    detail::round::solid_faces chosen =
+        detail::round::faces_around(arranged.cut, cells, labels->inside);
+    finish(made, arranged.cut, std::move(chosen.faces), std::move(chosen.face_of), joined, true,
+           options);
+    return made;
+}
+
 unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
                         const boolean_expression& expression, const rounding_try& options) {
     check_expression("clip", operands, expression);
@@ -295,8 +260,8 @@ unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet
     if (arranged.cancelled) return made;
     mesh_arrangement& cut = arranged.cut;
     const std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
-    const std::vector<std::uint8_t> way = sheet_faces(cut, operand_of_face, sheet);
-    cover_from_both_sides(cut, operand_of_face, sheet);
+    const std::vector<std::uint8_t> way = detail::boolean::sheet_faces(cut, operand_of_face, sheet);
+    detail::boolean::cover_from_both_sides(cut, operand_of_face, sheet);
     const arrangement_cells cells =
         detail::arrange::cells_of(input_of(cut, joined), cut, operand_of_face, operands.size());
     if (!cells.open.empty()) {
@@ -304,8 +269,8 @@ unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet
         return made;
     }
     result.statistics.cells = cells.winding.size() / operands.size();
-    detail::round::solid_faces chosen =
-        kept_of_sheet(cut, cells, operand_of_face, way, sheet, expression, options.inside);
+    detail::round::solid_faces chosen = detail::boolean::kept_of_sheet(
+        cut, cells, operand_of_face, way, sheet, expression, options.inside);
     finish(made, cut, std::move(chosen.faces), std::move(chosen.face_of), joined, false, options);
     return made;
 }
@@ -456,6 +421,17 @@ boolean_result detail::boolean::resolve_by_union(mesh_view mesh, const boolean_o
                     [](auto given, const auto& how) {
                         return boolean_of(given, boolean_expression::union_of(1), how, false);
                     });
+}
+
+detail::boolean::labeled_result detail::boolean::resolve_by_labels(mesh_view mesh,
+                                                                   const boolean_options& options) {
+    std::optional<label_counts> counts;
+    labeled_result result;
+    result.made = evaluate(
+        "resolve_self_intersections", std::span(&mesh, 1), options, true,
+        [&](auto given, const auto& how) { return labeled_of(given.front(), how, counts); });
+    if (counts) result.counts = *counts;
+    return result;
 }
 
 const mesh& boolean_result::value() const& {

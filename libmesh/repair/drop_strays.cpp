@@ -113,7 +113,8 @@ bool is_single(const patch& part, const patch_map& map) {
            part.area < share_of_single * map.area;
 }
 
-bool is_stray(const patch& part, const patch_map& map, double share, bool is_sheet) {
+bool is_stray(const patch& part, const patch_map& map, double share, bool is_sheet, walls inner) {
+    if (inner == walls::stay && !part.crowded.empty()) return false;
     if (part.free_length == 0.0) return is_surplus(part, map.count);
     if (is_sheet) return false;
     const bool is_flat = part.rim_length * part.rim_length > flat * part.area;
@@ -125,7 +126,7 @@ bool is_stray(const patch& part, const patch_map& map, double share, bool is_she
 
 }  // namespace
 
-std::uint64_t drop_strays(working_mesh& mesh, double share, bool is_sheet) {
+dropped_strays drop_strays(working_mesh& mesh, double share, bool is_sheet, walls inner) {
     patch_map map = find_patches(mesh);
     double singles = 0.0;
     for (const patch& part : map.patches) singles += is_single(part, map) ? part.area : 0.0;
@@ -135,12 +136,18 @@ std::uint64_t drop_strays(working_mesh& mesh, double share, bool is_sheet) {
     std::ranges::stable_sort(order, {}, [&](std::uint32_t p) { return map.patches[p].area; });
     std::vector<std::uint8_t> dropped(map.patches.size(), 0);
     for (const std::uint32_t p : order) {
-        if (!is_stray(map.patches[p], map, share, is_sheet)) continue;
+        if (!is_stray(map.patches[p], map, share, is_sheet, inner)) continue;
         dropped[p] = 1;
         for (const std::uint32_t edge : map.patches[p].crowded) --map.count[edge];
     }
-    std::vector<std::uint32_t>& patch_of = map.patch_of;
-    return mesh.drop([&](std::uint32_t f) { return dropped[patch_of[f]] != 0; });
+    dropped_strays done;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+        const std::uint32_t p = map.patch_of[f];
+        if (dropped[p] != 0 && map.patches[p].free_length == 0.0)
+            done.walls.push_back(mesh.source[f]);
+    }
+    done.faces = mesh.drop([&](std::uint32_t f) { return dropped[map.patch_of[f]] != 0; });
+    return done;
 }
 
 }  // namespace treeform::detail::repair

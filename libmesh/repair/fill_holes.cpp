@@ -10,6 +10,7 @@
 #include <libmesh/topology/area.hpp>
 #include <treeform/mesh/repair.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -54,12 +55,13 @@ class part_areas {
 
 }  // namespace
 
-filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sheets) {
+filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sheets,
+                        rim_edges rims) {
     filled_holes done;
     const directed_edges edges(mesh.faces);
     std::optional<base::stars> stars;  // of the mesh before the first hole was filled
     const part_areas parts(mesh);
-    for (const open_rim& rim : open_rims(mesh)) {
+    for (const open_rim& rim : open_rims(mesh, rims)) {
         if (rim.points.size() > largest) continue;
         std::vector<face> faces = triangulate_rim(mesh, rim, edges);
         const bool is_cone = faces.empty();
@@ -71,12 +73,33 @@ filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sh
             faces = refined_patch(mesh, rim, faces, edges);
             make_fair(mesh, rim, faces, first, *stars);
         }
+        done.all.push_back({static_cast<std::uint32_t>(mesh.faces.size()),
+                            static_cast<std::uint32_t>(rim.points.size())});
         for (const face& f : faces) mesh.append(f, repair_result::none);
         ++done.holes;
         done.edges += rim.points.size();
         done.faces += faces.size();
     }
     return done;
+}
+
+filled_holes filled_holes::used(std::vector<std::uint32_t> faces_of_mesh) const {
+    filled_holes left;
+    if (all.empty()) return left;
+    std::erase_if(faces_of_mesh, [&](std::uint32_t f) { return f < all.front().first_face; });
+    std::ranges::sort(faces_of_mesh);
+    faces_of_mesh.erase(std::unique(faces_of_mesh.begin(), faces_of_mesh.end()),
+                        faces_of_mesh.end());
+    left.faces = faces_of_mesh.size();
+    for (const std::uint32_t f : faces_of_mesh) {
+        const filled_hole& own =
+            *(std::ranges::upper_bound(all, f, {}, &filled_hole::first_face) - 1);
+        if (!left.all.empty() && left.all.back().first_face == own.first_face) continue;
+        left.all.push_back(own);
+        left.edges += own.edges;
+    }
+    left.holes = left.all.size();
+    return left;
 }
 
 }  // namespace treeform::detail::repair

@@ -2,16 +2,27 @@
 /// \file
 /// Holes of a surface filled.
 
+#include <libmesh/repair/open_rims.hpp>
 #include <libmesh/repair/working_mesh.hpp>
 
 #include <cstdint>
+#include <vector>
 
 namespace treeform::detail::repair {
+
+struct filled_hole {
+    std::uint32_t first_face = 0;  ///< of what fills it, in the mesh
+    std::uint32_t edges = 0;       ///< around it
+};
 
 struct filled_holes {
     std::uint64_t holes = 0;
     std::uint64_t edges = 0;  ///< around them
     std::uint64_t faces = 0;  ///< that fill them
+    std::vector<filled_hole> all{};
+
+    /// Those of which some of the faces are used, and these faces.
+    [[nodiscard]] filled_holes used(std::vector<std::uint32_t> faces_of_mesh) const;
 };
 
 /// Whether to fill what then bounds little or nothing.
@@ -19,10 +30,11 @@ enum class sheets_too : std::uint8_t { no, yes };
 
 /// Fills each hole of at most `largest` edges: `triangulate_rim`, or else a cone over the rim.
 /// Large holes of smooth surfaces are refined and made fair. Unless asked for, sheets stay open: a
-/// hole whose filling has more than 0.6 times the area of the part that it is in. Afterwards,
-/// faces run as often one way as the other along each edge of every rim filled.
+/// hole whose filling has more than 0.6 times the area of the part that it is in. Afterwards, faces
+/// run as often one way as the other along each edge of every rim filled.
 ///
 /// What fills a hole may meet other faces: to cut it is the next step's.
-filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sheets);
+filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sheets,
+                        rim_edges rims = rim_edges::open);
 
 }  // namespace treeform::detail::repair

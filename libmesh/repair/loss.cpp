@@ -1,5 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/repair/border_edges.hpp>
+#include <libmesh/repair/edge_parts.hpp>
 #include <libmesh/repair/loss.hpp>
 #include <libmesh/topology/area.hpp>
 #include <treeform/mesh/as_mesh.hpp>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace treeform::detail::repair {
@@ -50,7 +52,7 @@ loss find_loss(mesh_view given, std::span<const std::uint8_t> is_left, mesh_view
     if (is_huge) return {};
     const repair_result meant = treeform::repair(
         given, {.fill = false, .detach = false, .max_loss = 1.0, .progress = progress});
-    if (meant.certificate)
+    if (meant.certificate && meant.statistics.tetrahedra == 0)
         return {meant.statistics.volume_after, std::abs(signed_volume(made)), true};
     const double before = area_of_distinct(given);
     const double fall = std::min(before - topology::area(made), lost_area(given, is_left, made));
@@ -83,6 +85,26 @@ double lost_area(mesh_view given, std::span<const std::uint8_t> is_left, mesh_vi
     for (std::size_t i = 0; i < gone.size(); ++i)
         if (is_there[i] == 0) sum += topology::area({given.points, {&given.faces[gone[i]], 1}});
     return sum;
+}
+
+std::uint64_t count_vanished(const working_mesh& mesh, std::span<const std::uint8_t> is_left,
+                             mesh_view made, double largest) {
+    const std::vector<std::uint32_t> part = parts_by_edges(mesh);
+    std::vector<std::uint8_t> has_face(part.size(), 0);
+    std::vector<double> area_of(part.size(), 0.0);
+    for (std::uint32_t f = 0; f < part.size(); ++f) {
+        area_of[part[f]] += topology::area({mesh.points, {&mesh.faces[f], 1}});
+        if (mesh.source[f] != repair_result::none && is_left[mesh.source[f]] != 0)
+            has_face[part[f]] = 1;
+    }
+    std::uint64_t count = 0;
+    std::optional<prepared_mesh> solid;
+    for (std::uint32_t f = 0; f < part.size(); ++f) {
+        if (part[f] != f || has_face[f] != 0 || !(area_of[f] > largest)) continue;
+        if (!solid) solid.emplace(prepared_mesh::borrow(made));
+        if (locate(*solid, mesh.points[mesh.faces[f][0]]).where == location::outside) ++count;
+    }
+    return count;
 }
 
 bool has_inward_component(mesh_view mesh) {

@@ -2,6 +2,7 @@
 /// \file
 /// How much of a mesh an operation has lost.
 
+#include <libmesh/repair/working_mesh.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -44,6 +45,15 @@ struct loss {
 /// \same  on any number of threads
 [[nodiscard]] double lost_area(mesh_view given, std::span<const std::uint8_t> is_left,
                                mesh_view made);
+
+/// How many parts of `mesh`, by edges, have more than that area and nothing left of them, not because
+/// they are inside of `made` but because they bound nothing.
+///
+/// \param is_left [F] of the input, whether `made` has a part of each face
+/// \pre   `made` is closed
+[[nodiscard]] std::uint64_t count_vanished(const working_mesh& mesh,
+                                           std::span<const std::uint8_t> is_left, mesh_view made,
+                                           double largest);
 
 /// That of faces with the same corners once.
 [[nodiscard]] double area_of_distinct(mesh_view mesh);

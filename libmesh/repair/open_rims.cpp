@@ -22,10 +22,11 @@ struct rim_edge {
 std::uint32_t from_of(const rim_edge& e) { return e.from; }
 std::uint32_t from_of(std::uint32_t from) { return from; }
 
-std::vector<rim_edge> rim_edges_of(const working_mesh& mesh) {
+std::vector<rim_edge> rim_edges_of(const working_mesh& mesh, rim_edges along) {
     const weld::edge_uses edges(mesh.points.size(), mesh.faces, weld::repeated_corners::left_out);
     std::vector<std::vector<rim_edge>> found(edges.chunks());
     edges.for_each([&](const weld::used_edge& edge, std::size_t chunk) {
+        if (along == rim_edges::free && edge.uses.size() > 1) return;
         std::vector<std::uint32_t> up, down;  // faces that run from low to high, and against that
         for (std::size_t i = 0; i < edge.uses.size(); ++i) {
             const std::uint32_t f = edge.face(i);
@@ -44,8 +45,8 @@ std::vector<rim_edge> rim_edges_of(const working_mesh& mesh) {
 
 class rim_walker {
   public:
-    explicit rim_walker(const working_mesh& mesh)
-        : mesh_(mesh), edges_(mesh.faces), rim_edges_(rim_edges_of(mesh)) {}
+    rim_walker(const working_mesh& mesh, rim_edges along)
+        : mesh_(mesh), edges_(mesh.faces), rim_edges_(rim_edges_of(mesh, along)) {}
 
     std::vector<open_rim> run() {
         for (std::size_t e = 0; e < rim_edges_.size(); ++e)
@@ -109,6 +110,8 @@ class rim_walker {
 
 }  // namespace
 
-std::vector<open_rim> open_rims(const working_mesh& mesh) { return rim_walker(mesh).run(); }
+std::vector<open_rim> open_rims(const working_mesh& mesh, rim_edges along) {
+    return rim_walker(mesh, along).run();
+}
 
 }  // namespace treeform::detail::repair

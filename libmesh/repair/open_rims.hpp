@@ -17,6 +17,12 @@ struct open_rim {
                                          ///< against it
 };
 
+/// What rims run along.
+enum class rim_edges : std::uint8_t {
+    open,  ///< edges along which faces run more often one way than the other
+    free   ///< edges of one face; what does not close along these alone is no rim
+};
+
 /// The rims of all holes: along them, faces run as often one way as the other.
 ///
 /// An edge along which faces run more often one way than the other, by n, is in n rims. So rims are
@@ -26,6 +32,7 @@ struct open_rim {
 ///
 /// \cost O(V + F log F)
 /// \same on any number of threads
-[[nodiscard]] std::vector<open_rim> open_rims(const working_mesh& mesh);
+[[nodiscard]] std::vector<open_rim> open_rims(const working_mesh& mesh,
+                                              rim_edges along = rim_edges::open);
 
 }  // namespace treeform::detail::repair

@@ -13,6 +13,8 @@
 #include <libmesh/repair/fill_holes.hpp>
 #include <libmesh/repair/loss.hpp>
 #include <libmesh/repair/orient_faces.hpp>
+#include <libmesh/repair/tangle.hpp>
+#include <libmesh/repair/tetrahedra.hpp>
 #include <libmesh/repair/working_mesh.hpp>
 #include <libmesh/topology/area.hpp>
 #include <libmesh/topology/is_manifold.hpp>
@@ -38,6 +40,8 @@ namespace {
 using detail::base::part_of;
 using detail::repair::closed_cracks;
 using detail::repair::edge_tally;
+using detail::repair::rim_edges;
+using detail::repair::walls;
 using detail::repair::working_mesh;
 using detail::topology::area;
 
@@ -49,10 +53,21 @@ void require_share(double value, const char* what) {
                                     " is negative or not finite");
 }
 
+/// How to find out what is inside.
+enum class inside_by : std::uint8_t {
+    rule,
+    labels,
+    labels_and_guesses  ///< with what fills holes along edges of several faces, if it helps
+};
+
+/// Of areas that are equal but for rounding.
+double noise_of(const repair_result& made) { return 1e-9 * made.statistics.area_before; }
+
 /// The steps of a repair, one after the other.
 class repairer {
   public:
-    repairer(mesh_view given, const repair_options& options) : given_(given), options_(options) {
+    repairer(mesh_view given, const repair_options& options, inside_by way)
+        : given_(given), options_(options), way_(way) {
         take(given);
     }
 
@@ -61,12 +76,41 @@ class repairer {
         orient();
         if (options_.fill && !options_.sheet) fill();
         closed_.emplace(mesh_, turned_as_one_, known_edges());
-        if (options_.orient) did_.turned = closed_->turn_outward();
+        // What is outer is outward by its label, and a cavity of what is open looks like no cavity.
+        if (options_.orient && !is_by_labels()) did_.turned = closed_->turn_outward();
         measure();
-        if (tally_.unbalanced > 0 && !options_.sheet) return open();
-        make_surface();
+        if (is_by_labels())
+            make_labeled_surface();
+        else if (tally_.unbalanced > 0 && !options_.sheet)
+            return open();
+        else
+            make_surface();
         finish();
         return std::move(result_);
+    }
+
+    /// Whether labels may do better than what was made: faces disagree, or walls that were dropped
+    /// were not inside.
+    [[nodiscard]] bool is_in_doubt(const repair_result& made) const {
+        const bool is_complete = options_.join && options_.orient && options_.fill &&
+                                 options_.resolve && !options_.sheet;
+        if (!is_complete || options_.inside != repair_rule::automatic) return false;
+        progress_callback progress;
+        if (options_.progress) progress = [this](double) { return options_.progress(1.0); };
+        const double most = is_hopeless_ ? 0.1 : 2.0;  // pairs of each face
+        if (made.certificate.status == status::open_input &&
+            detail::repair::is_tangle(mesh_.view(), most, progress))
+            return false;
+        if (!made.certificate) {
+            const status known = made.certificate.status;
+            return (known == status::open_input || known == status::excessive_loss ||
+                    known == status::vanished) &&
+                   tally_.unbalanced + dropped_walls_.size() > 0;
+        }
+        if (dropped_walls_.empty()) return false;
+        std::vector<std::uint8_t> is_left(given_.faces.size(), 1);
+        for (const std::uint32_t f : dropped_walls_) is_left[f] = 0;
+        return detail::repair::lost_area(given_, is_left, made.mesh) > noise_of(made);
     }
 
   private:
@@ -100,6 +144,7 @@ class repairer {
         is_manifold_ = detail::topology::is_manifold(mesh_.view());
         if (is_manifold_) return;  // nothing to tally
         tally_ = detail::repair::tally_edges(mesh_);
+        if (tally_.unbalanced > 0) keep_boundary_of_tetrahedra();
         if (tally_.crowded > 0 || tally_.disagreeing > 0) {
             did_.repeated = detail::repair::drop_copies(mesh_);
             tally_ = detail::repair::tally_edges(mesh_);
@@ -108,6 +153,15 @@ class repairer {
         close_cracks();
         if (tally_.crowded == 0) return;
         did_.repeated += detail::repair::drop_copies(mesh_);  // that were torn off
+        tally_ = detail::repair::tally_edges(mesh_);
+    }
+
+    void keep_boundary_of_tetrahedra() {
+        did_.tetrahedra = detail::repair::keep_boundary_of_tetrahedra(mesh_);
+        if (did_.tetrahedra == 0) return;
+        std::vector<std::uint32_t> kept = mesh_.source;  // ascending
+        kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+        inner_faces_ = given_.faces.size() - kept.size();
         tally_ = detail::repair::tally_edges(mesh_);
     }
 
@@ -143,25 +197,19 @@ class repairer {
         tally_ = detail::repair::tally_edges(mesh_);
     }
 
-    /// Whether faces disagree at so many edges of more than two that what they bound is anybody's
-    /// guess: half of the faces of tetrahedra, say.
-    [[nodiscard]] bool is_hopeless() const {
-        constexpr std::uint64_t most = 10;  // faces for each such edge
-        const std::uint64_t simple =
-            std::min(tally_.unbalanced, tally_.border + tally_.disagreeing);
-        return most * (tally_.unbalanced - simple) > mesh_.faces.size() &&
-               mesh_.faces.size() > 1000;
-    }
-
     void orient() {
         if (!options_.orient) return;
         if (tally_.disagreeing > 0 || tally_.crowded > 0)
             did_.flipped = detail::repair::make_faces_agree(mesh_);
-        if (tally_.border > 0 || tally_.crowded > 0)
-            did_.strays = detail::repair::drop_strays(mesh_, options_.strays, options_.sheet);
+        if (tally_.border > 0 || tally_.crowded > 0) {
+            detail::repair::dropped_strays dropped = detail::repair::drop_strays(
+                mesh_, options_.strays, options_.sheet, is_by_labels() ? walls::stay : walls::go);
+            did_.strays = dropped.faces;
+            dropped_walls_ = std::move(dropped.walls);
+        }
         if (did_.strays > 0) did_.flipped += detail::repair::make_faces_agree(mesh_);
         if (did_.flipped + did_.strays > 0) tally_ = detail::repair::tally_edges(mesh_);
-        is_hopeless_ = is_hopeless();
+        is_hopeless_ = detail::repair::is_hopeless(tally_, mesh_.faces.size());
         if (tally_.crowded == 0 || tally_.unbalanced == 0 || is_hopeless_) return;
         did_.flipped += detail::repair::balance_patches(mesh_);
         if (did_.flipped > 0) turned_as_one_ = detail::repair::turned_as_one::shell;
@@ -170,15 +218,25 @@ class repairer {
 
     void fill() {
         if (tally_.unbalanced == 0 || is_hopeless_) return;
-        using detail::repair::sheets_too;
         const detail::repair::filled_holes filled =
-            detail::repair::fill_holes(mesh_, options_.largest_hole,
-                                       options_.max_loss >= 1.0 ? sheets_too::yes : sheets_too::no);
-        did_.holes = filled.holes;
-        did_.hole_edges = filled.edges;
-        did_.filled = filled.faces;
+            fill_rims(is_by_labels() ? rim_edges::free : rim_edges::open);
+        count(filled);
         did_.degenerate += detail::repair::drop_degenerate(mesh_);
         tally_ = detail::repair::tally_edges(mesh_);
+        if (way_ == inside_by::labels_and_guesses) guesses_ = fill_rims(rim_edges::open);
+    }
+
+    void count(const detail::repair::filled_holes& filled) {
+        did_.holes += filled.holes;
+        did_.hole_edges += filled.edges;
+        did_.filled += filled.faces;
+    }
+
+    detail::repair::filled_holes fill_rims(rim_edges along) {
+        using detail::repair::sheets_too;
+        return detail::repair::fill_holes(
+            mesh_, options_.largest_hole,
+            options_.max_loss >= 1.0 ? sheets_too::yes : sheets_too::no, along);
     }
 
     void measure() {
@@ -252,13 +310,41 @@ class repairer {
             return;
         }
         did_.resolved = !clean;
-        const boolean_options how{.inside = rule(),
-                                  .precision = options_.precision,
-                                  .rounding_steps = options_.rounding_steps,
-                                  .max_displacement = options_.max_displacement,
-                                  .progress = part_of(options_.progress, 0.4, 0.95)};
-        boolean_result made = options_.sheet ? detail::boolean::resolve_by_split(mesh_.view(), how)
-                                             : detail::boolean::resolve_by_union(mesh_.view(), how);
+        boolean_options how = how_to_resolve();
+        how.progress = part_of(options_.progress, 0.4, 0.95);
+        take(options_.sheet ? detail::boolean::resolve_by_split(mesh_.view(), how)
+                            : detail::boolean::resolve_by_union(mesh_.view(), how));
+    }
+
+    [[nodiscard]] boolean_options how_to_resolve() const {
+        return {.inside = rule(),
+                .precision = options_.precision,
+                .rounding_steps = options_.rounding_steps,
+                .max_displacement = options_.max_displacement};
+    }
+
+    /// What fills holes along edges of several faces is there for the labels to use or not.
+    void make_labeled_surface() {
+        did_.resolved = true;
+        std::vector<std::uint32_t> is_guess(mesh_.faces.size(), 0);
+        for (std::size_t f = mesh_.faces.size() - guesses_.faces; f < is_guess.size(); ++f)
+            is_guess[f] = 1;
+        boolean_options how = how_to_resolve();
+        how.progress = part_of(options_.progress, 0.4, 0.95);
+        how.face_groups = is_guess;
+        detail::boolean::labeled_result labeled =
+            detail::boolean::resolve_by_labels(mesh_.view(), how);
+        did_.labeled_cells = labeled.counts.cells;
+        did_.dropped_area = labeled.counts.dropped_area;
+        did_.turned_area = labeled.counts.turned_area;
+        std::vector<std::uint32_t> left;
+        for (const operand_element& e : labeled.made.face_source)
+            if (e.index != operand_element::none) left.push_back(e.index);
+        count(guesses_.used(std::move(left)));
+        take(std::move(labeled.made));
+    }
+
+    void take(boolean_result&& made) {
         result_.certificate = std::move(made.certificate);
         for (open_edge& e : result_.certificate.open) e.face.index = mesh_.source[e.face.index];
         result_.mesh = std::move(made.mesh);
@@ -327,11 +413,14 @@ class repairer {
         for (const std::uint32_t f : result_.face_source)
             if (f != repair_result::none) is_left[f] = 1;
         did_.removed = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
-        did_.removed -= std::min(did_.removed, did_.degenerate + did_.repeated + did_.strays);
+        const std::uint64_t dropped = did_.degenerate + did_.repeated + did_.strays + inner_faces_;
+        did_.removed -= std::min(did_.removed, dropped);
         const bool is_solid = known.status == status::ok;
         if (is_solid)
             did_.volume_after = is_as_measured ? did_.volume_before : signed_volume(result_.mesh);
-        if (did_.resolved && is_solid) count_vanished(is_left);
+        if (did_.resolved && is_solid)
+            did_.vanished_components = detail::repair::count_vanished(
+                mesh_, is_left, result_.mesh, options_.strays * did_.area_before);
         did_.area_lost = detail::repair::lost_area(given_, is_left, result_.mesh);
         if (options_.max_loss >= 1.0) return;
         if (did_.vanished_components > 0 || loses_too_much()) known.status = status::excessive_loss;
@@ -343,7 +432,7 @@ class repairer {
         double before = detail::repair::area_of_distinct(given_);
         double after = before - std::min(did_.area_lost, before);
         if (after >= (1.0 - options_.max_loss) * before) return false;
-        if (known.status == status::ok && did_.holes == 0) {
+        if (known.status == status::ok && did_.holes == 0 && !is_by_labels()) {
             // What was closed had a volume: a fin has area, but none of that.
             before = did_.volume_before;
             const boolean_result meant =
@@ -358,35 +447,20 @@ class repairer {
         return true;
     }
 
-    /// Components that are too large to go and of which nothing is left, not because they were
-    /// inside of others but because they bounded nothing.
-    void count_vanished(const std::vector<std::uint8_t>& is_left) {
-        const std::vector<std::uint32_t> part = detail::repair::parts_by_edges(mesh_);
-        std::vector<std::uint8_t> has_face(part.size(), 0);
-        std::vector<double> area_of(part.size(), 0.0);
-        for (std::uint32_t f = 0; f < part.size(); ++f) {
-            area_of[part[f]] += area({mesh_.points, {&mesh_.faces[f], 1}});
-            if (mesh_.source[f] != repair_result::none && is_left[mesh_.source[f]] != 0)
-                has_face[part[f]] = 1;
-        }
-        std::optional<prepared_mesh> solid;
-        for (std::uint32_t f = 0; f < part.size(); ++f) {
-            if (part[f] != f || has_face[f] != 0) continue;
-            if (!(area_of[f] > options_.strays * did_.area_before)) continue;
-            if (!solid) solid.emplace(prepared_mesh::borrow(result_.mesh));
-            if (locate(*solid, mesh_.points[mesh_.faces[f][0]]).where == location::outside)
-                ++did_.vanished_components;
-        }
-    }
+    [[nodiscard]] bool is_by_labels() const { return way_ != inside_by::rule; }
 
     mesh_view given_;
     const repair_options& options_;
+    inside_by way_;
     working_mesh mesh_{};
     double diagonal_ = 0.0;
     edge_tally tally_{};
     bool is_manifold_ = false;  ///< as it came, but for faces turned
     bool is_hopeless_ = false;
-    bool is_kept_ = false;  ///< nothing had to be cut
+    bool is_kept_ = false;                        ///< nothing had to be cut
+    std::uint64_t inner_faces_ = 0;               ///< of tetrahedra
+    std::vector<std::uint32_t> dropped_walls_{};  ///< input faces
+    detail::repair::filled_holes guesses_{};      ///< holes filled on trial: the last faces
     std::optional<detail::repair::closed_components> closed_{};
     detail::repair::turned_as_one turned_as_one_ = detail::repair::turned_as_one::component;
     repair_statistics did_{};
@@ -401,7 +475,23 @@ repair_result repair(mesh_view mesh, const repair_options& options) {
     require_share(options.max_loss, "the largest loss");
     detail::base::check_faces("repair", mesh.points.size(), mesh.faces);
     detail::base::check_finite_faces("repair", mesh);
-    return repairer(mesh, options).run();
+    repairer by_rule(mesh, options, inside_by::rule);
+    repair_result best = by_rule.run();
+    if (!by_rule.is_in_doubt(best)) return best;
+    repair_options again = options;
+    if (options.progress) again.progress = [&](double) { return options.progress(1.0); };
+    for (const inside_by way : {inside_by::labels, inside_by::labels_and_guesses}) {
+        repair_result made = repairer(mesh, again, way).run();
+        if (made.certificate.status == status::cancelled) return made;
+        // A guess has to be a manifold also for programs that join equal coordinates.
+        const bool is_better =
+            made.statistics.touching <= best.statistics.touching &&
+            (!best.certificate ||
+             made.statistics.area_lost < best.statistics.area_lost - noise_of(best));
+        if (made.certificate && is_better) best = std::move(made);
+        if (best.certificate && best.statistics.area_lost <= noise_of(best)) break;
+    }
+    return best;
 }
 
 const mesh& repair_result::value() const& {

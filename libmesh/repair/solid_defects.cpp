@@ -1,5 +1,6 @@
 #include <libmesh/base/words.hpp>
 #include <libmesh/repair/orient_faces.hpp>
+#include <libmesh/repair/tetrahedra.hpp>
 #include <libmesh/repair/working_mesh.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -42,6 +43,8 @@ std::string solid_defects::message() const {
     const auto add_count = [&](std::uint64_t n, const char* one, const char* several) {
         if (n > 0) add(detail::base::counted(n, one, several));
     };
+    if (tetrahedra > 0)
+        add("faces are " + detail::base::counted(tetrahedra, "tetrahedron", "tetrahedra"));
     if (open_edges > 0) add("open at " + detail::base::counted(open_edges, "edge", "edges"));
     add_count(nonmanifold_edges, "edge of more than two faces", "edges of more than two faces");
     add_count(misoriented_edges, "edge where faces disagree", "edges where faces disagree");
@@ -65,6 +68,7 @@ solid_defects find_solid_defects(mesh_view given, const progress_callback& progr
         return found;
     }
     found.meeting_pairs = met.pairs.size();
+    found.tetrahedra = detail::repair::count_tetrahedra(joined);
     const topology_counts topology = count_topology(joined.points.size(), joined.faces);
     found.degenerate = find_defects(joined).degenerate_faces.size();
     found.repeated = topology.duplicate_faces;

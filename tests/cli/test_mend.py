@@ -27,6 +27,54 @@ class Mend(ToolTest):
         self.assertEqual(obj_mesh(self.read("out.obj")), obj_mesh(self.read("part.obj")))
         self.assertEqual(run.err, "")
 
+    def test_rooms_are_one_solid_and_their_labels_are_counted(self):
+        lines = [f"v {x} {y} {z}" for x in range(3) for y in range(3) for z in range(2)]
+        point = lambda x, y, z: 6 * x + 2 * y + z + 1
+        for i in range(2):
+            for j in range(2):
+                roof = [point(i, j, 1), point(i + 1, j, 1), point(i + 1, j + 1, 1), point(i, j + 1, 1)]
+                lines += ["f " + " ".join(map(str, roof)),
+                          "f " + " ".join(str(p - 1) for p in reversed(roof))]
+        for at in range(3):  # walls, each there once
+            for i in range(2):
+                for ends in ((point(at, i, 0), point(at, i + 1, 0)),
+                             (point(i + 1, at, 0), point(i, at, 0))):
+                    a, b = ends if at else reversed(ends)
+                    lines.append(f"f {a} {b} {b + 1} {a + 1}")
+        rooms = self.path("rooms.obj")
+        with open(rooms, "w") as file:
+            file.write("\n".join(lines) + "\n")
+        entry = self.mended(rooms, "-o", "house.obj")
+        self.assertEqual(volume(*obj_mesh(self.read("house.obj"))), 4)
+        did = entry["repair"]["steps"]["resolve"]
+        self.assertEqual((did["labeled_cells"], did["dropped_area"], did["turned_area"]), (4, 4, 0))
+        self.assertIn("4 cells labeled inside or outside (area 4 dropped)",
+                      self.run_tool(rooms, "-n", status=0).text)
+        self.run_tool("house.obj", "--check", status=0)
+
+    def test_faces_that_are_tetrahedra_become_their_boundary(self):
+        corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+        five = [(0, 4, 2, 1), (3, 1, 2, 7), (5, 1, 7, 4), (6, 2, 4, 7), (1, 2, 4, 7)]
+        def sign(t):
+            a, *rest = (corners[i] for i in t)
+            (p, q, r) = ([x - y for x, y in zip(c, a)] for c in rest)
+            return (p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) +
+                    p[2] * (q[0] * r[1] - q[1] * r[0]))
+        for wanted in (1, -1):
+            with self.subTest(sign=wanted):
+                same = [t if sign(t) * wanted > 0 else (t[0], t[1], t[3], t[2]) for t in five]
+                with open(self.path("volume.obj"), "w") as file:
+                    file.writelines(f"v {x} {y} {z}\n" for x, y, z in corners)
+                    file.writelines("f " + " ".join(str(i + 1) for i in t) + "\n" for t in same)
+                run = self.run_tool("volume.obj", "-o", "out.obj", "--force", status=0)
+                self.assertIn("solid, 12 faces, volume 1 ", run.text)
+                self.assertIn("boundary kept of 5 tetrahedra", run.text)
+                entry = self.mended("volume.obj", "--check", status=1)
+                self.assertEqual(entry["defects"]["tetrahedra"], 5)
+                self.assertIn("faces are 5 tetrahedra",
+                              self.run_tool("volume.obj", "--check", status=1).text)
+                self.run_tool("out.obj", "--check", status=0)
+
     def test_each_kind_of_dirt_is_mended_and_counted(self):
         points, faces = cube()
         far = [(9.0, 9.0, 9.0), (9.01, 9.0, 9.0), (9.0, 9.01, 9.0)]

@@ -18,6 +18,7 @@
 #include <doctest/doctest.h>
 #include <support/dirt.hpp>
 #include <support/models.hpp>
+#include <support/rooms.hpp>
 #include <support/settings.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
@@ -205,5 +206,29 @@ TEST_CASE("every kind of dirt is repaired, and nothing else") {
                     failed += fault.empty() ? 0 : 1;
                 }
         MESSAGE(test::name_of(kind) << ": " << cases - failed << " of " << cases << " repaired");
+    }
+}
+
+TEST_CASE("rooms with one wall between two are one solid, however their walls are turned") {
+    const std::uint64_t times = std::min(test::setting("TREEFORM_STRESS_TIMES", 1), most_times);
+    for (std::uint64_t n = 0; n < 20 * times; ++n) {
+        test::random source(1'000'003 * test::stress_seed() + n);
+        const auto x = static_cast<std::uint32_t>(1 + source.below(8));
+        const auto y = static_cast<std::uint32_t>(1 + source.below(8));
+        tf::mesh dirty = test::rooms(x, y, 1);  // each has a floor and a roof
+        for (tf::point3& p : dirty.points)
+            p = {p.x + 0.1 * p.y * p.y, 0.7 * p.y, p.z * (1.0 + 0.05 * p.x)};
+        tf::mesh hull{dirty.points, {}};
+        for (const tf::face& f : dirty.faces)
+            if (test::is_outer(f, x, y, 1)) hull.faces.push_back(f);
+        const double volume = tf::signed_volume(hull);
+        for (std::size_t f = 0; f < dirty.faces.size(); f += 2)
+            if (source.below(3) == 0)
+                for (const std::size_t k : {f, f + 1})
+                    std::swap(dirty.faces[k][1], dirty.faces[k][2]);
+        const tf::repair_result made = tf::repair(dirty);
+        CAPTURE(n);
+        REQUIRE_MESSAGE(made.certificate, made.certificate.message());
+        CHECK(std::abs(tf::signed_volume(made.mesh) - volume) < 1e-3 * volume);
     }
 }

@@ -44,7 +44,8 @@ json loss_entry(const tf::certificate& known) {
 }
 
 json steps_entry(const tf::repair_statistics& did, const tf::repair_options& steps) {
-    return {{"join", or_null(steps.join, json{{"degenerate", did.degenerate},
+    return {{"join", or_null(steps.join, json{{"tetrahedra", did.tetrahedra},
+                                              {"degenerate", did.degenerate},
                                               {"repeated", did.repeated},
                                               {"closed_edges", did.closed_edges},
                                               {"split_edges", did.split_edges},
@@ -58,7 +59,10 @@ json steps_entry(const tf::repair_statistics& did, const tf::repair_options& ste
                      json{{"holes", did.holes}, {"edges", did.hole_edges}, {"faces", did.filled}})},
             {"resolve", or_null(steps.resolve, json{{"pairs", did.pairs},
                                                     {"removed", did.removed},
-                                                    {"separated_points", did.split_vertices}})},
+                                                    {"separated_points", did.split_vertices},
+                                                    {"labeled_cells", did.labeled_cells},
+                                                    {"dropped_area", did.dropped_area},
+                                                    {"turned_area", did.turned_area}})},
             {"detach",
              or_null(steps.detach, json{{"moved", did.detached}, {"touching", did.touching}})}};
 }
@@ -69,6 +73,8 @@ std::string deeds(const tf::repair_statistics& did) {
                          const std::string& more = {}) {
         if (n > 0) text += (text.empty() ? "" : ", ") + counted(n, one, several) + more;
     };
+    if (did.tetrahedra > 0)
+        text += "boundary kept of " + counted(did.tetrahedra, "tetrahedron", "tetrahedra");
     add(did.degenerate, "face without area dropped", "faces without area dropped");
     add(did.repeated, "repeated face dropped", "repeated faces dropped");
     add(did.closed_edges, "crack edge closed", "crack edges closed",
@@ -80,6 +86,8 @@ std::string deeds(const tf::repair_statistics& did) {
     add(did.holes, "hole filled", "holes filled",
         " (" + counted(did.hole_edges, "edge", "edges") + ")");
     add(did.pairs, "pair cut", "pairs cut");
+    add(did.labeled_cells, "cell labeled inside or outside", "cells labeled inside or outside",
+        did.dropped_area > 0.0 ? " (area " + brief(did.dropped_area) + " dropped)" : "");
     add(did.detached, "vertex set apart", "vertices set apart");
     return text.empty() ? "nothing to mend" : text;
 }

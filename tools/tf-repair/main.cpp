@@ -105,6 +105,8 @@ const char* const epilogue =
     "they become one solid. --check looks at each object.\n"
     "\n"
     "auto is positive where every part is turned outward, and nonzero otherwise.\n"
+    "Where faces disagree, the parts of space between them are labeled inside or\n"
+    "outside, as the faces disagree with least: a guess, and counted.\n"
     "\n"
     "Examples:\n"
     "  tf-repair part.stl -o fixed.stl\n"

@@ -103,7 +103,7 @@ struct TREEFORM_API resolve_result {
 
 /// What is inside, for `repair`.
 enum class repair_rule : std::uint8_t {
-    automatic,  ///< `positive` where every shell is outward after `orient`, else `nonzero`
+    automatic,  ///< `positive` where every shell is outward after `orient`, else `nonzero` or labels
     nonzero,
     odd,
     positive
@@ -141,6 +141,7 @@ struct repair_options {
 
 /// What each step has done. Gaps closed, sides chosen and holes filled are guesses.
 struct repair_statistics {
+    std::uint64_t tetrahedra = 0;           ///< that the faces were; their boundary was kept
     std::uint64_t degenerate = 0;           ///< faces without area, dropped
     std::uint64_t repeated = 0;             ///< faces on others, dropped
     std::uint64_t closed_edges = 0;         ///< pairs of border edges that became one
@@ -156,6 +157,9 @@ struct repair_statistics {
     std::uint64_t open_edges = 0;           ///< left after these steps
     bool resolved = false;                  ///< faces met and were cut
     std::uint64_t pairs = 0;                ///< of faces that met
+    std::uint64_t labeled_cells = 0;        ///< bounded ones, by least disagreement (`repair`)
+    double dropped_area = 0.0;              ///< of faces that their labels put within or without
+    double turned_area = 0.0;               ///< of faces that their labels turned over
     std::uint64_t removed = 0;              ///< faces that resolving left nothing of
     std::uint64_t split_vertices = 0;       ///< as in `boolean_statistics`
     std::uint64_t detached = 0;             ///< vertices moved apart
@@ -195,7 +199,9 @@ struct TREEFORM_API repair_result {
 /// The steps are those of `repair_options`, in their order. Each leaves alone what needs nothing: a
 /// mesh that is a solid comes back bit for bit. What meets and what is inside is decided exactly.
 /// Which cracks close, which way faces point, and what fills a hole are guesses, and counted.
-/// Points with equal coordinates are one.
+/// Points with equal coordinates are one. Faces of four corners that are tetrahedra become their
+/// boundary. Where faces disagree, the cells that they cut space into are labeled inside or outside
+/// by a minimum cut, as they and generalized winding numbers disagree least, if less is lost then.
 ///
 /// Holes are filled by triangles between their vertices; large ones of smooth surfaces are filled
 /// by new points, so that the surface goes on as it does around them. Sheets are not filled, but
@@ -211,6 +217,7 @@ struct TREEFORM_API repair_result {
 
 /// What keeps a mesh from being a solid. Points with equal coordinates are one.
 struct TREEFORM_API solid_defects {
+    std::uint64_t tetrahedra = 0;            ///< that the faces are, as of a volume mesh
     std::uint64_t degenerate = 0;            ///< faces without area
     std::uint64_t repeated = 0;              ///< faces with the corners of another one
     std::uint64_t open_edges = 0;            ///< of one face
