@@ -12,6 +12,7 @@ namespace {
 using detail::carry::solid_part;
 
 void add(repair_statistics& sum, const repair_statistics& part) {
+    sum.tetrahedra += part.tetrahedra;
     sum.degenerate += part.degenerate;
     sum.repeated += part.repeated;
     sum.closed_edges += part.closed_edges;
@@ -28,6 +29,9 @@ void add(repair_statistics& sum, const repair_statistics& part) {
     sum.resolved = sum.resolved || part.resolved;
     sum.pairs += part.pairs;
     sum.removed += part.removed;
+    sum.labeled_cells += part.labeled_cells;
+    sum.dropped_area += part.dropped_area;
+    sum.turned_area += part.turned_area;
     sum.split_vertices += part.split_vertices;
     sum.detached += part.detached;
     sum.touching += part.touching;
@@ -166,6 +170,7 @@ solid_defects find_solid_defects(const carry_source& input, repair_scope scope,
     solid_defects all;
     for (const solid_part& part : parts) {
         const solid_defects found = find_solid_defects(part.mesh, part_of.next(part.faces.size()));
+        all.tetrahedra += found.tetrahedra;
         all.degenerate += found.degenerate;
         all.repeated += found.repeated;
         all.open_edges += found.open_edges;
