@@ -303,7 +303,7 @@ class repairer {
     void detach() {
         if (!options_.detach || !options_.resolve) return;
         const detail::repair::detached done =
-            detail::repair::detach(result_.mesh, options_.precision);
+            detail::repair::detach(result_.mesh, options_.precision, options_.max_displacement);
         did_.detached = done.moved;
         did_.touching = done.touching;
         result_.certificate.max_displacement =

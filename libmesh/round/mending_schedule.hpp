@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace treeform::detail::round {
 
@@ -50,9 +51,9 @@ struct mending_schedule {
     /// to 4, or 12 where nothing is joined, on one that left fewer faces that meet. None where the
     /// surface only grows by it.
     [[nodiscard]] bool mends_surface(const mending_state& state) const;
-    /// Whether steps of operands are worth going on with after one that changed the number of faces
-    /// that meet so.
-    [[nodiscard]] static bool mends_operands(std::uint64_t meeting_before, std::uint64_t meeting);
+    /// How many pairs of faces may meet at first, of operands that are joined, if that many did
+    /// before: more are not worth mending.
+    [[nodiscard]] static std::uint64_t most_meeting(std::uint64_t meeting);
 
     /// What counts as next to each other in step 1, 2, ...
     /// \pre coordinates are finite \cost O(V)
@@ -63,6 +64,9 @@ struct mending_schedule {
     /// \pre coordinates are finite \cost O(V)
     [[nodiscard]] double grid_of_surface(points_view points, int step) const;
     [[nodiscard]] double grid_of_operands(points_view points, int step) const;
+    /// These and the next ones, four times as wide each, of which half a step is within the limit.
+    [[nodiscard]] std::vector<double> grids_of_surface(points_view points, int step,
+                                                       double limit) const;
     /// Whether only few faces meet, so that one more step costs little.
     [[nodiscard]] static bool are_few(const mending_state& state);
     /// Whether a broken surface gets one more round on its grid, as all do that have left fewer
@@ -72,7 +76,9 @@ struct mending_schedule {
     [[nodiscard]] static bool is_too_much(std::uint64_t pairs, std::size_t faces_given);
     /// Whether operands on a grid, with so many pairs of faces that meet, are worth cutting.
     [[nodiscard]] static bool asks_operands(std::uint64_t pairs, std::uint64_t pairs_given);
-    static constexpr int most_rounds = 15;
+    static constexpr int most_rounds = 15;         ///< of mending, of all tries of a result
+    static constexpr int most_rounds_of_grid = 6;  ///< on one grid
+    static constexpr int most_grids = 3;           ///< of one try
 };
 
 }  // namespace treeform::detail::round
