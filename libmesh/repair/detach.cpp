@@ -63,9 +63,7 @@ class detacher {
             move(vertices_left(), tried % likely_ways, steps(tried / likely_ways));
         // Neighbors may be in each other's way: each alone, while they are few.
         if (const auto left = vertices_left(); left.size() <= most_alone)
-            for (const std::uint32_t v : left)
-                for (int tried = 0; tried < std::min(least_doublings, most) * all_ways && is_left(v); ++tried)
-                    move({v}, tried % all_ways, steps(tried / all_ways));
+            for (const std::uint32_t v : left) move_alone(v, most);
         detached result;
         result.touching = vertices_left().size();
         for (const auto& [v, twin] : twins_) {
@@ -96,6 +94,12 @@ class detacher {
         while (box && std::ldexp(step_, most) < farthest * diagonal(*box)) ++most;
         while (most > 0 && steps(most - 1) > limit_) --most;
         return most;
+    }
+
+    void move_alone(std::uint32_t v, int most) {
+        for (int doublings = 0; doublings < most; ++doublings)
+            for (int way = 0; way < (doublings < least_doublings ? all_ways : likely_ways); ++way)
+                if (is_left(v)) move({v}, way, steps(doublings));
     }
 
     /// Whether it is where it was given, and another one, too.
