@@ -68,8 +68,9 @@ bool mending_schedule::are_few(const mending_state& state) {
 
 bool mending_schedule::mends_on_grid(const mending_state& state) {
     const bool is_better = state.meeting < state.meeting_before;
-    return (state.steps == 0 || is_better || 2 * state.meeting < state.faces / 16) &&
-           state.steps < most_rounds_of_grid && state.faces <= 3 * state.faces_given + 1000;
+    const bool may_be = state.steps == 1 && 2 * state.meeting < state.faces / 16;
+    return (state.steps == 0 || is_better || may_be) && state.steps < most_rounds_of_grid &&
+           state.faces <= 3 * state.faces_given + 1000;
 }
 
 std::uint64_t mending_schedule::most_meeting(std::uint64_t meeting) { return 4 * meeting + 1000; }

@@ -33,12 +33,14 @@ struct mending_state {
 /// smaller features there, and joining them ends nowhere. So, for float32 from the start unless few
 /// faces meet, and else where the steps above have failed, mending is on uniform grids: what is next to broken
 /// places is put on one, of operands and of the surface, and cut again, in rounds. The first grids
-/// are those of 2^-22 of the largest coordinate for operands, 2^-48 for float64, with one of 2^-17 or
-/// 2^-43 for their surface; the following ones are sixteen times as wide. Operands as they are have
-/// a surface on a grid of 2^-21. All are wider than the precision, to which cuts are rounded: on
-/// a grid of just the precision, cuts move as far as features are wide, and each round breaks more
-/// than it mends. For the same reason each grid starts from the operands, not from what the grid
-/// before has cut to pieces.
+/// are those of 2^-22 of the largest coordinate for operands, 2^-48 for float64; the following ones
+/// are sixteen times as wide. For the surface of each there are three, 2^-17, 2^-15 and 2^-13, or
+/// 2^-43, 2^-41 and 2^-39 at first, of which each begins from the surface as it was first rounded,
+/// so that neither moves nor pieces add up. They follow on joining, too. Operands as they are have
+/// a surface on a grid of 2^-21, and at last on those three. All are wider than the precision, to
+/// which cuts are rounded: on a grid of just the precision, cuts move as far as features are wide,
+/// and each round breaks more than it mends. For the same reason each try starts from the operands,
+/// not from what the one before has cut to pieces.
 struct mending_schedule {
     treeform::precision precision = treeform::precision::float64;
     int surface_steps = 0;  ///< that are taken whether they help or not; none at all for 0
@@ -70,7 +72,8 @@ struct mending_schedule {
     /// Whether only few faces meet, so that one more step costs little.
     [[nodiscard]] static bool are_few(const mending_state& state);
     /// Whether a broken surface gets one more round on its grid, as all do that have left fewer
-    /// faces that meet, or only few, to 15 for all tries of a result together.
+    /// faces that meet, or only few in the first round, to 6, and 15 for all tries of a result
+    /// together. More rounds where that is not so break more than they mend.
     [[nodiscard]] static bool mends_on_grid(const mending_state& state);
     /// Whether so many pairs of faces are too many to be cut, of a surface that had so many faces.
     [[nodiscard]] static bool is_too_much(std::uint64_t pairs, std::size_t faces_given);
