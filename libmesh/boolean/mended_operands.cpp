@@ -157,7 +157,9 @@ class mending {
         if (options_.precision == precision::float32 || made.on_grid)
             rounds_ += result.statistics.rounding_steps;
         if (std::isfinite(result.certificate.max_displacement))
-            result.certificate.max_displacement = displacement(result, joined);
+            // No corner was joined further away than that, and those that are gone are measured no more.
+            result.certificate.max_displacement =
+                std::max(displacement(result, joined), std::min(near.moved, reach));
         for (operand_element& face : result.face_source) face = face_source(joined, face);
         for (operand_element& face : result.face_of_cut_vertex) face = face_source(joined, face);
         for (operand_element& point : result.vertex_source) point = point_source(joined, point);

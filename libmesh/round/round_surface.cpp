@@ -136,6 +136,7 @@ class rounding {
         result_.on_grid = grid > 0.0;
         steps_ = 0;
         last_meeting_count_ = 0;
+        joined_most_ = 0.0;
         only_cut_ = false;
         while (goes_on()) {
             ++steps_;
@@ -167,7 +168,7 @@ class rounding {
         for (const point3& p : result_.surface.points) slack = std::max(slack, half_unit(p));
         const double moved =
             detail::round::displacement(result_.surface.points, result_.point_of, before_);
-        result_.certificate.max_displacement = std::max(first_move_, moved + slack);
+        result_.certificate.max_displacement = std::max({first_move_, joined_most_, moved + slack});
     }
 
     [[nodiscard]] detail::round::mending_state state() const {
@@ -421,8 +422,10 @@ class rounding {
     }
 
     detail::round::joined_near join_on_grid() {
-        return detail::round::snap_to_grid(result_.surface, offending_,
-                                           {.step = grid_, .solid = options_.solid});
+        detail::round::joined_near near = detail::round::snap_to_grid(
+            result_.surface, offending_, {.step = grid_, .solid = options_.solid});
+        joined_most_ = std::max(joined_most_, near.moved);
+        return near;
     }
 
     /// Whether cutting it would take far more than it took to cut what was given, or nobody waits
@@ -467,6 +470,7 @@ class rounding {
             near.face_of.resize(now.faces.size());
             std::iota(near.face_of.begin(), near.face_of.end(), 0U);
         }
+        joined_most_ = std::max(joined_most_, std::min(near.moved, how.reach));
         point_of_.resize(near.surface.points.size(), rounded_surface::none);
         return near;
     }
@@ -483,7 +487,8 @@ class rounding {
     std::size_t faces_given_;
     mesh before_{};          ///< as `exact_` was given, in doubles, once something is mended
     double first_move_ = 0.0;
-    double grid_ = 0.0;  ///< mending is on, or 0
+    double joined_most_ = 0.0;  ///< how far at most, in one step, corners were joined
+    double grid_ = 0.0;         ///< mending is on, or 0
     int steps_ = 0;      ///< of mending on this grid
     int rounds_ = 0;     ///< on all grids
     std::uint64_t last_meeting_count_ = 0;
