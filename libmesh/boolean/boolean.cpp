@@ -150,8 +150,10 @@ void finish(unmended_result& made, mesh_arrangement& cut, std::vector<face> exac
         round_surface(std::move(exact), {.precision = options.precision,
                                          .solid = solid,
                                          .steps = options.rounding_steps,
-                                         .grid = options.grid,
-                                         .join_few = options.join_few,
+                                         .grids = options.grids,
+                                         .join = options.join,
+                                         .most_rounds = options.most_rounds,
+                                         .most_meeting = options.most_meeting,
                                          .progress = part_of(options.progress, 0.7, 1.0)});
     result.certificate = std::move(r.certificate);
     if (result.certificate.status == status::cancelled) return;

@@ -2,6 +2,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/mended_operands.hpp>
+#include <libmesh/round/displacement.hpp>
 #include <libmesh/round/mending_schedule.hpp>
 #include <libmesh/round/snap_nearby.hpp>
 #include <libmesh/round/snap_to_grid.hpp>
@@ -82,15 +83,11 @@ point3 largest_point(std::span<const mesh_view> operands) {
 
 /// A try of the operands after that of them as they are.
 struct operand_try {
-    int number = 0;  ///< from 1; each reaches further
+    int number = 0;  ///< from 1; each reaches further; 0: as they are
     bool grid = false;
+    round_options::joining join = round_options::joining::never;  ///< of the surface
+    bool surface_on_grids = true;
 };
-
-/// With at most `rounds` rounds, none where they may not move points so far.
-void put_on_grid(rounding_try& how, double step, int rounds) {
-    how.grid = step;
-    how.rounding_steps = how.rounding_steps > 0 && step <= how.max_displacement ? rounds : 0;
-}
 
 /// Of the operands as they are.
 rounding_try first_try(std::span<const mesh_view> operands, const boolean_options& options,
@@ -100,12 +97,14 @@ rounding_try first_try(std::span<const mesh_view> operands, const boolean_option
     const bool to_float = options.precision == precision::float32;
     if (!to_float && !std::isfinite(options.max_displacement)) return how;
     const point3 largest = largest_point(operands);
-    how.join_few = true;
-    if (to_float)
-        put_on_grid(how, schedule.grid_of_surface({&largest, 1}, 0),
-                    round::mending_schedule::most_rounds);
-    else if (schedule.reach_of_surface({&largest, 1}, 4) > options.max_displacement)
+    if (to_float) {
+        const double grid = schedule.grid_of_surface({&largest, 1}, 0);
+        how.join = round_options::joining::where_few_meet;
+        how.grids = {grid};
+        if (grid > options.max_displacement) how.rounding_steps = 0;
+    } else if (schedule.reach_of_surface({&largest, 1}, 4) > options.max_displacement) {
         how.rounding_steps = 0;
+    }
     return how;
 }
 
@@ -114,12 +113,14 @@ class mending {
   public:
     /// \pre the operands have been checked
     mending(std::span<const mesh_view> operands, const boolean_options& options,
-            const round::mending_schedule& schedule, const boolean_statistics& so_far)
+            const round::mending_schedule& schedule, const boolean_statistics& so_far,
+            std::uint64_t meeting)
         : options_(options),
           schedule_(schedule),
           given_(join_operands(operands)),
           operand_of_face_(given_.operand_of_face()),
           pairs_given_(so_far.pairs),
+          meeting_given_(meeting),
           rounds_(schedule.precision == precision::float32 ? so_far.rounding_steps : 0) {
         source_.resize(given_.all.faces.size());
         std::iota(source_.begin(), source_.end(), 0U);
@@ -127,7 +128,7 @@ class mending {
 
     /// How far steps reach.
     [[nodiscard]] double reach(int number) const {
-        return schedule_.reach_of_operands(given_.all.points, number);
+        return number == 0 ? 0.0 : schedule_.reach_of_operands(given_.all.points, number);
     }
 
     /// None where the grid makes far more faces meet than met.
@@ -138,11 +139,7 @@ class mending {
         const double reach = this->reach(next.number);
         const round::joined_near near = join(next_to(broken, given_.all, reach), reach, next.grid);
         const near_operands joined(near, operand_of_face_, given_.first_face.size() - 1);
-        rounding_try how{options_};
-        how.rounding_steps = schedule_.surface_steps;
-        if (next.grid)
-            put_on_grid(how, schedule_.grid_of_surface(given_.all.points, next.number),
-                        round::mending_schedule::most_rounds - rounds_);
+        rounding_try how = rounding_of(next);
         const bool has_limit = next.grid || options_.precision == precision::float32;
         if (has_limit && !schedule_.asks_operands(count_pairs(near.surface), pairs_given_))
             return std::nullopt;
@@ -157,8 +154,12 @@ class mending {
         const std::vector<mesh_view> views(joined.meshes.begin(), joined.meshes.end());
         unmended_result made = ask(std::span<const mesh_view>(views), how);
         boolean_result& result = made.result;
-        if (how.grid > 0.0) rounds_ += result.statistics.rounding_steps;
-        result.certificate.max_displacement += near.moved;
+        if (options_.precision == precision::float32 || made.on_grid)
+            rounds_ += result.statistics.rounding_steps;
+        if (std::isfinite(result.certificate.max_displacement))
+            // No corner was joined further away than that, and those that are gone are measured no more.
+            result.certificate.max_displacement =
+                std::max(displacement(result, joined), std::min(near.moved, reach));
         for (operand_element& face : result.face_source) face = face_source(joined, face);
         for (operand_element& face : result.face_of_cut_vertex) face = face_source(joined, face);
         for (operand_element& point : result.vertex_source) point = point_source(joined, point);
@@ -166,6 +167,32 @@ class mending {
     }
 
   private:
+    /// Grids for the surface, none of more rounds than are left.
+    [[nodiscard]] rounding_try rounding_of(const operand_try& next) const {
+        rounding_try how{options_};
+        how.rounding_steps = schedule_.surface_steps;
+        how.join = next.join;
+        if (next.surface_on_grids) {
+            how.grids = schedule_.grids_of_surface(
+                given_.all.points, std::max(next.number, 1), options_.max_displacement);
+            if (how.grids.empty() && how.join == round_options::joining::never)
+                how.rounding_steps = 0;
+        }
+        how.most_rounds = round::mending_schedule::most_rounds - rounds_;
+        how.most_meeting = round::mending_schedule::most_meeting(meeting_given_);
+        return how;
+    }
+
+    /// How far the result of joined operands is from those given.
+    [[nodiscard]] double displacement(const boolean_result& result,
+                                      const near_operands& joined) const {
+        std::vector<std::uint32_t> point_of;
+        for (const auto& [operand, index] : result.vertex_source)
+            point_of.push_back(operand == operand_element::none ? operand
+                                                                : joined.point_of[operand][index]);
+        return round::displacement(result.mesh.points, point_of, given_.all);
+    }
+
     [[nodiscard]] std::uint64_t count_pairs(mesh_view mesh) const {
         progress_callback progress;
         if (options_.progress) progress = [&](double) { return options_.progress(1.0); };
@@ -178,6 +205,7 @@ class mending {
     [[nodiscard]] round::joined_near join(const std::vector<std::uint8_t>& marked, double reach,
                                           bool grid) const {
         round::joined_near near{given_.all, source_};
+        if (reach == 0.0) return near;
         if (grid)
             near = round::snap_to_grid(given_.all, marked, {.step = reach, .of_operands = true});
         std::vector<std::uint8_t> still_marked;
@@ -212,7 +240,8 @@ class mending {
     std::vector<std::uint32_t> operand_of_face_;
     std::vector<std::uint32_t> source_;
     std::uint64_t pairs_given_;  ///< of faces of the operands as they are
-    int rounds_ = 0;             ///< that were taken on grids
+    std::uint64_t meeting_given_;  ///< of faces of the result of these
+    int rounds_ = 0;               ///< of mending that were taken
 };
 
 /// The surface of `mended`, and what is certain about it, with the rest as it was said before.
@@ -226,11 +255,29 @@ void take_surface(boolean_result& result, boolean_result&& mended) {
     result.vanished_at = std::move(mended.vanished_at);
 }
 
-/// Grids come first where so many faces met at first that they were mended on one.
+/// Certified, or else where fewer faces meet; of two that are, the one that moved less.
+bool is_better(const certificate& now, const certificate& before) {
+    if (now && before) return now.max_displacement < before.max_displacement;
+    return !before && (now || now.meeting_count < before.meeting_count);
+}
+
+/// Grids come first where so many faces met at first that they were mended on one. For doubles,
+/// what is near is joined first, in the operands and in the surface, as long as that may do.
 std::vector<operand_try> tries_of(const round::mending_schedule& schedule, bool grid_first) {
+    using enum round_options::joining;
+    const bool to_float = schedule.precision == precision::float32;
     std::vector<operand_try> tries;
-    for (const bool grid : {grid_first, !grid_first})
-        for (int step = 1; step <= schedule.operand_steps; ++step) tries.push_back({step, grid});
+    const auto add = [&](const operand_try& next) {
+        for (int step = 1; step <= schedule.operand_steps; ++step) {
+            tries.push_back(next);
+            tries.back().number = step;
+        }
+    };
+    if (grid_first) add({.grid = true});
+    add({.join = first, .surface_on_grids = to_float});
+    if (!to_float) tries.push_back({.number = 1});
+    if (!grid_first) add({.grid = true});
+    tries.push_back({});
     return tries;
 }
 
@@ -246,12 +293,10 @@ boolean_result with_mended_operands(
         return c.status != status::not_certified || !std::isfinite(c.max_displacement);
     };
     if (is_done(result.certificate) || schedule.operand_steps == 0) return std::move(result);
-    mending again(operands, options, schedule, result.statistics);
-    bool grows = false;
+    mending again(operands, options, schedule, result.statistics,
+                  result.certificate.meeting_count);
     for (const operand_try& next : tries_of(schedule, on_grid)) {
-        if (next.grid != on_grid) grows = false;
-        on_grid = next.grid;
-        if (grows || again.reach(next.number) > options.max_displacement) continue;
+        if (again.reach(next.number) > options.max_displacement) continue;
         std::optional<unmended_result> tried = again.step(next, broken, ask);
         if (!tried) continue;
         boolean_result& mended = tried->result;
@@ -259,14 +304,13 @@ boolean_result with_mended_operands(
             result.certificate.status = status::cancelled;
             break;
         }
-        ++result.statistics.rounding_steps;
+        result.statistics.rounding_steps += mended.statistics.rounding_steps;
         broken.insert(broken.end(), tried->broken.begin(), tried->broken.end());
         if (is_done(mended.certificate) && !mended.certificate) continue;
-        const std::uint64_t before = result.certificate.meeting_count;
-        const std::uint64_t after = mended.certificate.meeting_count;
-        if (mended.certificate || after < before) take_surface(result, std::move(mended));
-        if (result.certificate) break;
-        grows = !round::mending_schedule::mends_operands(before, after);
+        if (is_better(mended.certificate, result.certificate))
+            take_surface(result, std::move(mended));
+        if (result.certificate && result.certificate.max_displacement <= options.max_displacement)
+            break;
     }
     return std::move(result);
 }

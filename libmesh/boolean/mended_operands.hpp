@@ -2,11 +2,14 @@
 /// \file
 /// Operands that are moved a little where the result could not be rounded.
 
+#include <libmesh/round/round_surface.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,8 +17,11 @@ namespace treeform::detail::boolean {
 
 /// What is asked of operands, and how the result is rounded: with `rounding_steps` steps.
 struct rounding_try : boolean_options {
-    double grid = 0.0;      ///< as in `round_options`
-    bool join_few = false;  ///< as in `round_options`
+    // As in `round_options`.
+    std::vector<double> grids{};
+    round_options::joining join = round_options::joining::never;
+    int most_rounds = 15;
+    std::uint64_t most_meeting = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// The answer to the operands as they are.

@@ -20,7 +20,7 @@ namespace {
 // micrometer (OpenSCAD: 2^-20).
 constexpr double wide_steps = 32.0;
 constexpr int least_doublings = 6;    // 2, 4, 8 ... steps of the coordinates
-constexpr double farthest = 0x1p-23;  // of the diagonal, where that is more
+constexpr double farthest = 0x1p-11;  // of the diagonal, where that is more
 constexpr int likely_ways = 3;
 constexpr int all_ways = likely_ways + 8;
 constexpr std::size_t most_alone = 32;
@@ -42,9 +42,10 @@ std::vector<std::vector<std::uint32_t>> groups_of_equal(points_view points) {
 
 class detacher {
   public:
-    detacher(mesh& solid, precision of)
+    detacher(mesh& solid, precision of, double limit)
         : solid_(solid),
           of_(of),
+          limit_(limit),
           step_(coordinate_step(solid.points, of)),
           wide_(wide_steps * coordinate_step(solid.points, precision::float32)),
           stars_(solid.points.size(), solid.faces),
@@ -55,16 +56,14 @@ class detacher {
     }
 
     detached run() {
-        for (int way = 0; way < likely_ways && !vertices_left().empty(); ++way)
+        for (int way = 0; way < likely_ways && wide_ <= limit_ && !vertices_left().empty(); ++way)
             move(vertices_left(), way, wide_);
         const int most = most_doublings();
         for (int tried = 0; tried < most * likely_ways && !vertices_left().empty(); ++tried)
             move(vertices_left(), tried % likely_ways, steps(tried / likely_ways));
         // Neighbors may be in each other's way: each alone, while they are few.
         if (const auto left = vertices_left(); left.size() <= most_alone)
-            for (const std::uint32_t v : left)
-                for (int tried = 0; tried < least_doublings * all_ways && is_left(v); ++tried)
-                    move({v}, tried % all_ways, steps(tried / all_ways));
+            for (const std::uint32_t v : left) move_alone(v, most);
         detached result;
         result.touching = vertices_left().size();
         for (const auto& [v, twin] : twins_) {
@@ -87,12 +86,20 @@ class detacher {
         bool broke = false;
     };
 
-    /// A cone as thin as a needle is left by steps that are small against its length alone.
+    /// A cone as thin as a needle has a place in it only where it is as wide as a step. No
+    /// further than the limit.
     [[nodiscard]] int most_doublings() const {
         int most = least_doublings;
         const auto box = bounding_box(solid_.points);
         while (box && std::ldexp(step_, most) < farthest * diagonal(*box)) ++most;
+        while (most > 0 && steps(most - 1) > limit_) --most;
         return most;
+    }
+
+    void move_alone(std::uint32_t v, int most) {
+        for (int doublings = 0; doublings < most; ++doublings)
+            for (int way = 0; way < (doublings < least_doublings ? all_ways : likely_ways); ++way)
+                if (is_left(v)) move({v}, way, steps(doublings));
     }
 
     /// Whether it is where it was given, and another one, too.
@@ -228,6 +235,7 @@ class detacher {
 
     mesh& solid_;
     precision of_;
+    double limit_;
     double step_;
     double wide_;
     base::stars stars_;
@@ -237,6 +245,8 @@ class detacher {
 
 }  // namespace
 
-detached detach(mesh& solid, precision of) { return detacher(solid, of).run(); }
+detached detach(mesh& solid, precision of, double limit) {
+    return detacher(solid, of, limit).run();
+}
 
 }  // namespace treeform::detail::repair

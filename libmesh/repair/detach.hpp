@@ -20,10 +20,11 @@ struct detached {
 /// faces, so that programs which join equal coordinates see a manifold. What is moved is checked
 /// exactly; what would break is left, and counted.
 ///
-/// \param of precision of the coordinates, before and after
+/// \param of    precision of the coordinates, before and after
+/// \param limit the furthest that a coordinate may move
 /// \pre   a closed manifold by numbers, of which no two faces meet (`split_nonmanifold`)
 /// \cost  O(V + F), and as `self_intersections` of the faces moved against all others, a few times
 /// \same  on any number of threads
-detached detach(mesh& solid, precision of);
+detached detach(mesh& solid, precision of, double limit);
 
 }  // namespace treeform::detail::repair

@@ -397,7 +397,7 @@ class repairer {
         // Of equal points, faces use one from the beginning: what was kept has no twins.
         if (!options_.detach || !options_.resolve || is_kept_) return;
         const detail::repair::detached done =
-            detail::repair::detach(result_.mesh, options_.precision);
+            detail::repair::detach(result_.mesh, options_.precision, options_.max_displacement);
         did_.detached = done.moved;
         did_.touching = done.touching;
         result_.certificate.max_displacement =

@@ -36,10 +36,6 @@ bool mending_schedule::mends_surface(const mending_state& state) const {
     return !is_worse && state.faces <= 4 * state.faces_given + 1000;
 }
 
-bool mending_schedule::mends_operands(std::uint64_t meeting_before, std::uint64_t meeting) {
-    return meeting <= 4 * meeting_before + 1000;
-}
-
 double mending_schedule::reach_of_surface(points_view points, int step) const {
     return reach_of_bits(points, bits_of_first_step(precision) - 2 * (step - 1));
 }
@@ -52,6 +48,16 @@ double mending_schedule::grid_of_surface(points_view points, int step) const {
     return reach_of_bits(points, bits_of_first_step(precision) - 1 - 4 * step);
 }
 
+std::vector<double> mending_schedule::grids_of_surface(points_view points, int step,
+                                                       double limit) const {
+    std::vector<double> grids;
+    for (double grid = grid_of_surface(points, step); static_cast<int>(grids.size()) < most_grids &&
+                                                      grid / 2 <= limit;
+         grid *= 4)
+        grids.push_back(grid);
+    return grids;
+}
+
 double mending_schedule::grid_of_operands(points_view points, int step) const {
     return reach_of_operands(points, step);
 }
@@ -62,9 +68,12 @@ bool mending_schedule::are_few(const mending_state& state) {
 
 bool mending_schedule::mends_on_grid(const mending_state& state) {
     const bool is_better = state.meeting < state.meeting_before;
-    return (state.steps == 0 || is_better || 2 * state.meeting < state.faces / 16) &&
+    const bool may_be = state.steps == 1 && 2 * state.meeting < state.faces / 16;
+    return (state.steps == 0 || is_better || may_be) && state.steps < most_rounds_of_grid &&
            state.faces <= 3 * state.faces_given + 1000;
 }
+
+std::uint64_t mending_schedule::most_meeting(std::uint64_t meeting) { return 4 * meeting + 1000; }
 
 bool mending_schedule::is_too_much(std::uint64_t pairs, std::size_t faces_given) {
     return pairs > 3 * faces_given + 1000;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace treeform::detail::round {
 
@@ -32,12 +33,14 @@ struct mending_state {
 /// smaller features there, and joining them ends nowhere. So, for float32 from the start unless few
 /// faces meet, and else where the steps above have failed, mending is on uniform grids: what is next to broken
 /// places is put on one, of operands and of the surface, and cut again, in rounds. The first grids
-/// are those of 2^-22 of the largest coordinate for operands, 2^-48 for float64, with one of 2^-17 or
-/// 2^-43 for their surface; the following ones are sixteen times as wide. Operands as they are have
-/// a surface on a grid of 2^-21. All are wider than the precision, to which cuts are rounded: on
-/// a grid of just the precision, cuts move as far as features are wide, and each round breaks more
-/// than it mends. For the same reason each grid starts from the operands, not from what the grid
-/// before has cut to pieces.
+/// are those of 2^-22 of the largest coordinate for operands, 2^-48 for float64; the following ones
+/// are sixteen times as wide. For the surface of each there are three, 2^-17, 2^-15 and 2^-13, or
+/// 2^-43, 2^-41 and 2^-39 at first, of which each begins from the surface as it was first rounded,
+/// so that neither moves nor pieces add up. They follow on joining, too. Operands as they are have
+/// a surface on a grid of 2^-21, and at last on those three. All are wider than the precision, to
+/// which cuts are rounded: on a grid of just the precision, cuts move as far as features are wide,
+/// and each round breaks more than it mends. For the same reason each try starts from the operands,
+/// not from what the one before has cut to pieces.
 struct mending_schedule {
     treeform::precision precision = treeform::precision::float64;
     int surface_steps = 0;  ///< that are taken whether they help or not; none at all for 0
@@ -50,9 +53,9 @@ struct mending_schedule {
     /// to 4, or 12 where nothing is joined, on one that left fewer faces that meet. None where the
     /// surface only grows by it.
     [[nodiscard]] bool mends_surface(const mending_state& state) const;
-    /// Whether steps of operands are worth going on with after one that changed the number of faces
-    /// that meet so.
-    [[nodiscard]] static bool mends_operands(std::uint64_t meeting_before, std::uint64_t meeting);
+    /// How many pairs of faces may meet at first, of operands that are joined, if that many did
+    /// before: more are not worth mending.
+    [[nodiscard]] static std::uint64_t most_meeting(std::uint64_t meeting);
 
     /// What counts as next to each other in step 1, 2, ...
     /// \pre coordinates are finite \cost O(V)
@@ -63,16 +66,22 @@ struct mending_schedule {
     /// \pre coordinates are finite \cost O(V)
     [[nodiscard]] double grid_of_surface(points_view points, int step) const;
     [[nodiscard]] double grid_of_operands(points_view points, int step) const;
+    /// These and the next ones, four times as wide each, of which half a step is within the limit.
+    [[nodiscard]] std::vector<double> grids_of_surface(points_view points, int step,
+                                                       double limit) const;
     /// Whether only few faces meet, so that one more step costs little.
     [[nodiscard]] static bool are_few(const mending_state& state);
     /// Whether a broken surface gets one more round on its grid, as all do that have left fewer
-    /// faces that meet, or only few, to 15 for all tries of a result together.
+    /// faces that meet, or only few in the first round, to 6, and 15 for all tries of a result
+    /// together. More rounds where that is not so break more than they mend.
     [[nodiscard]] static bool mends_on_grid(const mending_state& state);
     /// Whether so many pairs of faces are too many to be cut, of a surface that had so many faces.
     [[nodiscard]] static bool is_too_much(std::uint64_t pairs, std::size_t faces_given);
     /// Whether operands on a grid, with so many pairs of faces that meet, are worth cutting.
     [[nodiscard]] static bool asks_operands(std::uint64_t pairs, std::uint64_t pairs_given);
-    static constexpr int most_rounds = 15;
+    static constexpr int most_rounds = 15;         ///< of mending, of all tries of a result
+    static constexpr int most_rounds_of_grid = 6;  ///< on one grid
+    static constexpr int most_grids = 3;           ///< of one try
 };
 
 }  // namespace treeform::detail::round

@@ -6,6 +6,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/used_points.hpp>
+#include <libmesh/round/displacement.hpp>
 #include <libmesh/round/mending_schedule.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/round/snap_nearby.hpp>
@@ -54,7 +55,7 @@ class rounding {
     rounding(exact_surface exact, const round_options& options)
         : options_(options),
           schedule_{options.precision,
-                    options.grid > 0.0 ? std::min(options.steps, 2) : options.steps},
+                    options.grids.empty() ? options.steps : std::min(options.steps, 2)},
           exact_(std::move(exact)),
           faces_given_(exact_.faces.size()) {
         point_of_.resize(exact_.given.size() + exact_.constructed.size());
@@ -65,19 +66,17 @@ class rounding {
 
     rounded_surface run() {
         result_.certificate.status = status::out_of_range;
-        while (settle()) {
+        if (settle()) {
+            first_move_ = result_.certificate.max_displacement = moved_most_;
             const bool sound = check();
-            if (result_.steps == 0 && (vanished_ || !sound)) remember_parts();
-            if (sound || is_cancelled()) break;
-            if (!goes_on()) break;
-            ++result_.steps;
-            last_meeting_count_ = result_.certificate.meeting_count;
-            if (!cut_again()) break;
+            if (vanished_ || !sound) remember_parts();
+            if (!sound && !is_cancelled() && options_.steps > 0) mend();
         }
         point_of_.resize(result_.surface.points.size());  // a step may have ended half way
         if (vanished_) drop_unused_points();
         count_vanished_components();
         result_.point_of = std::move(point_of_);
+        if (result_.steps > 0) measure();
         return std::move(result_);
     }
 
@@ -87,8 +86,93 @@ class rounding {
         return result_.certificate.status == status::cancelled;
     }
 
+    /// The surface as it was first rounded.
+    struct rounded_first {
+        mesh surface{};
+        std::vector<std::uint32_t> face_of{}, point_of{};
+        std::vector<std::uint8_t> sound{}, offending{};
+        treeform::certificate certificate{};
+        double moved = 0.0;
+        bool vanished = false;
+    };
+
+    /// Tries one way of mending after the other, each on the surface as it was first rounded.
+    void mend() {
+        if (result_.certificate.meeting_count > options_.most_meeting) return;
+        using enum round_options::joining;
+        const bool joins = options_.grids.empty() || options_.join == first ||
+                           (options_.join == where_few_meet &&
+                            detail::round::mending_schedule::are_few(state()));
+        std::vector<double> ways;  // grids, or 0
+        if (joins) ways.push_back(0.0);
+        if (!joins || options_.join == first)
+            ways.insert(ways.end(), options_.grids.begin(), options_.grids.end());
+        remember_places();
+        rounded_first begin;
+        if (ways.size() > 1)
+            begin = {result_.surface, result_.face_of,      point_of_, sound_,
+                     offending_,      result_.certificate, moved_,    vanished_};
+        for (std::size_t i = 0; i < ways.size(); ++i) {
+            if (i > 0) begin_again(begin);
+            if (mend_by(ways[i]) || is_cancelled()) return;
+        }
+        if (ways.size() > 1) begin_again(begin);
+    }
+
+    void begin_again(const rounded_first& first) {
+        result_.surface = first.surface;
+        result_.face_of = first.face_of;
+        result_.certificate = first.certificate;
+        point_of_ = first.point_of;
+        sound_ = first.sound;
+        offending_ = first.offending;
+        moved_ = first.moved;
+        vanished_ = first.vanished;
+    }
+
+    /// Steps on one grid, or none of them where it is 0. Whether that has mended the surface.
+    bool mend_by(double grid) {
+        grid_ = grid;
+        result_.on_grid = grid > 0.0;
+        steps_ = 0;
+        last_meeting_count_ = 0;
+        joined_most_ = 0.0;
+        only_cut_ = false;
+        while (goes_on()) {
+            ++steps_;
+            ++result_.steps;
+            if (result_.on_grid) ++rounds_;
+            last_meeting_count_ = result_.certificate.meeting_count;
+            if (!cut_again() || !settle()) return false;
+            if (check()) return true;
+            if (is_cancelled()) return false;
+        }
+        return false;
+    }
+
+    /// Where all points were, to the nearest doubles, and the faces between them.
+    void remember_places() {
+        const std::size_t given = exact_.given.size();
+        before_.faces = exact_.faces;
+        before_.points = exact_.given;
+        before_.points.resize(given + exact_.constructed.size());
+        for_chunks(exact_.constructed.size(), point_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t p = begin; p < end; ++p)
+                           before_.points[given + p] = rounded(exact_.constructed[p]);
+                   });
+    }
+
+    void measure() {
+        double slack = 0.0;  // of the places of before
+        for (const point3& p : result_.surface.points) slack = std::max(slack, half_unit(p));
+        const double moved =
+            detail::round::displacement(result_.surface.points, result_.point_of, before_);
+        result_.certificate.max_displacement = std::max({first_move_, joined_most_, moved + slack});
+    }
+
     [[nodiscard]] detail::round::mending_state state() const {
-        return {.steps = result_.steps,
+        return {.steps = steps_,
                 .meeting = result_.certificate.meeting_count,
                 .meeting_before = last_meeting_count_,
                 .faces = result_.surface.faces.size(),
@@ -96,15 +180,11 @@ class rounding {
                 .only_cut = only_cut_};
     }
 
-    /// Whether the broken surface gets one more step. Where only few faces meet at first, joining
-    /// what is near does best.
-    [[nodiscard]] bool goes_on() {
-        const detail::round::mending_state now = state();
-        if (now.steps == 0)
-            result_.on_grid = options_.grid > 0.0 &&
-                              !(options_.join_few && detail::round::mending_schedule::are_few(now));
-        if (!result_.on_grid) return schedule_.mends_surface(now);
-        return now.steps < options_.steps && detail::round::mending_schedule::mends_on_grid(now);
+    /// Whether the broken surface gets one more step.
+    [[nodiscard]] bool goes_on() const {
+        if (!result_.on_grid) return schedule_.mends_surface(state());
+        return rounds_ < options_.most_rounds &&
+               detail::round::mending_schedule::mends_on_grid(state());
     }
 
     /// Each phase has half of the work that was left; nobody knows how many there will be.
@@ -139,7 +219,8 @@ class rounding {
                        }
                    });
         const double move = *std::max_element(moves.begin(), moves.end());
-        result_.certificate.max_displacement += move;
+        moved_most_ = move;
+        if (!finite) first_move_ = result_.certificate.max_displacement = move;
         const bool joined = join_equal(points, std::move(at));
         moved_ = joined && move > 0.0 ? std::numeric_limits<double>::infinity() : move;
         return finite;
@@ -306,7 +387,7 @@ class rounding {
         const detail::round::joined_near near =
             result_.on_grid ? join_on_grid() : join_what_is_near();
         const mesh& now = near.surface;
-        if ((result_.on_grid || to_float32()) && is_too_much(now)) return false;
+        if (is_too_much(now)) return false;
         arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
         if (arranged.cancelled) result_.certificate.status = status::cancelled;
         if (arranged.cancelled) return false;
@@ -342,8 +423,8 @@ class rounding {
 
     detail::round::joined_near join_on_grid() {
         detail::round::joined_near near = detail::round::snap_to_grid(
-            result_.surface, offending_, {.step = options_.grid, .solid = options_.solid});
-        result_.certificate.max_displacement += near.moved;
+            result_.surface, offending_, {.step = grid_, .solid = options_.solid});
+        joined_most_ = std::max(joined_most_, near.moved);
         return near;
     }
 
@@ -363,7 +444,7 @@ class rounding {
     detail::round::joined_near join_what_is_near() {
         const mesh& now = result_.surface;
         const detail::round::joint how{
-            .reach = schedule_.reach_of_surface(now.points, result_.steps),
+            .reach = schedule_.reach_of_surface(now.points, steps_),
             .source = result_.face_of,
             .solid = options_.solid};
         constexpr int most_rounds = 8;
@@ -389,7 +470,7 @@ class rounding {
             near.face_of.resize(now.faces.size());
             std::iota(near.face_of.begin(), near.face_of.end(), 0U);
         }
-        result_.certificate.max_displacement += near.moved;
+        joined_most_ = std::max(joined_most_, std::min(near.moved, how.reach));
         point_of_.resize(near.surface.points.size(), rounded_surface::none);
         return near;
     }
@@ -404,8 +485,15 @@ class rounding {
     std::vector<std::uint8_t> sound_;      ///< by face, or empty
     std::vector<std::uint8_t> offending_;  ///< by face
     std::size_t faces_given_;
+    mesh before_{};          ///< as `exact_` was given, in doubles, once something is mended
+    double first_move_ = 0.0;
+    double joined_most_ = 0.0;  ///< how far at most, in one step, corners were joined
+    double grid_ = 0.0;         ///< mending is on, or 0
+    int steps_ = 0;      ///< of mending on this grid
+    int rounds_ = 0;     ///< on all grids
     std::uint64_t last_meeting_count_ = 0;
-    double moved_ = 0.0;     ///< how far, in the last rounding; infinite where points were joined
+    double moved_most_ = 0.0;  ///< in the last rounding
+    double moved_ = 0.0;     ///< the same; infinite where points were joined
     bool vanished_ = false;  ///< some faces, so that points may be left that none has
     bool only_cut_ = false;  ///< joining what is near has been seen to spread
     double done_ = 0.0;

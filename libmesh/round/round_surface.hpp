@@ -37,11 +37,19 @@ struct round_options {
     /// Steps of mending before what rounding has broken is reported, and more, to 4, or 12 where
     /// no points are joined, while each leaves fewer faces that meet; none for 0.
     int steps = 4;
-    /// Where it is not 0, mending puts the corners of faces that meet on the grid of this step,
-    /// instead of joining what is near; in `steps` rounds at most, as long as each leaves fewer
-    /// faces that meet, or few. A power of two, at least the precision's step at the largest coordinate.
-    double grid = 0.0;
-    bool join_few = false;  ///< with a grid: where few faces meet at first, do without it
+    /// Mending on grids puts the corners of faces that meet on one of these steps, instead of
+    /// joining what is near; each grid begins from the surface as it was first rounded, as long as
+    /// none before has done. Powers of two, at least the precision's step at the largest coordinate.
+    std::vector<double> grids{};
+    /// With grids: whether joining what is near comes first, instead of them, or not at all.
+    enum class joining : std::uint8_t {
+        first,
+        where_few_meet,  ///< there instead of grids, elsewhere not at all
+        never
+    } join = joining::never;
+    int most_rounds = 15;  ///< of mending on grids, those of all grids together
+    /// Where more pairs of faces meet at first, nothing is mended.
+    std::uint64_t most_meeting = std::numeric_limits<std::uint64_t>::max();
     progress_callback progress{};
 };
 
@@ -58,7 +66,7 @@ struct rounded_surface {
     /// often one way as the other and have its inside behind them.
     treeform::certificate certificate{};
     int steps = 0;                          ///< of mending that were taken
-    bool on_grid = false;                   ///< the steps were on `round_options::grid`
+    bool on_grid = false;                   ///< the last were on one of `round_options::grids`
     std::vector<aabb<double, 3>> broken{};  ///< boxes of all faces that met in any step
     /// Components of the exact surface, by points, no face of which is left: all of each was within
     /// what the rounded coordinates tell apart.
@@ -78,9 +86,13 @@ struct rounded_surface {
 /// follows. Faces that lose their area or cover each other in opposite directions vanish; points of
 /// these places may move by that much.
 ///
-/// On a grid (`round_options::grid`), corners of faces that meet are put there instead, with what
+/// On a grid (`round_options::grids`), corners of faces that meet are put there instead, with what
 /// would come to the same places. It ends, too, where a step would have to cut more than three
-/// times as many pairs of faces as there were faces.
+/// times as many pairs of faces as there were faces. What is left broken on all of several grids
+/// is given back as it was first rounded.
+///
+/// Where anything was mended, `certificate::max_displacement` is measured at the end
+/// (`detail::round::displacement`), and moves on the way do not add up.
 ///
 /// No number of steps is sure to suffice: the certificate tells. Mending also ends when the surface
 /// only grows by it. Status `out_of_range`: a coordinate was too large to be rounded.

@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -40,14 +41,23 @@ std::vector<std::uint64_t> seeds() {
     return all;
 }
 
+/// Mending in floats is bounded, and what it leaves is no larger than three times the exact result.
+template <class Result>
+void check_floats(const Result& doubles, const Result& floats) {
+    test::check_floats(doubles, floats);
+    CHECK(floats.mesh.faces.size() <= 3 * floats.statistics.exact_faces + 1000);
+    if constexpr (requires { floats.statistics.rounding_steps; })
+        CHECK(floats.statistics.rounding_steps <= 15);
+}
+
 void check_formula(const std::vector<tf::mesh>& operands, const tf::boolean_expression& formula) {
     const std::vector<tf::mesh_view> views(operands.begin(), operands.end());
-    test::check_floats(tf::boolean(views, formula),
-                       tf::boolean(views, formula, {.precision = to_float}));
+    check_floats(tf::boolean(views, formula),
+                 tf::boolean(views, formula, {.precision = to_float}));
 }
 
 void check_repair(const tf::mesh& mesh) {
-    test::check_floats(
+    check_floats(
         tf::resolve_self_intersections(mesh),
         tf::resolve_self_intersections(mesh, tf::resolve_mode::outer, {.precision = to_float}));
 }
@@ -81,9 +91,29 @@ TEST_CASE("layers of noise can be written") {
             for (const tf::boolean_expression& asked : made.asked) {
                 const auto floats = tf::boolean(views, asked, {.precision = to_float});
                 if (floats.certificate.status != tf::status::vanished)
-                    test::check_floats(tf::boolean(views, asked), floats);
+                    check_floats(tf::boolean(views, asked), floats);
             }
         }
+    }
+}
+
+TEST_CASE("models that others fail on are repaired within a thousandth of their size") {
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
+    for (const std::string_view name : {"openscad_crash_1k.obj", "ht90_actuator_4k.stl"}) {
+        CAPTURE(name);
+        const tf::mesh mesh =
+            tf::join_equal_points(tf::read(folder / "selfint" / std::string(name)).mesh);
+        const double most = 1e-3 * tf::diagonal(*tf::bounding_box(mesh.points));
+        const tf::repair_result doubles = tf::repair(mesh);
+        const tf::repair_result floats =
+            tf::repair(mesh, {.precision = to_float, .max_displacement = most});
+        test::check_floats(doubles, floats);
+        CHECK(floats.certificate.max_displacement <= most);
+        const double volume = tf::signed_volume(doubles.mesh);
+        CHECK(std::abs(tf::signed_volume(floats.mesh) - volume) < 1e-3 * volume);
+        // Needles that meet in their tips, as deep as they have to be moved apart.
+        if (name == "ht90_actuator_4k.stl") CHECK(floats.statistics.touching == 0);
     }
 }
 

@@ -8,6 +8,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/random.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
@@ -347,6 +348,28 @@ TEST_CASE("repair: what touches in an edge or a vertex is moved apart, in floats
             CHECK(kept.certificate.max_displacement == 0.0);
             CHECK_FALSE(is_manifold_in_coordinates(kept.mesh));
         }
+}
+
+TEST_CASE("repair: any heap of cubes, touching as they may, is a manifold in coordinates") {
+    test::random source(41);
+    for (int round = 0; round < 60; ++round) {
+        CAPTURE(round);
+        tf::mesh heap;
+        const std::size_t bits = source.below(std::size_t{1} << 27);
+        double cubes = 0.0;
+        for (std::size_t i = 0; i < 27; ++i) {
+            if ((bits >> i & 1U) == 0) continue;
+            const auto at = [&](std::size_t over) { return static_cast<double>(i / over % 3); };
+            const tf::mesh cube = test::moved(test::box(1, 1, 1), {at(1), at(3), at(9)});
+            heap = test::together(heap, cube);
+            cubes += 1.0;
+        }
+        const tf::precision of = round % 2 == 0 ? tf::precision::float64 : tf::precision::float32;
+        const tf::repair_result result = tf::repair(heap, {.precision = of});
+        require_solid(result, cubes);
+        CHECK(result.statistics.touching == 0);
+        CHECK(result.certificate.max_displacement < 1e-4);
+    }
 }
 
 TEST_CASE("repair: a sheet keeps its border when asked, and is no solid otherwise") {
