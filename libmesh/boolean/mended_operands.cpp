@@ -178,7 +178,8 @@ class mending {
             if (how.grids.empty() && how.join == round_options::joining::never)
                 how.rounding_steps = 0;
         }
-        how.most_rounds = round::mending_schedule::most_rounds - rounds_;
+        how.most_rounds = round::mending_schedule::rounds_of_try(
+            round::mending_schedule::most_rounds - rounds_);
         how.most_meeting = round::mending_schedule::most_meeting(meeting_given_);
         return how;
     }

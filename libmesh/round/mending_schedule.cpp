@@ -68,10 +68,13 @@ bool mending_schedule::are_few(const mending_state& state) {
 
 bool mending_schedule::mends_on_grid(const mending_state& state) {
     const bool is_better = state.meeting < state.meeting_before;
-    const bool may_be = state.steps == 1 && 2 * state.meeting < state.faces / 16;
-    return (state.steps == 0 || is_better || may_be) && state.steps < most_rounds_of_grid &&
+    const bool are_few = 2 * state.meeting < state.faces / 16;
+    const bool is_nearly_done = are_few && 32 * state.meeting <= state.meeting_at_first;
+    return (state.steps == 0 || is_better || (state.steps == 1 && are_few) || is_nearly_done) && state.steps < most_rounds_of_grid &&
            state.faces <= 3 * state.faces_given + 1000;
 }
+
+int mending_schedule::rounds_of_try(int left) { return std::min(left, std::max((left + 1) / 2, 3)); }
 
 std::uint64_t mending_schedule::most_meeting(std::uint64_t meeting) { return 4 * meeting + 1000; }
 

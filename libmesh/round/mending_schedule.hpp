@@ -15,6 +15,7 @@ struct mending_state {
     int steps = 0;                     ///< taken
     std::uint64_t meeting = 0;         ///< faces that meet now
     std::uint64_t meeting_before = 0;  ///< before the last step
+    std::uint64_t meeting_at_first = 0;
     std::size_t faces = 0;
     std::size_t faces_given = 0;
     bool only_cut = false;  ///< nothing is joined any more
@@ -72,14 +73,17 @@ struct mending_schedule {
     /// Whether only few faces meet, so that one more step costs little.
     [[nodiscard]] static bool are_few(const mending_state& state);
     /// Whether a broken surface gets one more round on its grid, as all do that have left fewer
-    /// faces that meet, or only few in the first round, to 6, and 15 for all tries of a result
-    /// together. More rounds where that is not so break more than they mend.
+    /// faces that meet, only few in the first round, or next to none of those at first, to 6, and
+    /// 15 for all tries of a result together. More rounds where that is not so break more than they mend.
     [[nodiscard]] static bool mends_on_grid(const mending_state& state);
     /// Whether so many pairs of faces are too many to be cut, of a surface that had so many faces.
     [[nodiscard]] static bool is_too_much(std::uint64_t pairs, std::size_t faces_given);
     /// Whether operands on a grid, with so many pairs of faces that meet, are worth cutting.
     [[nodiscard]] static bool asks_operands(std::uint64_t pairs, std::uint64_t pairs_given);
     static constexpr int most_rounds = 15;         ///< of mending, of all tries of a result
+    /// Of those that are left, how many the next try may take: half of them, so that a wider one
+    /// may follow.
+    [[nodiscard]] static int rounds_of_try(int left);
     static constexpr int most_rounds_of_grid = 6;  ///< on one grid
     static constexpr int most_grids = 3;           ///< of one try
 };

@@ -98,7 +98,8 @@ class rounding {
 
     /// Tries one way of mending after the other, each on the surface as it was first rounded.
     void mend() {
-        if (result_.certificate.meeting_count > options_.most_meeting) return;
+        meeting_at_first_ = result_.certificate.meeting_count;
+        if (meeting_at_first_ > options_.most_meeting) return;
         using enum round_options::joining;
         const bool joins = options_.grids.empty() || options_.join == first ||
                            (options_.join == where_few_meet &&
@@ -175,6 +176,7 @@ class rounding {
         return {.steps = steps_,
                 .meeting = result_.certificate.meeting_count,
                 .meeting_before = last_meeting_count_,
+                .meeting_at_first = meeting_at_first_,
                 .faces = result_.surface.faces.size(),
                 .faces_given = faces_given_,
                 .only_cut = only_cut_};
@@ -182,9 +184,9 @@ class rounding {
 
     /// Whether the broken surface gets one more step.
     [[nodiscard]] bool goes_on() const {
+        if ((to_float32() ? result_.steps : rounds_) >= options_.most_rounds) return false;
         if (!result_.on_grid) return schedule_.mends_surface(state());
-        return rounds_ < options_.most_rounds &&
-               detail::round::mending_schedule::mends_on_grid(state());
+        return detail::round::mending_schedule::mends_on_grid(state());
     }
 
     /// Each phase has half of the work that was left; nobody knows how many there will be.
@@ -387,7 +389,7 @@ class rounding {
         const detail::round::joined_near near =
             result_.on_grid ? join_on_grid() : join_what_is_near();
         const mesh& now = near.surface;
-        if (is_too_much(now)) return false;
+        if ((result_.on_grid || to_float32()) && is_too_much(now)) return false;
         arrange_faces_result arranged = arrange_faces(now, {.progress = next_phase()});
         if (arranged.cancelled) result_.certificate.status = status::cancelled;
         if (arranged.cancelled) return false;
@@ -491,6 +493,7 @@ class rounding {
     double grid_ = 0.0;         ///< mending is on, or 0
     int steps_ = 0;      ///< of mending on this grid
     int rounds_ = 0;     ///< on all grids
+    std::uint64_t meeting_at_first_ = 0;
     std::uint64_t last_meeting_count_ = 0;
     double moved_most_ = 0.0;  ///< in the last rounding
     double moved_ = 0.0;     ///< the same; infinite where points were joined

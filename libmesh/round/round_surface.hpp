@@ -47,7 +47,8 @@ struct round_options {
         where_few_meet,  ///< there instead of grids, elsewhere not at all
         never
     } join = joining::never;
-    int most_rounds = 15;  ///< of mending on grids, those of all grids together
+    /// Steps of mending on grids, of all grids together; for float32, of any mending.
+    int most_rounds = 15;
     /// Where more pairs of faces meet at first, nothing is mended.
     std::uint64_t most_meeting = std::numeric_limits<std::uint64_t>::max();
     progress_callback progress{};
