@@ -1,8 +1,11 @@
 #include <libmesh/base/operand_name.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/words.hpp>
 #include <treeform/mesh/certificate.hpp>
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace treeform {
@@ -39,11 +42,23 @@ std::string when_rounded(const certificate& c) {
     return c.precision == precision::float32 ? " when rounded to float" : " when rounded to double";
 }
 
+/// From the largest coordinate to the next float32.
+double step_at(const point3& p) {
+    const auto largest = static_cast<float>(detail::base::largest_of(p));
+    return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity())) -
+           static_cast<double>(largest);
+}
+
 std::string meeting_message(const certificate& c) {
     if (c.meeting_count == 0) return "a hole could not be closed";
     std::string text = counted(c.meeting_count, "pair of faces meets", "pairs of faces meet");
     if (c.max_displacement > 0.0) text += when_rounded(c);
-    return c.meeting_at.empty() ? text : text + ", the first near " + place_of(c.meeting_at[0]);
+    if (c.meeting_at.empty()) return text;
+    text += ", the first near " + place_of(c.meeting_at[0]);
+    if (c.precision == precision::float32 && c.max_displacement > 0.0)
+        text += ", where float32 numbers are " + detail::base::brief(step_at(c.meeting_at[0])) +
+                " apart; nearer to the origin they are closer";
+    return text;
 }
 
 std::string vanished_message(const certificate& c) {

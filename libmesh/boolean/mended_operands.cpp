@@ -173,13 +173,13 @@ class mending {
         how.rounding_steps = schedule_.surface_steps;
         how.join = next.join;
         if (next.surface_on_grids) {
-            how.grids = schedule_.grids_of_surface(
-                given_.all.points, std::max(next.number, 1), options_.max_displacement);
+            how.grids = schedule_.grids_of_surface(given_.all.points, std::max(next.number, 1),
+                                                   options_.max_displacement);
             if (how.grids.empty() && how.join == round_options::joining::never)
                 how.rounding_steps = 0;
         }
-        how.most_rounds = round::mending_schedule::rounds_of_try(
-            round::mending_schedule::most_rounds - rounds_);
+        how.most_rounds =
+            round::mending_schedule::rounds_of_try(round::mending_schedule::most_rounds - rounds_);
         how.most_meeting = round::mending_schedule::most_meeting(meeting_given_);
         return how;
     }
@@ -240,7 +240,7 @@ class mending {
     joined_operands given_;
     std::vector<std::uint32_t> operand_of_face_;
     std::vector<std::uint32_t> source_;
-    std::uint64_t pairs_given_;  ///< of faces of the operands as they are
+    std::uint64_t pairs_given_;    ///< of faces of the operands as they are
     std::uint64_t meeting_given_;  ///< of faces of the result of these
     int rounds_ = 0;               ///< of mending that were taken
 };
@@ -294,8 +294,7 @@ boolean_result with_mended_operands(
         return c.status != status::not_certified || !std::isfinite(c.max_displacement);
     };
     if (is_done(result.certificate) || schedule.operand_steps == 0) return std::move(result);
-    mending again(operands, options, schedule, result.statistics,
-                  result.certificate.meeting_count);
+    mending again(operands, options, schedule, result.statistics, result.certificate.meeting_count);
     for (const operand_try& next : tries_of(schedule, on_grid)) {
         if (again.reach(next.number) > options.max_displacement) continue;
         std::optional<unmended_result> tried = again.step(next, broken, ask);

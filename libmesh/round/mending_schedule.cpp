@@ -51,9 +51,8 @@ double mending_schedule::grid_of_surface(points_view points, int step) const {
 std::vector<double> mending_schedule::grids_of_surface(points_view points, int step,
                                                        double limit) const {
     std::vector<double> grids;
-    for (double grid = grid_of_surface(points, step); static_cast<int>(grids.size()) < most_grids &&
-                                                      grid / 2 <= limit;
-         grid *= 4)
+    for (double grid = grid_of_surface(points, step);
+         static_cast<int>(grids.size()) < most_grids && grid / 2 <= limit; grid *= 4)
         grids.push_back(grid);
     return grids;
 }
@@ -70,11 +69,13 @@ bool mending_schedule::mends_on_grid(const mending_state& state) {
     const bool is_better = state.meeting < state.meeting_before;
     const bool are_few = 2 * state.meeting < state.faces / 16;
     const bool is_nearly_done = are_few && 32 * state.meeting <= state.meeting_at_first;
-    return (state.steps == 0 || is_better || (state.steps == 1 && are_few) || is_nearly_done) && state.steps < most_rounds_of_grid &&
-           state.faces <= 3 * state.faces_given + 1000;
+    return (state.steps == 0 || is_better || (state.steps == 1 && are_few) || is_nearly_done) &&
+           state.steps < most_rounds_of_grid && state.faces <= 3 * state.faces_given + 1000;
 }
 
-int mending_schedule::rounds_of_try(int left) { return std::min(left, std::max((left + 1) / 2, 3)); }
+int mending_schedule::rounds_of_try(int left) {
+    return std::min(left, std::max((left + 1) / 2, 3));
+}
 
 std::uint64_t mending_schedule::most_meeting(std::uint64_t meeting) { return 4 * meeting + 1000; }
 

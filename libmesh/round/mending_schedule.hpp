@@ -80,7 +80,7 @@ struct mending_schedule {
     [[nodiscard]] static bool is_too_much(std::uint64_t pairs, std::size_t faces_given);
     /// Whether operands on a grid, with so many pairs of faces that meet, are worth cutting.
     [[nodiscard]] static bool asks_operands(std::uint64_t pairs, std::uint64_t pairs_given);
-    static constexpr int most_rounds = 15;         ///< of mending, of all tries of a result
+    static constexpr int most_rounds = 15;  ///< of mending, of all tries of a result
     /// Of those that are left, how many the next try may take: half of them, so that a wider one
     /// may follow.
     [[nodiscard]] static int rounds_of_try(int left);

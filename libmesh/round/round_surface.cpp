@@ -7,6 +7,7 @@
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/round/displacement.hpp>
+#include <libmesh/round/drop_unused_points.hpp>
 #include <libmesh/round/mending_schedule.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/round/snap_nearby.hpp>
@@ -73,7 +74,7 @@ class rounding {
             if (!sound && !is_cancelled() && options_.steps > 0) mend();
         }
         point_of_.resize(result_.surface.points.size());  // a step may have ended half way
-        if (vanished_) drop_unused_points();
+        if (vanished_) detail::round::drop_unused_points(result_.surface, point_of_);
         count_vanished_components();
         result_.point_of = std::move(point_of_);
         if (result_.steps > 0) measure();
@@ -101,9 +102,9 @@ class rounding {
         meeting_at_first_ = result_.certificate.meeting_count;
         if (meeting_at_first_ > options_.most_meeting) return;
         using enum round_options::joining;
-        const bool joins = options_.grids.empty() || options_.join == first ||
-                           (options_.join == where_few_meet &&
-                            detail::round::mending_schedule::are_few(state()));
+        const bool joins =
+            options_.grids.empty() || options_.join == first ||
+            (options_.join == where_few_meet && detail::round::mending_schedule::are_few(state()));
         std::vector<double> ways;  // grids, or 0
         if (joins) ways.push_back(0.0);
         if (!joins || options_.join == first)
@@ -111,7 +112,7 @@ class rounding {
         remember_places();
         rounded_first begin;
         if (ways.size() > 1)
-            begin = {result_.surface, result_.face_of,      point_of_, sound_,
+            begin = {result_.surface, result_.face_of,     point_of_, sound_,
                      offending_,      result_.certificate, moved_,    vanished_};
         for (std::size_t i = 0; i < ways.size(); ++i) {
             if (i > 0) begin_again(begin);
@@ -299,23 +300,6 @@ class rounding {
         result_.face_of = std::move(face_of);
     }
 
-    /// Faces that vanish leave points behind.
-    void drop_unused_points() {
-        mesh& now = result_.surface;
-        const std::vector<std::uint32_t> used =
-            detail::base::used_points(now.points.size(), now.faces);
-        std::vector<std::uint32_t> new_of_old(now.points.size());
-        for (std::uint32_t p = 0; p < used.size(); ++p) {
-            now.points[p] = now.points[used[p]];
-            point_of_[p] = point_of_[used[p]];
-            new_of_old[used[p]] = p;
-        }
-        now.points.resize(used.size());
-        point_of_.resize(used.size());
-        for (face& f : now.faces)
-            for (std::uint32_t& corner : f) corner = new_of_old[corner];
-    }
-
     /// Of the exact surface as it was given, while it still is.
     void remember_parts() {
         part_of_ = face_components(exact_.given.size() + exact_.constructed.size(), exact_.faces);
@@ -445,10 +429,9 @@ class rounding {
     /// Where that only spreads, nothing is joined.
     detail::round::joined_near join_what_is_near() {
         const mesh& now = result_.surface;
-        const detail::round::joint how{
-            .reach = schedule_.reach_of_surface(now.points, steps_),
-            .source = result_.face_of,
-            .solid = options_.solid};
+        const detail::round::joint how{.reach = schedule_.reach_of_surface(now.points, steps_),
+                                       .source = result_.face_of,
+                                       .solid = options_.solid};
         constexpr int most_rounds = 8;
         detail::round::joined_near near;
         for (int round = 0; round < most_rounds && !only_cut_; ++round) {
@@ -487,18 +470,18 @@ class rounding {
     std::vector<std::uint8_t> sound_;      ///< by face, or empty
     std::vector<std::uint8_t> offending_;  ///< by face
     std::size_t faces_given_;
-    mesh before_{};          ///< as `exact_` was given, in doubles, once something is mended
+    mesh before_{};  ///< as `exact_` was given, in doubles, once something is mended
     double first_move_ = 0.0;
     double joined_most_ = 0.0;  ///< how far at most, in one step, corners were joined
     double grid_ = 0.0;         ///< mending is on, or 0
-    int steps_ = 0;      ///< of mending on this grid
-    int rounds_ = 0;     ///< on all grids
+    int steps_ = 0;             ///< of mending on this grid
+    int rounds_ = 0;            ///< on all grids
     std::uint64_t meeting_at_first_ = 0;
     std::uint64_t last_meeting_count_ = 0;
     double moved_most_ = 0.0;  ///< in the last rounding
-    double moved_ = 0.0;     ///< the same; infinite where points were joined
-    bool vanished_ = false;  ///< some faces, so that points may be left that none has
-    bool only_cut_ = false;  ///< joining what is near has been seen to spread
+    double moved_ = 0.0;       ///< the same; infinite where points were joined
+    bool vanished_ = false;    ///< some faces, so that points may be left that none has
+    bool only_cut_ = false;    ///< joining what is near has been seen to spread
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between
 };

@@ -52,8 +52,7 @@ void check_floats(const Result& doubles, const Result& floats) {
 
 void check_formula(const std::vector<tf::mesh>& operands, const tf::boolean_expression& formula) {
     const std::vector<tf::mesh_view> views(operands.begin(), operands.end());
-    check_floats(tf::boolean(views, formula),
-                 tf::boolean(views, formula, {.precision = to_float}));
+    check_floats(tf::boolean(views, formula), tf::boolean(views, formula, {.precision = to_float}));
 }
 
 void check_repair(const tf::mesh& mesh) {

@@ -89,14 +89,14 @@ struct boolean_options {
     fill_rule inside = fill_rule::nonzero;  ///< what is solid
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    /// How often to mend what rounding has broken, before it is reported. The first two steps, or
-    /// more while they help, mend the surface. Further ones mend the operands next to such places:
-    /// what is nearer than 2^-48, 2^-44, 2^-40 ... of the largest coordinate (2^-22, 2^-18, 2^-14
-    /// ... for float32) is joined, and everything is decided once more, exactly. Where that does not
-    /// do, and first for float32 where many faces meet, corners there go on a uniform grid as wide.
+    /// How often to mend what rounding has broken. The first two steps, or more while they help,
+    /// mend the surface. Further ones mend the operands next to such places: what is nearer than
+    /// 2^-48, 2^-44, 2^-40 ... of the largest coordinate (2^-22, 2^-18, 2^-14 ... for float32) is
+    /// joined, and everything is decided once more, exactly. Where that does not do, and first for
+    /// float32 where many faces meet, corners go on uniform grids, to 512 times as wide.
     int rounding_steps = 5;
-    /// Mending tries no grid or distance wider than this, in the mesh's own length unit. Several
-    /// steps may add up to more: see `certificate::max_displacement`. Not negative.
+    /// Mending tries nothing that moves a coordinate further at once, in the mesh's own length unit,
+    /// and goes on where all of it did: see `certificate::max_displacement`. Not negative.
     double max_displacement = std::numeric_limits<double>::infinity();
     /// Merge coplanar faces of the result, exactly and before rounding: a vertex is removed where
     /// only coplanar faces meet, or only faces along one straight edge.
