@@ -1,6 +1,7 @@
 #include <libmesh/base/certify.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/base/require_share.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/repair/balance_patches.hpp>
@@ -28,10 +29,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace treeform {
@@ -47,12 +45,6 @@ using detail::topology::area;
 
 constexpr std::size_t listed_edges = 100;
 
-void require_share(double value, const char* what) {
-    if (!(value >= 0.0) || !std::isfinite(value))
-        throw std::invalid_argument("treeform::repair: " + std::string(what) +
-                                    " is negative or not finite");
-}
-
 /// How to find out what is inside.
 enum class inside_by : std::uint8_t {
     rule,
@@ -60,7 +52,7 @@ enum class inside_by : std::uint8_t {
     labels_and_guesses  ///< with what fills holes along edges of several faces, if it helps
 };
 
-/// Of areas that are equal but for rounding.
+/// Of areas that are equal except for rounding.
 double noise_of(const repair_result& made) { return 1e-9 * made.statistics.area_before; }
 
 /// The steps of a repair, one after the other.
@@ -455,7 +447,7 @@ class repairer {
     working_mesh mesh_{};
     double diagonal_ = 0.0;
     edge_tally tally_{};
-    bool is_manifold_ = false;  ///< as it came, but for faces turned
+    bool is_manifold_ = false;  ///< as it came, except for faces turned
     bool is_hopeless_ = false;
     bool is_kept_ = false;                        ///< nothing had to be cut
     std::uint64_t inner_faces_ = 0;               ///< of tetrahedra
@@ -470,9 +462,10 @@ class repairer {
 }  // namespace
 
 repair_result repair(mesh_view mesh, const repair_options& options) {
-    if (options.gap) require_share(*options.gap, "the gap");
-    require_share(options.strays, "the share of strays");
-    require_share(options.max_loss, "the largest loss");
+    using detail::base::require_share;
+    if (options.gap) require_share("repair", *options.gap, "the gap");
+    require_share("repair", options.strays, "the share of strays");
+    require_share("repair", options.max_loss, "the largest loss");
     detail::base::check_faces("repair", mesh.points.size(), mesh.faces);
     detail::base::check_finite_faces("repair", mesh);
     repairer by_rule(mesh, options, inside_by::rule);

@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// Options that are shares or distances.
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace treeform::detail::base {
+
+/// \throws std::invalid_argument naming the `function` called and `what` is negative or not finite
+inline void require_share(const char* function, double value, const char* what) {
+    if (!(value >= 0.0) || !std::isfinite(value))
+        throw std::invalid_argument("treeform::" + std::string(function) + ": " + what +
+                                    " is negative or not finite");
+}
+
+}  // namespace treeform::detail::base
