@@ -18,7 +18,7 @@ MORE_TOOL_LINES = {"tf-weld": 1500, "common": 3500}
 
 # Rooms of libmesh, top down; an include points down this list, and not across a line of it.
 FLOORS = [
-    ["stream", "carry"],
+    ["stream", "carry", "wrap"],
     ["assembly"],
     ["repair"],
     ["boolean"],

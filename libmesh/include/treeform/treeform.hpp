@@ -37,6 +37,7 @@
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/weld_stream.hpp>
+#include <treeform/mesh/wrap.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/answers.hpp>
