@@ -13,6 +13,9 @@
 
 namespace treeform::detail::boolean {
 
+/// Of what a doubted face says, this share counts.
+inline constexpr double share_doubted = 0.5;
+
 /// What is known of a face of the arrangement.
 struct cell_face {
     std::array<std::uint32_t, 2> cells{};  ///< in front and behind

@@ -13,8 +13,6 @@ namespace treeform::detail::boolean {
 namespace {
 
 constexpr std::size_t faces_asked = 8;  // of a cell
-constexpr double share_doubted = 0.5;
-constexpr double full_angle = 12.566370614359172;
 
 class asker {
   public:
@@ -57,7 +55,7 @@ class asker {
                 known_.all[g].times *
                 geometry::solid_angle(base::minus(d, q), base::minus(e, q), base::minus(h, q));
         }
-        return winding + share_doubted * angles / full_angle;
+        return winding + share_doubted * angles / geometry::full_solid_angle;
     }
 
     const cell_faces& known_;

@@ -11,7 +11,6 @@ namespace treeform::detail::boolean {
 namespace {
 
 constexpr double share_dropped = 0.25;  // of an inner face with the same on both sides
-constexpr double share_doubted = 0.5;   // of what doubted faces say
 constexpr double share_filling = 0.5;   // of a filling that separates
 constexpr double units = 0x1p40;        // in all area together
 

@@ -16,7 +16,6 @@ using base::scaled;
 
 constexpr std::size_t faces_in_leaf = 4;
 constexpr double far = 2.0;  // radii from which on a dipole will do
-constexpr double full_angle = 12.566370614359172;
 
 double length(const point3& v) { return std::sqrt(base::dot(v, v)); }
 
@@ -110,7 +109,7 @@ double winding_sum::around(const point3& q, std::uint32_t left_out) const {
             ++i;
         }
     }
-    return sum / full_angle;
+    return sum / geometry::full_solid_angle;
 }
 
 }  // namespace treeform::detail::boolean

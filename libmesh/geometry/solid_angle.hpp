@@ -7,8 +7,10 @@
 
 namespace treeform::detail::geometry {
 
+inline constexpr double full_solid_angle = 12.566370614359172;  ///< 4 pi
+
 /// The angle of the vector (x, y) against the direction x, in [-pi, pi]; 0 of the vector 0. As
-/// `atan2`, but for an error of up to 2e-11, and without the signs of zeros.
+/// `atan2`, except for an error of up to 2e-11, and without the signs of zeros.
 [[nodiscard]] double angle_of(double y, double x);
 
 /// The solid angle of a triangle as seen from the origin, in [-2 pi, 2 pi], up to an error of 1e-10

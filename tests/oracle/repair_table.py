@@ -104,7 +104,7 @@ def main():
     parser.add_argument("tool")
     parser.add_argument("mend")
     parser.add_argument("judge")
-    parser.add_argument("models", type=pathlib.Path)
+    parser.add_argument("models", type=lambda text: pathlib.Path(text or "no models"))
     parser.add_argument("-o", dest="out", type=pathlib.Path)
     parser.add_argument("--compare", type=pathlib.Path)
     parser.add_argument("--only", default="")
