@@ -118,13 +118,19 @@ class carving {
             take_away(g.inner);
             return;
         }
-        const std::optional<point3> at = mesh_.next_to(inner ? inner->center : middle(g.inner));
-        if (at) insert(*at, g);
+        // Where a tetrahedron is flat, its center is anywhere, and may lead to where a corner is.
+        if (inner && insert_next_to(inner->center, g)) return;
+        insert_next_to(middle(g.inner), g);
     }
 
     [[nodiscard]] point3 middle(std::uint32_t t) const {
         const auto [a, b, c, d] = space_.cells.corners(t);
         return base::scaled(base::plus(base::plus(a, b), base::plus(c, d)), 0.25);
+    }
+
+    bool insert_next_to(const point3& p, const gate& through) {
+        const std::optional<point3> at = mesh_.next_to(p);
+        return at && insert(*at, through);
     }
 
     bool insert(point3 p, const gate& through) {

@@ -3,7 +3,9 @@
 #include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace treeform::detail::wrap {
 
@@ -36,14 +38,16 @@ int tetrahedralization::side(std::uint32_t t, std::size_t i, const point3& p) co
     return orient3d(points_[a], points_[b], points_[c], p);
 }
 
-/// Rounded.
-bool tetrahedralization::is_in_sphere(std::uint32_t t, const point3& p) const {
+/// Rounded. A margin above 0, in shares of what rounding adds up, counts points on the sphere, too.
+bool tetrahedralization::is_in_sphere(std::uint32_t t, const point3& p, double margin) const {
     const auto [a, b, c, d] = corners(t);
     const point3 pa = minus(a, p), pb = minus(b, p), pc = minus(c, p), pd = minus(d, p);
     const point3 ab = cross(pa, pb), cd = cross(pc, pd);
     // The determinant of the four rows (v, v . v), by its last column.
-    const double by_d = dot(ab, pc), by_c = dot(ab, pd), by_b = dot(cd, pa), by_a = dot(cd, pb);
-    return dot(pd, pd) * by_d - dot(pc, pc) * by_c + dot(pb, pb) * by_b - dot(pa, pa) * by_a < 0.0;
+    const double by_d = dot(pd, pd) * dot(ab, pc), by_c = dot(pc, pc) * dot(ab, pd);
+    const double by_b = dot(pb, pb) * dot(cd, pa), by_a = dot(pa, pa) * dot(cd, pb);
+    const double most = std::max({std::abs(by_a), std::abs(by_b), std::abs(by_c), std::abs(by_d)});
+    return by_d - by_c + by_b - by_a < margin * most;
 }
 
 bool tetrahedralization::holds(std::uint32_t t, const point3& p) const {
@@ -97,7 +101,7 @@ bool tetrahedralization::find_core(const point3& p, std::uint32_t first) {
 void tetrahedralization::grow(const point3& p) {
     for (std::size_t k = 0; k < room_.size(); ++k)
         for (const std::uint32_t next : all_[room_[k]].neighbors)
-            if (next != none && part_[next] == part::none && is_in_sphere(next, p)) {
+            if (next != none && part_[next] == part::none && is_in_sphere(next, p, 0.0)) {
                 part_[next] = part::room;
                 room_.push_back(next);
             }
@@ -105,22 +109,32 @@ void tetrahedralization::grow(const point3& p) {
 
 /// Until `p` sees every face of the room strictly from inside. Then the tetrahedra between `p` and
 /// these faces fill the room exactly: they are all oriented, and their signed sum is the room.
-void tetrahedralization::shrink(const point3& p) {
+///
+/// Where it does not see a face, `p` is on a sphere: that of the tetrahedron behind, which makes
+/// room, too, or that of the one in front, which does not have to.
+void tetrahedralization::make_star(const point3& p) {
+    constexpr double on_sphere = 0x1p-30;
+    const auto settle = [&](std::uint32_t t) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const std::uint32_t next = all_[t].neighbors[i];
+            const bool is_wall = next == none || part_[next] < part::room;
+            if (!is_wall || side(t, i, p) > 0) continue;
+            if (next != none && part_[next] == part::none && is_in_sphere(next, p, on_sphere)) {
+                part_[next] = part::room;
+                room_.push_back(next);
+                continue;
+            }
+            part_[t] = part::dropped;
+            return false;
+        }
+        return true;
+    };
     for (bool is_done = false; !is_done;) {
         is_done = true;
-        for (const std::uint32_t t : room_) {
-            if (part_[t] != part::room) continue;
-            for (std::size_t i = 0; i < 4; ++i) {
-                const std::uint32_t next = all_[t].neighbors[i];
-                const bool is_wall = next == none || part_[next] == part::none;
-                if (!is_wall || side(t, i, p) > 0) continue;
-                part_[t] = part::none;
+        for (std::size_t k = 0; k < room_.size(); ++k)
+            if (const std::uint32_t t = room_[k]; part_[t] == part::room && !settle(t))
                 is_done = false;
-                break;
-            }
-        }
     }
-    std::erase_if(room_, [&](std::uint32_t t) { return part_[t] == part::none; });
 }
 
 bool tetrahedralization::is_near_corner(const point3& p, double apart) const {
@@ -129,16 +143,17 @@ bool tetrahedralization::is_near_corner(const point3& p, double apart) const {
         return !(dot(way, way) > 0.0) || dot(way, way) < apart * apart;
     };
     return std::any_of(room_.begin(), room_.end(), [&](std::uint32_t t) {
-        return std::any_of(all_[t].corners.begin(), all_[t].corners.end(), is_near);
+        return part_[t] >= part::room &&
+               std::any_of(all_[t].corners.begin(), all_[t].corners.end(), is_near);
     });
 }
 
 void tetrahedralization::find_walls() {
     walls_.clear();
     for (const std::uint32_t t : room_)
-        for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t i = 0; i < 4 && part_[t] >= part::room; ++i) {
             const std::uint32_t next = all_[t].neighbors[i];
-            if (next != none && part_[next] != part::none) continue;
+            if (next != none && part_[next] >= part::room) continue;
             walls_.push_back({face(t, i), next, next == none ? 0 : face_towards(next, t)});
         }
 }
@@ -196,11 +211,13 @@ bool tetrahedralization::insert(const point3& p, std::uint32_t near, double apar
     bool is_possible = find_core(p, first);
     if (is_possible) {
         grow(p);
-        shrink(p);
+        make_star(p);
         is_possible = !is_near_corner(p, apart);
     }
     if (is_possible) find_walls();
-    for (const std::uint32_t t : room_) part_[t] = part::none;
+    std::erase_if(room_, [&](std::uint32_t t) {
+        return std::exchange(part_[t], part::none) == part::dropped;
+    });
     if (!is_possible) return false;
     points_.push_back(p);
     fill_room(static_cast<std::uint32_t>(points_.size() - 1));

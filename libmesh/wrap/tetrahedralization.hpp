@@ -75,13 +75,13 @@ class tetrahedralization {
     };
 
     [[nodiscard]] int side(std::uint32_t t, std::size_t i, const point3& p) const;
-    [[nodiscard]] bool is_in_sphere(std::uint32_t t, const point3& p) const;
+    [[nodiscard]] bool is_in_sphere(std::uint32_t t, const point3& p, double margin) const;
     [[nodiscard]] bool holds(std::uint32_t t, const point3& p) const;
     [[nodiscard]] std::uint32_t locate(const point3& p, std::uint32_t near) const;
     [[nodiscard]] std::size_t face_towards(std::uint32_t t, std::uint32_t neighbor) const;
     bool find_core(const point3& p, std::uint32_t first);
     void grow(const point3& p);
-    void shrink(const point3& p);
+    void make_star(const point3& p);
     [[nodiscard]] bool is_near_corner(const point3& p, double apart) const;
     void find_walls();
     void fill_room(std::uint32_t p);
@@ -92,7 +92,7 @@ class tetrahedralization {
     std::vector<tetrahedron> all_;
     std::vector<std::uint32_t> births_;
     std::vector<std::uint32_t> unused_;
-    enum class part : std::uint8_t { none, room, core };
+    enum class part : std::uint8_t { none, dropped, room, core };
     std::vector<part> part_;           ///< of the room for the new corner
     std::vector<std::uint32_t> room_;  ///< tetrahedra
     std::vector<wall> walls_;

@@ -3,6 +3,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/words.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/topology/area.hpp>
 #include <libmesh/wrap/carving.hpp>
 #include <libmesh/wrap/offset_surface.hpp>
 #include <libmesh/wrap/pinched_vertices.hpp>
@@ -130,6 +131,7 @@ wrap_result wrap(mesh_view mesh, double size, const wrap_options& options) {
     wrap_result result;
     result.statistics.size = size;
     result.statistics.offset = offset;
+    result.statistics.area = detail::topology::area(mesh);
     const auto cancelled = [&result]() -> wrap_result& {
         result.mesh = {};
         result.certificate.status = status::cancelled;

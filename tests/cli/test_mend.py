@@ -106,6 +106,38 @@ class Mend(ToolTest):
                     self.assertEqual(after, volume_after)
                 self.run_tool(name + "-out.obj", "--check", status=0)
 
+    def test_a_wrap_is_closed_around_anything(self):
+        faces = [face for i, face in enumerate(cube()[1]) if i not in (0, 1)]  # one side is open
+        part = write(self.path("part.obj"), together((cube()[0], faces), TWO_CUBES))
+        run = self.run_tool(part, "--wrap", "1.5", "-o", "out.stl", status=0)
+        self.assertRegex(run.text, r"part.obj: wrap, [\d,]+ faces, volume .* \(was .*\), 0.05 from the faces")
+        self.assertNotIn("skin", run.err)
+        self.run_tool("out.stl", "--check", status=0)
+        entry = self.mended(part, "--wrap", "20%", "--offset", "0.1", "-o", "out.ply")
+        self.assertIsNone(entry["repair"])
+        wrap = entry["wrap"]
+        self.assertTrue(wrap["certified"])
+        self.assertEqual((wrap["offset"], wrap["components"]), (0.1, 1))
+        self.assertEqual(wrap["faces"], 2 * wrap["vertices"] - 4)
+        self.assertEqual(entry["output"]["precision_out"], "double")
+        self.run_tool("out.ply", "--check", status=0)
+        run = self.run_tool(write(self.path("open.obj"), (cube()[0], faces)), "--wrap", "0.1", "-n",
+                            status=0)
+        self.assertIn("a skin on both sides", run.err)
+
+    def test_a_wrap_takes_no_steps_and_a_size_that_makes_sense(self):
+        part = write(self.path("part.obj"), CLEAN)
+        for arguments, said in [
+                (["--wrap", "1", "--gap", "1"], "--gap: --wrap takes none of the steps"),
+                (["--wrap", "1", "--no-fill"], "--no-fill: --wrap takes none of the steps"),
+                (["--offset", "1"], "--offset: needs --wrap"),
+                (["--wrap", "0"], "--wrap: SIZE is positive"),
+                (["--wrap", "1", "--offset", "0"], "--offset: DIST is positive"),
+                (["--wrap", "1e-7", "--precision", "float"], "is too small: coordinates are"),
+                (["--wrap", "x"], "--wrap")]:
+            with self.subTest(arguments):
+                self.assertIn(said, self.run_tool(part, "-n", *arguments, status=2).err)
+
     def test_what_is_wrong_is_said_and_nothing_is_changed(self):
         part = write(self.path("part.obj"), self.cube_without(0, 11))
         run = self.run_tool(part, "--check", status=1)

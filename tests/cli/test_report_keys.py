@@ -295,6 +295,7 @@ class Reports(PlaceTest):
                 (["hole.obj", "--no-fill", "-n"], 1),
                 (["bad.obj", "-n", "--strays", "0.3"], 1),
                 (["two.obj", "--check"], 1),
+                (["hole.obj", "--wrap", "0.5", "-n"], 0),
                 (["inverted.obj", "nan.obj", "missing.obj", "-n"], 3),
                 (["large.obj", "-o", "large3.stl"], 1),
                 (["scene.obj", "-n"], 0),

@@ -8,6 +8,7 @@
 #include "tools/common/mesh_output.hpp"
 #include "tools/common/run.hpp"
 #include "tools/tf-repair/outputs.hpp"
+#include "tools/tf-repair/wrapping.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
@@ -104,6 +105,10 @@ const char* const epilogue =
     "GLB, OBJ): each is a solid of its own, and they may overlap. As STL, PLY or OFF\n"
     "they become one solid. --check looks at each object.\n"
     "\n"
+    "--wrap rolls a ball over the faces, so to speak, and keeps what it cannot get\n"
+    "to: gaps and holes narrower than the ball are closed, cavities filled, edges\n"
+    "rounded. All faces are inside the wrap. It has no attributes.\n"
+    "\n"
     "auto is positive where every part is turned outward, and nonzero otherwise.\n"
     "Where faces disagree, the parts of space between them are labeled inside or\n"
     "outside, as the faces disagree with least: a guess, and counted.\n"
@@ -113,6 +118,7 @@ const char* const epilogue =
     "  tf-repair --check parts/\n"
     "  tf-repair scan.ply -o closed.3mf --holes 100\n"
     "  tf-repair *.stl --output-dir fixed -r report.json\n"
+    "  tf-repair hopeless.obj -o wrapped.stl --wrap 2%\n"
     "\n"
     "Exit status: 0 a solid was written (or --check found nothing); 1 not all could\n"
     "  be mended, a limit was met, or --check found something; 2 usage; 3 input;\n"
@@ -122,6 +128,7 @@ const char* const epilogue =
 void check_request(const command_line& line, request& r, common_options& options) {
     using tools::refuse;
     repair_settings& s = r.settings;
+    tools::check_wrapping(line, s.wrap);
     for (std::size_t i = 0; i < steps.size(); ++i)
         if (r.left_out[i]) s.steps.*steps[i].wanted = false;
     tools::check_curve_path(s.curves);
@@ -201,6 +208,7 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
     tools::write_curves(work, input, s);
     if (s.check) return check_only(work, input);
     const auto output = tools::mesh_output(o, work.path);
+    if (s.wrap.size) return tools::wrap(work, input, s.wrap, output);
     std::optional<tools::written_form> form;
     if (output) form = tools::form_of(work, input.file, *output);
     const tf::mesh_file* const inputs = &input.file;
@@ -235,6 +243,7 @@ int main(int argc, char** argv) {
     line.inputs(options.inputs, tools::mesh_inputs);
     add_steps(line, r);
     add_options(line, r.settings);
+    tools::add_wrapping(line, r.settings.wrap);
     add_what_to_give_back(line, r.settings, options);
     line.group("Common options");
     tools::add_common_options(line, options,

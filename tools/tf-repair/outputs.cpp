@@ -44,7 +44,7 @@ void enter_blank_report(job& work, const dirty_mesh& input, const repair_setting
     entry["volume"] = input.volume;
     entry["skipped"] = {{"non_finite", input.left_out}};
     entry["check"] = settings.check;
-    for (const char* key : {"defects", "repair", "output"}) entry[key] = nullptr;
+    for (const char* key : {"defects", "repair", "wrap", "output"}) entry[key] = nullptr;
 }
 
 void enter_repair(job& work, const dirty_mesh& input, const repair_settings& settings,

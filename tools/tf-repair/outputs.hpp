@@ -17,11 +17,17 @@
 
 namespace tools {
 
+struct wrap_settings {
+    std::optional<distance> size{};
+    std::optional<distance> offset{};
+};
+
 struct repair_settings {
     tf::repair_options steps{};
     std::optional<distance> gap{};
     tools::rails rails{};
     bool check = false;
+    wrap_settings wrap{};
     std::string source{};  ///< name of the property with the face that each one lies in; or none
     std::filesystem::path curves{};
 };

@@ -27,6 +27,7 @@ struct wrap_options {
 struct wrap_statistics {
     double size = 0.0;
     double offset = 0.0;
+    double area = 0.0;             ///< of the mesh that was wrapped
     std::uint64_t points = 0;      ///< of the tetrahedra that were made
     std::uint64_t tetrahedra = 0;  ///< at the end
     std::uint64_t filled = 0;      ///< of them, filled so that the wrap is a manifold

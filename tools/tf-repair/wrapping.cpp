@@ -1,0 +1,111 @@
+#include "tools/tf-repair/wrapping.hpp"
+
+#include "tools/common/console.hpp"
+#include "tools/common/mesh_output.hpp"
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/wrap.hpp>
+#include <treeform/tf.hpp>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace tools {
+namespace {
+
+tf::wrap_result wrapped(job& work, const dirty_mesh& input, const wrap_settings& settings,
+                        tf::precision precision) {
+    const auto timing = work.time("repair");
+    tf::wrap_options options{.precision = precision, .progress = work.progress("wrap")};
+    if (settings.offset) options.offset = settings.offset->used(input.diagonal);
+    try {
+        tf::wrap_result made =
+            tf::wrap(input.file.mesh, settings.size->used(input.diagonal), options);
+        work.call_ended(made.certificate.status == tf::status::cancelled);
+        return made;
+    } catch (const std::invalid_argument& what) {
+        std::string text = what.what();
+        if (const std::string head = "treeform::wrap: "; text.starts_with(head))
+            text.erase(0, head.size());
+        throw failure(bad_usage, "wrap", "--wrap: " + work.name + ": " + text);
+    }
+}
+
+void enter(job& work, const dirty_mesh& input, const tf::wrap_result& made, double volume) {
+    const tf::wrap_statistics& did = made.statistics;
+    const auto topology = tf::count_topology(made.mesh.points.size(), made.mesh.faces);
+    work.entry["wrap"] = {{"certified", static_cast<bool>(made.certificate)},
+                          {"size", did.size},
+                          {"offset", did.offset},
+                          {"points", did.points},
+                          {"tetrahedra", did.tetrahedra},
+                          {"filled", did.filled},
+                          {"volume", {{"before", input.volume}, {"after", volume}}},
+                          {"precision_out", name_of(made.certificate.precision)},
+                          {"vertices", made.mesh.points.size()},
+                          {"faces", made.mesh.faces.size()},
+                          {"components", topology.components_by_point}};
+}
+
+/// Of a surface with a hole that is wider than the size, the wrap is on both sides.
+void warn_of_skin(job& work, const dirty_mesh& input, const tf::wrap_result& made, double volume) {
+    const tf::wrap_statistics& did = made.statistics;
+    constexpr double skin = 8.0;  // offsets: two where it is flat, more where it is not
+    if (volume > skin * did.offset * did.area) return;
+    const tf::mesh_view mesh = input.file.mesh;
+    const tf::mesh joined = tf::join_meshes({&mesh, 1}).mesh;
+    if (tf::count_topology(joined.points.size(), joined.faces).boundary_edges == 0) return;
+    work.warn("skin",
+              "the wrap is a skin on both sides of the faces: the way inside is wider than " +
+                  brief(did.size) + "; a larger --wrap closes it");
+}
+
+}  // namespace
+
+void add_wrapping(command_line& line, wrap_settings& target) {
+    line.group("Last resort, instead of the steps");
+    line.option(target.size, {"--wrap", "SIZE",
+                              "a closed surface around everything, which enters no\n"
+                              "gap or hole narrower than about SIZE"});
+    line.option(target.offset, {"--offset", "DIST", "how far from the faces", "SIZE / 30"});
+}
+
+void check_wrapping(const command_line& line, const wrap_settings& settings) {
+    if (!settings.size) {
+        if (settings.offset) refuse("--offset: needs --wrap");
+        return;
+    }
+    for (const char* name :
+         {"--check", "--gap", "--holes", "--strays", "--inside", "--sheet", "--max-loss",
+          "--accept-loss", "--max-move", "--source", "--curves", "--no-join", "--no-orient",
+          "--no-fill", "--no-resolve", "--no-detach"})
+        if (line.given(name)) refuse(std::string(name) + ": --wrap takes none of the steps");
+    if (!(settings.size->value > 0.0)) refuse("--wrap: SIZE is positive");
+    if (settings.offset && !(settings.offset->value > 0.0)) refuse("--offset: DIST is positive");
+}
+
+exit_status wrap(job& work, const dirty_mesh& input, const wrap_settings& settings,
+                 const std::optional<std::filesystem::path>& output) {
+    std::optional<written_form> form;
+    if (output) form = form_of(work, input.file, *output);
+    const tf::mesh_file* const inputs = &input.file;
+    tf::wrap_result made =
+        wrapped(work, input, settings, written_precision(work.options, form, {&inputs, 1}));
+    const double volume = tf::signed_volume(made.mesh);
+    enter(work, input, made, volume);
+    if (!made.certificate)
+        throw std::logic_error("the wrap is no solid: " + made.certificate.message());
+    work.out.result(work.name + ": wrap, " + counted(made.mesh.faces.size(), "face", "faces") +
+                    ", volume " + brief(volume) + " (was " + brief(input.volume) + "), " +
+                    brief(made.statistics.offset) + " from the faces");
+    warn_of_skin(work, input, made, volume);
+    if (!output || work.options.dry_run) return done;
+    const auto timing = work.time("write");
+    tf::mesh_file file = file_of(std::move(made.mesh), made.certificate);
+    file.attributes.comments = input.file.attributes.comments;  // such as the unit
+    write_certified(work, file, *form, *output, 0.0);
+    return done;
+}
+
+}  // namespace tools
