@@ -131,7 +131,7 @@ class mending {
         return number == 0 ? 0.0 : schedule_.reach_of_operands(given_.all.points, number);
     }
 
-    /// None where the grid makes far more faces meet than met.
+    /// None where far more faces meet than met.
     template <class Ask>
     std::optional<unmended_result> step(const operand_try& next,
                                         const std::vector<aabb<double, 3>>& broken,
@@ -140,9 +140,11 @@ class mending {
         const round::joined_near near = join(next_to(broken, given_.all, reach), reach, next.grid);
         const near_operands joined(near, operand_of_face_, given_.first_face.size() - 1);
         rounding_try how = rounding_of(next);
-        const bool has_limit = next.grid || options_.precision == precision::float32;
-        if (has_limit && !schedule_.asks_operands(count_pairs(near.surface), pairs_given_))
-            return std::nullopt;
+        using round::mending_schedule;
+        const auto most = next.grid || options_.precision == precision::float32
+                              ? mending_schedule::most_pairs(pairs_given_)
+                              : mending_schedule::most_pairs_joined(pairs_given_);
+        if (count_pairs(near.surface) > most) return std::nullopt;
         how.volumes = false;
         if (options_.progress) how.progress = [&](double) { return options_.progress(1.0); };
         std::vector<std::uint32_t> groups;

@@ -50,7 +50,7 @@ void winding_sum::build(std::size_t begin, std::size_t end) {
         }
         const point3 extent = minus(most, least);
         std::size_t axis = 0;
-        for (const std::size_t k : {1, 2})
+        for (const std::size_t k : {std::size_t{1}, std::size_t{2}})
             if (extent[k] > extent[axis]) axis = k;
         std::vector<std::pair<double, std::uint32_t>> keys;
         keys.reserve(end - begin);

@@ -83,8 +83,12 @@ bool mending_schedule::is_too_much(std::uint64_t pairs, std::size_t faces_given)
     return pairs > 3 * faces_given + 1000;
 }
 
-bool mending_schedule::asks_operands(std::uint64_t pairs, std::uint64_t pairs_given) {
-    return pairs <= 4 * pairs_given + 1000;
+std::uint64_t mending_schedule::most_pairs(std::uint64_t pairs_given) {
+    return 4 * pairs_given + 1000;
+}
+
+std::uint64_t mending_schedule::most_pairs_joined(std::uint64_t pairs_given) {
+    return 64 * pairs_given + 10'000;
 }
 
 }  // namespace treeform::detail::round

@@ -78,8 +78,11 @@ struct mending_schedule {
     [[nodiscard]] static bool mends_on_grid(const mending_state& state);
     /// Whether so many pairs of faces are too many to be cut, of a surface that had so many faces.
     [[nodiscard]] static bool is_too_much(std::uint64_t pairs, std::size_t faces_given);
-    /// Whether operands on a grid, with so many pairs of faces that meet, are worth cutting.
-    [[nodiscard]] static bool asks_operands(std::uint64_t pairs, std::uint64_t pairs_given);
+    /// How many pairs of faces may meet of operands on a grid, or in float32, if that many did
+    /// before: where more do, they are not worth cutting.
+    [[nodiscard]] static std::uint64_t most_pairs(std::uint64_t pairs_given);
+    /// The same of operands that are joined, in float64.
+    [[nodiscard]] static std::uint64_t most_pairs_joined(std::uint64_t pairs_given);
     static constexpr int most_rounds = 15;  ///< of mending, of all tries of a result
     /// Of those that are left, how many the next try may take: half of them, so that a wider one
     /// may follow.
