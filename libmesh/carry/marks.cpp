@@ -1,6 +1,6 @@
 #include <libmesh/attributes/class_colors.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/marks.hpp>
+#include <treeform/mesh/carry.hpp>
 
 namespace treeform {
 namespace {

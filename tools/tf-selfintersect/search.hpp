@@ -5,7 +5,7 @@
 #include "tools/common/parse_value.hpp"
 #include "tools/common/run.hpp"
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/marks.hpp>
+#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>

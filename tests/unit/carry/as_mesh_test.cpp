@@ -1,6 +1,6 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/marks.hpp>
+#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 
