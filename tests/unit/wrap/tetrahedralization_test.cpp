@@ -98,7 +98,7 @@ TEST_CASE("six tetrahedra fill a box") {
 }
 
 TEST_CASE("points of a coarse lattice, of a fine one, and each again") {
-    for (const std::size_t side : {4, 8, 16, 64})
+    for (const std::size_t side : std::array<std::size_t, 4>{4, 8, 16, 64})
         for (std::uint64_t seed = 0; seed < 5; ++seed) check_lattice(seed, side);
 }
 
