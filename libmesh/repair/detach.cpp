@@ -49,10 +49,13 @@ class detacher {
           step_(coordinate_step(solid.points, of)),
           wide_(wide_steps * coordinate_step(solid.points, precision::float32)),
           stars_(solid.points.size(), solid.faces),
-          groups_(groups_of_equal(solid.points)) {
-        for (std::size_t g = 0; g < groups_.size(); ++g)
+          groups_(groups_of_equal(solid.points)),
+          joined_(solid.faces) {
+        for (std::size_t g = 0; g < groups_.size(); ++g) {
             for (const std::uint32_t v : groups_[g])
                 twins_[v] = {.group = g, .given = solid.points[v]};
+            join(groups_[g]);
+        }
     }
 
     detached run() {
@@ -85,6 +88,18 @@ class detacher {
         bool on_trial = false;  ///< moved, and to be checked
         bool broke = false;
     };
+
+    /// Gives those of a group that have not moved one number.
+    void join(const std::vector<std::uint32_t>& group) {
+        const std::uint32_t* first = nullptr;
+        for (const std::uint32_t& v : group) {
+            const bool is_moved = twins_.at(v).moved;
+            if (!is_moved && first == nullptr) first = &v;
+            for (const std::uint32_t f : stars_[v])
+                for (std::size_t i = 0; i < 3; ++i)
+                    if (solid_.faces[f][i] == v) joined_[f][i] = is_moved ? v : *first;
+        }
+    }
 
     /// A cone as thin as a needle has a place in it only where it is as wide as a step. No
     /// further than the limit.
@@ -183,6 +198,7 @@ class detacher {
         }
         bool any_broke = true;
         while (any_broke) {  // what moved beside one that went back may now meet it
+            for (const std::uint32_t v : vertices) join(groups_[twins_.at(v).group]);
             mark_equal(vertices);
             mark_meeting(vertices);
             any_broke = false;
@@ -218,8 +234,9 @@ class detacher {
             for (const std::uint32_t f : stars_[v]) sound[f] = 0;
         }
         if (!any) return;
+        // Vertices that still are at one place are one: what touches there is nothing new.
         const round::surface_faults faults =
-            round::find_faults(solid_, {.sound = sound, .solid = true});
+            round::find_faults({solid_.points, joined_}, {.sound = sound, .solid = true});
         const auto blame = [&](std::uint32_t f) {
             for (const std::uint32_t corner : solid_.faces[f])
                 if (const auto at = twins_.find(corner); at != twins_.end() && at->second.on_trial)
@@ -240,6 +257,7 @@ class detacher {
     double wide_;
     base::stars stars_;
     std::vector<std::vector<std::uint32_t>> groups_;
+    std::vector<face> joined_;                      ///< see `join`
     std::map<std::uint32_t, twin_vertex> twins_{};  ///< those of groups
 };
 
