@@ -6,14 +6,12 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace treeform::detail::repair {
@@ -29,6 +27,34 @@ mesh closed_part(mesh_view of) {
     for (std::size_t f = 0; f < of.faces.size(); ++f)
         if (is_open[component[f]] == 0) closed.faces.push_back(of.faces[f]);
     return find_open_edge(closed) ? mesh{} : closed;
+}
+
+/// [gone] The areas of these faces of `given`; 0 of those that are on `made` or inside its closed
+/// components.
+std::vector<double> lost_areas(mesh_view given, std::span<const std::uint32_t> gone,
+                               mesh_view made) {
+    std::vector<double> areas(gone.size(), 0.0);
+    if (gone.empty()) return areas;
+    std::vector<point3> middles;
+    for (const std::uint32_t f : gone) {
+        const auto [a, b, c] = base::triangle_of(given.points, given.faces[f]);
+        middles.push_back({a.x / 3.0 + b.x / 3.0 + c.x / 3.0, a.y / 3.0 + b.y / 3.0 + c.y / 3.0,
+                           a.z / 3.0 + b.z / 3.0 + c.z / 3.0});
+    }
+    std::vector<std::uint8_t> is_there(gone.size(), 0);
+    if (!made.faces.empty()) {
+        const auto nearest =
+            closest_point(made, middles, 1e-6 * diagonal(*bounding_box(made.points)));
+        for (std::size_t i = 0; i < gone.size(); ++i) is_there[i] = nearest[i] ? 1 : 0;
+    }
+    if (const mesh solid = closed_part(made); !solid.faces.empty()) {
+        const auto places = locate(solid, middles);
+        for (std::size_t i = 0; i < gone.size(); ++i)
+            if (places[i].where != location::outside) is_there[i] = 1;
+    }
+    for (std::size_t i = 0; i < gone.size(); ++i)
+        if (is_there[i] == 0) areas[i] = topology::area({given.points, {&given.faces[gone[i]], 1}});
+    return areas;
 }
 
 }  // namespace
@@ -61,29 +87,10 @@ loss find_loss(mesh_view given, std::span<const std::uint8_t> is_left, mesh_view
 
 double lost_area(mesh_view given, std::span<const std::uint8_t> is_left, mesh_view made) {
     std::vector<std::uint32_t> gone;
-    std::vector<point3> middles;
-    for (std::uint32_t f = 0; f < given.faces.size(); ++f) {
-        if (is_left[f] != 0) continue;
-        const auto [a, b, c] = base::triangle_of(given.points, given.faces[f]);
-        gone.push_back(f);
-        middles.push_back({a.x / 3.0 + b.x / 3.0 + c.x / 3.0, a.y / 3.0 + b.y / 3.0 + c.y / 3.0,
-                           a.z / 3.0 + b.z / 3.0 + c.z / 3.0});
-    }
-    if (gone.empty()) return 0.0;
-    std::vector<std::uint8_t> is_there(gone.size(), 0);
-    if (!made.faces.empty()) {
-        const auto nearest =
-            closest_point(made, middles, 1e-6 * diagonal(*bounding_box(made.points)));
-        for (std::size_t i = 0; i < gone.size(); ++i) is_there[i] = nearest[i] ? 1 : 0;
-    }
-    if (const mesh solid = closed_part(made); !solid.faces.empty()) {
-        const auto places = locate(solid, middles);
-        for (std::size_t i = 0; i < gone.size(); ++i)
-            if (places[i].where != location::outside) is_there[i] = 1;
-    }
+    for (std::uint32_t f = 0; f < given.faces.size(); ++f)
+        if (is_left[f] == 0) gone.push_back(f);
     double sum = 0.0;
-    for (std::size_t i = 0; i < gone.size(); ++i)
-        if (is_there[i] == 0) sum += topology::area({given.points, {&given.faces[gone[i]], 1}});
+    for (const double area : lost_areas(given, gone, made)) sum += area;
     return sum;
 }
 
@@ -91,20 +98,17 @@ std::uint64_t count_vanished(const working_mesh& mesh, std::span<const std::uint
                              mesh_view made, double largest) {
     const std::vector<std::uint32_t> part = parts_by_edges(mesh);
     std::vector<std::uint8_t> has_face(part.size(), 0);
-    std::vector<double> area_of(part.size(), 0.0);
-    for (std::uint32_t f = 0; f < part.size(); ++f) {
-        area_of[part[f]] += topology::area({mesh.points, {&mesh.faces[f], 1}});
+    for (std::uint32_t f = 0; f < part.size(); ++f)
         if (mesh.source[f] != repair_result::none && is_left[mesh.source[f]] != 0)
             has_face[part[f]] = 1;
-    }
-    std::uint64_t count = 0;
-    std::optional<prepared_mesh> solid;
-    for (std::uint32_t f = 0; f < part.size(); ++f) {
-        if (part[f] != f || has_face[f] != 0 || !(area_of[f] > largest)) continue;
-        if (!solid) solid.emplace(prepared_mesh::borrow(made));
-        if (locate(*solid, mesh.points[mesh.faces[f][0]]).where == location::outside) ++count;
-    }
-    return count;
+    std::vector<std::uint32_t> gone;
+    for (std::uint32_t f = 0; f < part.size(); ++f)
+        if (has_face[part[f]] == 0) gone.push_back(f);
+    const std::vector<double> lost = lost_areas(mesh.view(), gone, made);
+    std::vector<double> lost_of(part.size(), 0.0);
+    for (std::size_t i = 0; i < gone.size(); ++i) lost_of[part[gone[i]]] += lost[i];
+    return static_cast<std::uint64_t>(
+        std::ranges::count_if(lost_of, [&](double area) { return area > largest; }));
 }
 
 bool has_inward_component(mesh_view mesh) {

@@ -46,8 +46,8 @@ struct loss {
 [[nodiscard]] double lost_area(mesh_view given, std::span<const std::uint8_t> is_left,
                                mesh_view made);
 
-/// How many parts of `mesh`, by edges, have more than that area and nothing left of them, not because
-/// they are inside of `made` but because they bound nothing.
+/// How many parts of `mesh`, by edges, have nothing left of them, and lost more than that area
+/// (`lost_area`): they bound nothing.
 ///
 /// \param is_left [F] of the input, whether `made` has a part of each face
 /// \pre   `made` is closed

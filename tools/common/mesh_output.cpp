@@ -70,10 +70,14 @@ void warn_of_moves(job& work, tf::points_view points, const tf::certificate& kno
     const double step = tf::coordinate_step(points, known.precision);
     const double moved = known.max_displacement;
     if (!(moved > step)) return;
-    work.warn("moved", "so that no faces meet when rounded, points moved by up to " + brief(moved) +
-                           ", " + brief(std::ceil(moved / step)) + " steps of the " +
-                           numbers_of(known.precision) +
-                           " numbers there; --max-move DIST sets a limit");
+    constexpr double most_steps = 1e6;  // more tell nobody anything
+    const std::string steps = moved > most_steps * step
+                                  ? std::string()
+                                  : " (" + brief(std::ceil(moved / step)) + " steps of the " +
+                                        numbers_of(known.precision) + " numbers there)";
+    work.warn("moved", "points moved by up to " + brief(moved) + steps +
+                           ", so that nothing meets or touches when rounded; --max-move DIST sets "
+                           "a limit");
 }
 
 void warn_of_rounding(job& work, double max_displacement, const std::string& whose) {

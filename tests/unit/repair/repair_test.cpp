@@ -372,6 +372,32 @@ TEST_CASE("repair: any heap of cubes, touching as they may, is a manifold in coo
     }
 }
 
+TEST_CASE("repair: a part inside another is no loss where its corner is moved away") {
+    // The edge where two cubes touch is moved apart, and the small one is left with a corner outside.
+    const tf::mesh cubes =
+        test::together(test::box(1, 1, 1), test::moved(test::box(1, 1, 1), {-1, -1, 0}));
+    const tf::mesh all = test::together(cubes, test::box(0.5, 0.5, 0.5));
+    const tf::repair_result result = tf::repair(all);
+    CHECK(result.statistics.detached > 0);
+    CHECK(result.statistics.vanished_components == 0);
+    require_solid(result, 2.0);
+}
+
+TEST_CASE("repair: boxes that others cover, faces on faces, are no loss") {
+    test::random source(1);
+    for (int heap = 0; heap < 100; ++heap) {
+        const std::size_t boxes = 4 + source.below(20);
+        tf::mesh all;
+        for (std::size_t i = 0; i < boxes; ++i)
+            all = test::together(std::move(all), test::lattice_box(source));
+        const tf::repair_result result = tf::repair(all, {.precision = tf::precision::float32});
+        CAPTURE(heap);
+        REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+        CHECK(result.statistics.touching == 0);
+        CHECK(result.statistics.vanished_components == 0);
+    }
+}
+
 TEST_CASE("repair: a sheet keeps its border when asked, and is no solid otherwise") {
     tf::mesh sheet;
     sheet.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.1}};
