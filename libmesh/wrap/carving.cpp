@@ -12,8 +12,6 @@
 namespace treeform::detail::wrap {
 namespace {
 
-constexpr std::uint32_t none = tetrahedralization::none;
-
 /// A face between what is outside and what is not yet.
 struct gate {
     double squared_radius;  ///< of a ball that passes
@@ -52,7 +50,7 @@ class carving {
 
   private:
     [[nodiscard]] bool is_outside(std::uint32_t t) const {
-        return t == none || space_.is_outside[t] != 0;
+        return t == tetrahedralization::none || space_.is_outside[t] != 0;
     }
     [[nodiscard]] bool is_gate(const gate& g) const {
         return space_.cells.births(g.inner) == g.births && !is_outside(g.inner) &&
@@ -67,7 +65,7 @@ class carving {
     /// Beyond the box there is nothing, so a center there is as good as any.
     [[nodiscard]] std::optional<ball> ball_outside(std::uint32_t inner, std::size_t i) const {
         const std::uint32_t outer = space_.cells[inner].neighbors[i];
-        if (outer != none) return ball_of(space_.cells.corners(outer));
+        if (outer != tetrahedralization::none) return ball_of(space_.cells.corners(outer));
         const auto [a, b, c] = corners_of(inner, i);
         const point3 normal = base::cross(base::minus(c, a), base::minus(b, a));
         const point3 diagonal = base::minus(around_.max, around_.min);

@@ -12,12 +12,12 @@
 namespace treeform::detail::wrap {
 namespace {
 
-constexpr std::uint32_t none = tetrahedralization::none;
-
 class filling {
   public:
     explicit filling(carved_space& space)
-        : space_(space), place_(space.cells.size(), none), waits_(space.cells.points().size(), 0) {
+        : space_(space),
+          place_(space.cells.size(), tetrahedralization::none),
+          waits_(space.cells.points().size(), 0) {
         list_tetrahedra();
     }
 
@@ -70,7 +70,8 @@ class filling {
     void for_neighbors(std::uint32_t v, std::size_t k, const Body& body) const {
         const tetrahedron& t = space_.cells[around_[k]];
         for (std::size_t i = 0; i < 4; ++i)
-            if (t.corners[i] != v && t.neighbors[i] != none) body(place_[t.neighbors[i]]);
+            if (t.corners[i] != v && t.neighbors[i] != tetrahedralization::none)
+                body(place_[t.neighbors[i]]);
     }
 
     std::vector<piece> pieces_of(std::uint32_t v) const {
@@ -102,7 +103,7 @@ class filling {
 
     /// The shortest way from a piece inside to another one.
     void bridge(std::uint32_t v, const piece& from) {
-        std::vector<std::uint32_t> before(around_.size(), none);
+        std::vector<std::uint32_t> before(around_.size(), tetrahedralization::none);
         std::vector<std::uint32_t> row = from.of;
         for (const std::uint32_t k : row) before[k] = k;
         for (std::size_t at = 0; at < row.size(); ++at) {
@@ -113,7 +114,7 @@ class filling {
                 return;
             }
             for_neighbors(v, here, [&](std::uint32_t next) {
-                if (before[next] != none) return;
+                if (before[next] != tetrahedralization::none) return;
                 before[next] = here;
                 row.push_back(next);
             });
