@@ -12,6 +12,7 @@
 
 #include "bytes.hpp"
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
@@ -221,17 +222,24 @@ class tool_test {
 
     void check_mesh(std::string_view content, const std::string& name) const {
         if (name.ends_with(".glb") && !tf::reads_scenes()) return;
-        tf::mesh mesh;
+        tf::mesh_file file;
         try {
-            mesh = tf::read(std::as_bytes(std::span(content)), name, {}).mesh;
+            file = tf::read(std::as_bytes(std::span(content)), name, {});
         } catch (const tf::io_error& error) {
             require(false, error.what());
         }
-        if (command_.mesh == kept_promise::read) return;
-        mesh = tf::join_equal_points(mesh);
+        if (command_.mesh == kept_promise::solids)
+            for (const tf::file_part& part : tf::split_parts({&file, {}}))
+                check_surface(part.file.mesh);
+        else if (command_.mesh != kept_promise::read)
+            check_surface(file.mesh);
+    }
+
+    void check_surface(const tf::mesh& written) const {
+        const tf::mesh mesh = tf::join_equal_points(written);
         require(tf::find_defects(mesh) == tf::mesh_defects{}, "wrote a degenerate face");
         require(tf::self_intersections(mesh).pairs.empty(), "wrote faces that meet");
-        if (command_.mesh == kept_promise::solid)
+        if (command_.mesh != kept_promise::clean)
             require(!tf::find_open_edge(mesh), "wrote an open edge");
     }
 
