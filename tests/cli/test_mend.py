@@ -155,7 +155,7 @@ class Mend(ToolTest):
     def test_a_step_can_be_left_out(self):
         hole = write(self.path("hole.obj"), self.cube_without(3))
         run = self.run_tool(hole, "--no-fill", "-o", "out.stl", status=1)
-        self.assertEqual(run.text, hole + ": not written: open at 3 edges (--sheet writes it)\n")
+        self.assertEqual(run.text, hole + ": not written: open at 3 edges (--sheet writes it, --wrap 2% wraps it)\n")
         self.assertNotIn("out.stl", self.listing())
         run = self.run_tool(hole, "--holes", "2", "-n", status=1)
         entry = self.mended(hole, "--sheet", "-o", "sheet.obj")
@@ -174,7 +174,7 @@ class Mend(ToolTest):
         points, faces = together(self.cube_without(3), (sheet, grid(1)[1]))
         part = write(self.path("part.obj"), (points, faces))
         run = self.run_tool(part, "-o", "out.obj", status=1)
-        self.assertEqual(run.text, part + ": not written: open at 4 edges (--sheet writes it)\n")
+        self.assertEqual(run.text, part + ": not written: open at 4 edges (--sheet writes it, --wrap 2% wraps it)\n")
         entry = self.mended(part, "--strays", "30%", "-o", "out.obj", status=1)
         self.assertEqual(entry["repair"]["loss"], {"of": "area", "before": 6.5, "after": 5.5})
         self.assertNotIn("out.obj", self.listing())

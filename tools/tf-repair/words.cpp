@@ -25,7 +25,7 @@ std::string reason(const repair_settings& settings, const tf::repaired_file& mad
             return {};
         case tf::status::open_input:
             return "open at " + counted(known.open_count, "edge", "edges") +
-                   (settings.steps.sheet ? "" : " (--sheet writes it)");
+                   (settings.steps.sheet ? "" : " (--sheet writes it, --wrap 2% wraps it)");
         case tf::status::excessive_loss:
             if (known.size_before == 0.0)
                 return counted(made.statistics.vanished_components, "part", "parts") +
