@@ -350,6 +350,18 @@ TEST_CASE("repair: what touches in an edge or a vertex is moved apart, in floats
         }
 }
 
+TEST_CASE("repair: a sliver and the cube that it touches are set apart") {
+    // A sliver, as thin as a step of float32 at its far edge, on an edge of a cube.
+    const tf::mesh sliver{{{1, 1, 0}, {1, 1, 1}, {1.5, 1.5, 0.25}, {1.5, 1.5 + 0x1p-23, 0.75}},
+                          {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+    const double volume = 1.0 + tf::signed_volume(sliver);
+    REQUIRE(volume > 1.0);
+    const tf::repair_result result = tf::repair(test::together(test::box(1, 1, 1), sliver),
+                                                {.precision = tf::precision::float32});
+    CHECK(result.statistics.touching == 0);
+    require_solid(result, volume);
+}
+
 TEST_CASE("repair: any heap of cubes, touching as they may, is a manifold in coordinates") {
     test::random source(41);
     for (int round = 0; round < 60; ++round) {
