@@ -1,3 +1,5 @@
+#include <libmesh/base/double_double.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -67,5 +69,19 @@ TEST_CASE("volume: the same bits on any number of threads") {
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
         CHECK(tf::signed_volume(mesh) == volume);
+    }
+}
+
+TEST_CASE("volume: as of one face after the other, in twice the precision") {
+    test::random source(12);
+    for (std::size_t faces = 1; faces < 40; ++faces) {
+        tf::mesh soup = test::random_soup(source, faces, 1.0);
+        for (tf::point3& p : soup.points) p = {1e3 + p.x, 1e-3 * p.y - 7.0, 1e5 * p.z};
+        tf::detail::base::double_double sum;
+        for (const tf::face& f : soup.faces) {
+            const auto [a, b, c] = tf::detail::base::triangle_of(soup.points, f);
+            sum = sum + tf::detail::base::determinant(a, b, c);
+        }
+        CHECK(tf::signed_volume(soup) == sum.high / 6.0);
     }
 }
