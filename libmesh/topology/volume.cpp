@@ -87,7 +87,9 @@ HWY_INLINE doubled times(const vec& a, const doubled& b) {
 
 /// Six times the volumes between the origin and faces with these corners.
 HWY_INLINE doubled six_volumes(const std::array<std::array<vec, 3>, 3>& corners) {
-    const auto& [a, b, c] = corners;
+    const auto& a = corners[0];
+    const auto& b = corners[1];
+    const auto& c = corners[2];
     const auto minor = [&](std::size_t i, std::size_t j) HWY_ATTR {
         return plus(product_of(b[i], c[j]), product_of(hn::Neg(b[j]), c[i]));
     };
