@@ -253,9 +253,11 @@ class Mend(ToolTest):
         self.assertEqual([(p["name"], p["faces"], p["solid"]) for p in entry["repair"]["parts"]],
                          [("a", 12, True), ("b", 12, True)])
         self.run_tool("out.3mf", "--check", status=0)
-        run = self.run_tool("scene.obj", "-o", "out.stl", status=0)
-        self.assertIn(": solid, ", run.text)
-        self.assertIn("volume 1.5 (was 2)", run.text)
+        for name in ("out.stl", "out.glb"):
+            run = self.run_tool("scene.obj", "-o", name, status=0)
+            self.assertIn(": solid, ", run.text)
+            self.assertIn("volume 1.5 (was 2)", run.text)
+            self.run_tool(name, "--check", status=0)
         self.put("scene.obj", "\n".join([*lines, "o c", "v 5 0 0", "v 6 0 0", "v 5 1 0",
                                          "f 17 18 19", ""]))
         run = self.run_tool("scene.obj", "-o", "no.3mf", status=1)

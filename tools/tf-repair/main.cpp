@@ -102,7 +102,7 @@ const char* const epilogue =
     "which nothing is left, except for what is hidden in the solid.\n"
     "\n"
     "Objects of a file are mended one by one where the output has objects, too (3MF,\n"
-    "GLB, OBJ): each is a solid of its own, and they may overlap. As STL, PLY or OFF\n"
+    "OBJ): each is a solid of its own, and they may overlap. As STL, PLY, OFF or GLB\n"
     "they become one solid. --check looks at each object.\n"
     "\n"
     "--wrap rolls a ball over the faces, so to speak, and keeps what it cannot get\n"
@@ -182,8 +182,8 @@ exit_status check_only(tools::job& work, const tools::dirty_mesh& input) {
 /// Where the output has no objects, overlapping ones become one solid.
 tf::repair_scope scope_for(const common_options& options, const std::filesystem::path& output) {
     const std::string format = tools::mesh_format(options, output);
-    return format == "3mf" || format == "glb" || format == "obj" ? tf::repair_scope::each_part
-                                                                 : tf::repair_scope::whole_file;
+    return format == "3mf" || format == "obj" ? tf::repair_scope::each_part
+                                              : tf::repair_scope::whole_file;
 }
 
 tf::repaired_file mend(tools::job& work, const tools::dirty_mesh& input,
