@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/repair/copies.hpp>
 #include <libmesh/repair/drop_copies.hpp>
@@ -5,6 +6,7 @@
 #include <treeform/mesh/properties.hpp>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 #include <vector>
@@ -22,6 +24,19 @@ void for_edges_and_ways(const face& f, const Visit& visit) {
         const std::uint32_t from = f[i], to = f[(i + 1) % 3];
         visit(edge_ends(std::minmax(from, to)), from < to ? 1 : -1);
     }
+}
+
+/// Whether the least height is below the step of float32 at the largest coordinate. Rounded: it
+/// decides what is worth keeping, not what meets.
+bool is_sliver(const std::array<point3, 3>& t) {
+    using namespace base;
+    const std::array<point3, 3> edges{minus(t[1], t[0]), minus(t[2], t[1]), minus(t[0], t[2])};
+    const point3 normal = cross(edges[0], edges[1]);
+    const double longest =
+        std::max({dot(edges[0], edges[0]), dot(edges[1], edges[1]), dot(edges[2], edges[2])});
+    const double largest = std::max({largest_of(t[0]), largest_of(t[1]), largest_of(t[2])});
+    constexpr double step = 0x1p-23;  // of a number between 1 and 2
+    return dot(normal, normal) < step * step * largest * largest * longest;
 }
 
 using copy_groups = std::vector<std::vector<std::uint32_t>>;
@@ -148,6 +163,18 @@ std::uint64_t drop_degenerate(working_mesh& mesh) {
     const std::vector<std::uint32_t>& list = defects.degenerate_faces;
     if (list.empty()) return 0;
     return mesh.drop([&](std::uint32_t f) { return std::ranges::binary_search(list, f); });
+}
+
+std::uint64_t drop_degenerate_and_slivers(working_mesh& mesh) {
+    const std::uint64_t dropped = drop_degenerate(mesh);
+    if (dropped == 0) return 0;
+    std::vector<std::uint8_t> is_thin(mesh.faces.size());
+    for (std::size_t f = 0; f < is_thin.size(); ++f)
+        is_thin[f] = is_sliver(base::triangle_of(mesh.points, mesh.faces[f])) ? 1 : 0;
+    constexpr std::uint64_t as_likely = 4;
+    const auto slivers = static_cast<std::uint64_t>(std::ranges::count(is_thin, 1));
+    if (slivers > as_likely * dropped) return dropped;
+    return dropped + mesh.drop([&](std::uint32_t f) { return is_thin[f] != 0; });
 }
 
 std::uint64_t drop_copies(working_mesh& mesh) {

@@ -11,6 +11,11 @@ namespace treeform::detail::repair {
 /// Drops faces with collinear corners; returns how many. Exact.
 std::uint64_t drop_degenerate(working_mesh& mesh);
 
+/// The same; where there are any, drops those with them that are thinner than a step of float32
+/// numbers: they came about as the others did, but were rounded the other way. Where these are far
+/// more, they did not, and stay.
+std::uint64_t drop_degenerate_and_slivers(working_mesh& mesh);
+
 /// Drops faces with the same corners as another one; returns how many.
 ///
 /// Of parts every face of which has a copy, as has a sheet with a back or a model that is there

@@ -132,7 +132,7 @@ class repairer {
             tally_ = detail::repair::tally_edges(mesh_);
             return;
         }
-        did_.degenerate = detail::repair::drop_degenerate(mesh_);
+        did_.degenerate = detail::repair::drop_degenerate_and_slivers(mesh_);
         is_manifold_ = detail::topology::is_manifold(mesh_.view());
         if (is_manifold_) return;  // nothing to tally
         tally_ = detail::repair::tally_edges(mesh_);

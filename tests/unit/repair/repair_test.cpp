@@ -384,6 +384,31 @@ TEST_CASE("repair: any heap of cubes, touching as they may, is a manifold in coo
     }
 }
 
+TEST_CASE("repair: slivers go with faces that have no area, and stay where there are none") {
+    // The diagonal of a side of a cube is bent by less than a step of float32, or not at all.
+    const auto bent = [](double by) {
+        tf::mesh cube = test::box(1, 1, 1);
+        const auto [a, b, c] = cube.faces[0];
+        cube.points.push_back({0.5, 0.5 - by, cube.points[a].z});
+        const auto middle = static_cast<std::uint32_t>(cube.points.size() - 1);
+        // (b, c) is the diagonal.
+        cube.faces[0] = {a, b, middle};
+        cube.faces.push_back({a, middle, c});
+        cube.faces.push_back({b, c, middle});
+        return cube;
+    };
+    const tf::repair_result kept = tf::repair(bent(0x1p-30));
+    CHECK(kept.mesh == bent(0x1p-30));
+    const tf::repair_result flat = tf::repair(bent(0.0));
+    CHECK(flat.statistics.degenerate == 1);
+    require_solid(flat, 1.0);
+    const tf::mesh both = test::together(bent(0.0), test::moved(bent(0x1p-30), {2, 0, 0}));
+    const tf::repair_result mended = tf::repair(both);
+    CHECK(mended.statistics.degenerate == 2);
+    CHECK(mended.mesh.faces.size() == 28);
+    require_solid(mended, 2.0);
+}
+
 TEST_CASE("repair: a part inside another is no loss where its corner is moved away") {
     // The edge where two cubes touch is moved apart, and the small one is left with a corner outside.
     const tf::mesh cubes =

@@ -142,7 +142,7 @@ struct repair_options {
 /// What each step has done. Gaps closed, sides chosen and holes filled are guesses.
 struct repair_statistics {
     std::uint64_t tetrahedra = 0;           ///< that the faces were; their boundary was kept
-    std::uint64_t degenerate = 0;           ///< faces without area, dropped
+    std::uint64_t degenerate = 0;           ///< faces without area, dropped; with such, slivers
     std::uint64_t repeated = 0;             ///< faces on others, dropped
     std::uint64_t closed_edges = 0;         ///< pairs of border edges that became one
     std::uint64_t split_edges = 0;          ///< border edges split at vertices that lie on them
