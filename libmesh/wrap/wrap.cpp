@@ -138,6 +138,11 @@ wrap_result wrap(mesh_view mesh, double size, const wrap_options& options) {
         return result;
     };
     detail::base::work_progress progress(options.progress);
+    constexpr double most_faces = 0x1p30;
+    if (result.statistics.area > most_faces * size * size)
+        refuse("the size " + detail::base::brief(size) +
+               " is too small: the wrap would have more "
+               "than 10^9 faces");
     const detail::wrap::offset_surface surface(mesh, offset);
     std::optional<carved_space> space = detail::wrap::carve(
         surface, around, {size, offset, options.precision},

@@ -136,6 +136,9 @@ TEST_CASE("what cannot be wrapped") {
                       doctest::Contains("is too small: coordinates are"));
     CHECK_THROWS_WITH((void)tf::wrap(test::scaled(box, 0x1p200), 0x1p190),
                       doctest::Contains("2^150"));
+    CHECK_THROWS_WITH((void)tf::wrap(box, 1e-6),
+                      "treeform::wrap: the size 1e-06 is too small: the wrap would have more than "
+                      "10^9 faces");
     tf::mesh broken = box;
     broken.points[3].x = infinity;
     CHECK_THROWS_AS((void)tf::wrap(broken, 1.0), std::invalid_argument);

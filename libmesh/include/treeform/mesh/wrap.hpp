@@ -60,7 +60,8 @@ struct TREEFORM_API wrap_result {
 /// \throws std::invalid_argument naming the face with a corner out of range or not finite; where
 ///         the mesh has no faces, where it is larger than 2^150 or smaller than 2^-150, for a
 ///         size or offset that is not positive and finite, or so small that coordinates of the
-///         precision do not tell apart what is as near as the offset
+///         precision do not tell apart what is as near as the offset, or the wrap would have more
+///         than 2^30 faces
 /// \cost   for n points O(n log n) in most cases, O(n log F) queries of the tree over the faces; some
 ///         400 bytes a point; serial
 /// \same   on every machine
