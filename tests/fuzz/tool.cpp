@@ -229,10 +229,16 @@ class tool_test {
             require(false, error.what());
         }
         if (command_.mesh == kept_promise::solids)
-            for (const tf::file_part& part : tf::split_parts({&file, {}}))
-                check_surface(part.file.mesh);
+            check_parts(file);
         else if (command_.mesh != kept_promise::read)
             check_surface(file.mesh);
+    }
+
+    void check_parts(const tf::mesh_file& written) const {
+        const tf::solid_defects found = tf::find_solid_defects(tf::carry_source{&written, {}});
+        require(found.degenerate == 0, "wrote a degenerate face");
+        require(found.meeting_pairs == 0, "wrote faces that meet");
+        require(found.open_edges == 0, "wrote an open edge");
     }
 
     void check_surface(const tf::mesh& written) const {
