@@ -7,6 +7,7 @@
 #include <treeform/mesh/wrap.hpp>
 #include <treeform/tf.hpp>
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -48,17 +49,19 @@ void enter(job& work, const dirty_mesh& input, const tf::wrap_result& made, doub
                           {"components", topology.components_by_point}};
 }
 
-/// Of a surface with a hole that is wider than the size, the wrap is on both sides.
+/// Of a surface with a hole that is wider than the size, the wrap is on both sides, and encloses less
+/// than the surface nearly does.
 void warn_of_skin(job& work, const dirty_mesh& input, const tf::wrap_result& made, double volume) {
-    const tf::wrap_statistics& did = made.statistics;
-    constexpr double skin = 8.0;  // offsets: two where it is flat, more where it is not
-    if (volume > skin * did.offset * did.area) return;
+    constexpr double much = 0.9;
+    if (volume > much * std::abs(input.volume)) return;
     const tf::mesh_view mesh = input.file.mesh;
     const tf::mesh joined = tf::join_meshes({&mesh, 1}).mesh;
-    if (tf::count_topology(joined.points.size(), joined.faces).boundary_edges == 0) return;
+    const auto edges = tf::count_topology(joined.points.size(), joined.faces);
+    // Where parts overlap or are within each other, volumes do not tell.
+    if (edges.boundary_edges <= edges.nonmanifold_edges) return;
     work.warn("skin",
               "the wrap is a skin on both sides of the faces: the way inside is wider than " +
-                  brief(did.size) + "; a larger --wrap closes it");
+                  brief(made.statistics.size) + "; a larger --wrap closes it");
 }
 
 }  // namespace
