@@ -8,7 +8,6 @@
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/exact/filter.hpp>
 #include <libmesh/intersect/meetings.hpp>
-#include <libmesh/intersect/pairs_by_tree.hpp>
 #include <libmesh/intersect/same_points.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -382,6 +381,13 @@ arrange_faces_result detail::arrange::arrange_pairs(mesh_view mesh,
 
 arrange_faces_result detail::arrange::arrange_without_points(mesh_view mesh,
                                                              const arrange_faces_options& options) {
+    return arrange_wanted(
+        mesh, [](const face_pair&) { return true; }, options);
+}
+
+arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
+                                                     function_ref<bool(const face_pair&)> is_wanted,
+                                                     const arrange_faces_options& options) {
     base::check_faces("arrange_faces", mesh.points.size(), mesh.faces);
     std::vector<std::uint32_t> degenerate = degenerate_faces(mesh);
     // Degenerate faces are shut out by hiding them: pairs are looked for among the others only.
@@ -408,22 +414,9 @@ arrange_faces_result detail::arrange::arrange_without_points(mesh_view mesh,
             pair.a = kept_number[pair.a];
             pair.b = kept_number[pair.b];
         }
+    std::erase_if(found.pairs, [&](const face_pair& pair) { return !is_wanted(pair); });
     return arrange_known(mesh, found.pairs, std::move(degenerate),
                          part_of(options.progress, 0.5, 1.0));
-}
-
-bool detail::arrange::can_all_be_arranged(mesh_view mesh) {
-    const unfit_faces unfit = find_unfit(mesh);
-    return std::ranges::all_of(unfit.corner, [](std::uint32_t c) { return c == none; }) &&
-           std::ranges::all_of(unfit.degenerate, [](const auto& part) { return part.empty(); });
-}
-
-arrange_faces_result detail::arrange::arrange_by_tree(mesh_view mesh, tree<3> tree,
-                                                      const progress_callback& progress) {
-    const self_intersection_result found =
-        intersect::pairs_by_tree(mesh, std::move(tree), {.progress = part_of(progress, 0.0, 0.5)});
-    if (found.cancelled) return cancelled_result({});
-    return arrange_known(mesh, found.pairs, {}, part_of(progress, 0.5, 1.0));
 }
 
 arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {

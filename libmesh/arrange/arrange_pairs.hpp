@@ -5,7 +5,7 @@
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/tree/tree.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
 
 #include <cstdint>
 #include <span>
@@ -19,18 +19,13 @@ namespace treeform::detail::arrange {
                                                  std::vector<std::uint32_t> degenerate,
                                                  const progress_callback& progress);
 
-/// Whether `arrange_faces` refuses none of the corners and leaves none of the faces out.
-/// \pre  every corner is a point
-/// \same on any number of threads
-[[nodiscard]] bool can_all_be_arranged(mesh_view mesh);
-
-/// As `arrange_faces` of such faces, but without the `given_points`; `tree` is that of the faces,
-/// and is gone when their pairs have been found.
-[[nodiscard]] arrange_faces_result arrange_by_tree(mesh_view mesh, tree<3> tree,
-                                                   const progress_callback& progress);
-
 /// As `arrange_faces`, but without the `given_points`: for those who can move theirs there.
 [[nodiscard]] arrange_faces_result arrange_without_points(mesh_view mesh,
                                                           const arrange_faces_options& options);
+
+/// The same of those pairs of faces alone that `is_wanted`; others stay uncut where they meet.
+[[nodiscard]] arrange_faces_result arrange_wanted(mesh_view mesh,
+                                                  function_ref<bool(const face_pair&)> is_wanted,
+                                                  const arrange_faces_options& options);
 
 }  // namespace treeform::detail::arrange

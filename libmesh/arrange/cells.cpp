@@ -2,8 +2,8 @@
 #include <libmesh/arrange/cells_of.hpp>
 #include <libmesh/arrange/operand_sums.hpp>
 #include <libmesh/arrange/parts.hpp>
+#include <libmesh/arrange/patch_regions.hpp>
 #include <libmesh/arrange/patches.hpp>
-#include <libmesh/arrange/radial_order.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/first_bad.hpp>
 #include <libmesh/base/union_find.hpp>
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -21,6 +20,7 @@ namespace {
 
 using detail::arrange::face_side;
 using detail::arrange::numbered_sets;
+using detail::arrange::patch_regions;
 using detail::arrange::surface_patches;
 using detail::base::first_bad;
 
@@ -80,50 +80,6 @@ class labels {
     const mesh_arrangement& cut_;
     std::span<const std::uint32_t> operand_of_face_;
 };
-
-/// Sides that look into one region. Element 0 stands for infinity.
-class regions {
-  public:
-    explicit regions(const surface_patches& patches)
-        : patches_(patches), sets_(2 * std::size_t{patches.count()} + 1) {}
-
-    void join(face_side s, face_side t) { sets_.join(element(s), element(t)); }
-    void join_infinity(face_side s) { sets_.join(0, element(s)); }
-
-    /// Cells, 0 being that of infinity, then in the order of the lowest sides. The last to be
-    /// asked.
-    [[nodiscard]] numbered_sets number() { return detail::arrange::number_sets(std::move(sets_)); }
-
-  private:
-    [[nodiscard]] std::uint32_t element(face_side s) const { return patches_.patch_side(s) + 1; }
-
-    const surface_patches& patches_;
-    detail::base::union_find sets_;
-};
-
-/// Neighbors about an edge look into the region between them.
-void join_about_edges(mesh_view mesh, const mesh_arrangement& cut, const surface_patches& patches,
-                      regions& joined) {
-    std::vector<std::optional<std::array<std::uint32_t, 2>>> broken(patches.junctions.size());
-    for_chunks(patches.junctions.size(), 1, [&](std::size_t, std::size_t, std::size_t c) {
-        const detail::arrange::junction_list& list = patches.junctions[c];
-        detail::arrange::radial_order radial(mesh, cut);
-        std::vector<face_side> order;
-        for (std::size_t e = 0; e < list.edges.size() && !broken[c]; ++e) {
-            const auto sides = list.sides_of(e);
-            order.assign(sides.begin(), sides.end());
-            if (!radial.sort(list.edges[e].points, order)) broken[c] = list.edges[e].points;
-            for (std::size_t i = 0; i < order.size(); ++i)
-                joined.join(order[i], detail::arrange::other_side(order[(i + 1) % order.size()]));
-        }
-    });
-    for (const auto& edge : broken)
-        if (edge)
-            throw std::logic_error(
-                "treeform::find_cells: faces lie on each other at the edge between "
-                "points " +
-                std::to_string((*edge)[0]) + " and " + std::to_string((*edge)[1]));
-}
 
 /// The part of each patch: patches are linked by edges.
 numbered_sets find_parts(const surface_patches& patches) {
@@ -230,8 +186,8 @@ class winding_flood {
 
 /// What looks into one region is one cell; `joined` is known to so far.
 numbered_sets number_cells(mesh_view mesh, const mesh_arrangement& cut,
-                           const surface_patches& patches, regions& joined) {
-    join_about_edges(mesh, cut, patches, joined);
+                           const surface_patches& patches, patch_regions& joined) {
+    joined.join_about_edges(mesh, cut);
     for (const auto& [outer, beyond] :
          detail::arrange::place_parts(mesh, cut, patches, find_parts(patches)))
         if (beyond)
@@ -275,7 +231,7 @@ arrangement_cells detail::arrange::cells_of(mesh_view mesh, const mesh_arrangeme
         return result;
     }
     const labels labels(cut, operand_of_face);
-    regions joined(patches);
+    patch_regions joined(patches);
     for (std::uint32_t p = 0; p < patches.count(); ++p)
         if (const std::uint32_t f = patches.first_face(p); labels.cancel(f))
             joined.join(detail::arrange::front_of(f), detail::arrange::behind(f));
@@ -289,7 +245,7 @@ detail::arrange::open_cells detail::arrange::open_cells_of(mesh_view mesh,
                                                            const mesh_arrangement& cut) {
     const std::vector<std::uint32_t> one_operand(mesh.faces.size(), 0);
     const surface_patches patches = find_patches(cut, one_operand);
-    regions joined(patches);
+    patch_regions joined(patches);
     const numbered_sets cells = number_cells(mesh, cut, patches, joined);
     open_cells result{cells.count(), {}};
     result.cells.cell_of_side = cells_beside_faces(cut, patches, cells);

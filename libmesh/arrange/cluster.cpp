@@ -245,13 +245,21 @@ class cutter {
 
     void force_lines(planar_triangulation& plane) {
         chains_.resize(lines_.size());
+        force_edges(plane);
+        const std::size_t named = plane.points().size();
+        for (const segment& s : segments_)
+            if (vertex_of_[s.from] != vertex_of_[s.to])
+                plane.constrain(vertex_of_[s.from], vertex_of_[s.to], s.line);
+        // Where not all pairs that meet are known, a segment may cross an edge at a point without a
+        // name, which is in the way along that edge now.
+        if (!is_single() && plane.points().size() > named) force_edges(plane);
+    }
+
+    void force_edges(planar_triangulation& plane) {
         for (std::uint32_t line = 0; line < lines_.size() && !lines_[line].is_face; ++line) {
             const auto [u, v] = lines_[line].of;
             chains_[line] = plane.constrain(vertex_of_[local(u)], vertex_of_[local(v)], line);
         }
-        for (const segment& s : segments_)
-            if (vertex_of_[s.from] != vertex_of_[s.to])
-                plane.constrain(vertex_of_[s.from], vertex_of_[s.to], s.line);
     }
 
     /// Spreads each member from one of its sides over the triangles within its boundary.

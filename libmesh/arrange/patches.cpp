@@ -47,9 +47,11 @@ struct chunk_edges {
 class edge_reader {
   public:
     edge_reader(const mesh_arrangement& cut, std::span<const std::uint32_t> operand_of_face,
-                const buffer<short_operand>& sole, base::union_find& patches, chunk_edges& found)
+                const edge_judge* judge, const buffer<short_operand>& sole,
+                base::union_find& patches, chunk_edges& found)
         : cut_(cut),
           operand_of_face_(operand_of_face),
+          judge_(judge),
           sole_(sole),
           patches_(patches),
           found_(found) {}
@@ -88,7 +90,10 @@ class edge_reader {
     }
 
     void read_edge(std::uint32_t a, std::uint32_t b) {
-        const bool plain = sides_.size() == 2 && is_behind(sides_[0]) != is_behind(sides_[1]);
+        const edge_use use = judge_ == nullptr ? edge_use::all : (*judge_)({a, b}, sides_);
+        if (use == edge_use::nothing) return;
+        const bool plain = use == edge_use::all && sides_.size() == 2 &&
+                           is_behind(sides_[0]) != is_behind(sides_[1]);
         if (plain) {
             const std::uint32_t f = face_of(sides_[0]);
             const std::uint32_t g = face_of(sides_[1]);
@@ -131,6 +136,7 @@ class edge_reader {
 
     const mesh_arrangement& cut_;
     std::span<const std::uint32_t> operand_of_face_;
+    const edge_judge* judge_;  ///< none where no face is missing
     const buffer<short_operand>& sole_;
     base::union_find& patches_;
     chunk_edges& found_;
@@ -139,17 +145,16 @@ class edge_reader {
     std::vector<counted_face> counted_;
 };
 
-}  // namespace
-
-surface_patches find_patches(const mesh_arrangement& cut,
-                             std::span<const std::uint32_t> operand_of_face) {
+surface_patches find_patches_of(const mesh_arrangement& cut,
+                                std::span<const std::uint32_t> operand_of_face,
+                                const edge_judge* judge) {
     const edge_stars stars(cut.given_points.size() + cut.constructed.size(), cut.faces);
     const auto sole = sole_operands(cut, operand_of_face);
     base::union_find patches(cut.faces.size());
     std::vector<chunk_edges> found(chunk_count(stars.size(), star_grain));
     for_chunks(stars.size(), star_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         chunk_edges part;
-        edge_reader reader(cut, operand_of_face, sole, patches, part);
+        edge_reader reader(cut, operand_of_face, judge, sole, patches, part);
         for (std::size_t v = begin; v < end; ++v) {
             if (v + ahead < end) reader.prefetch(stars[v + ahead]);
             reader.read(static_cast<std::uint32_t>(v), stars[v]);
@@ -168,6 +173,18 @@ surface_patches find_patches(const mesh_arrangement& cut,
             part.open.begin() + static_cast<std::ptrdiff_t>(std::min(room, part.open.size())));
     }
     return result;
+}
+
+}  // namespace
+
+surface_patches find_patches(const mesh_arrangement& cut,
+                             std::span<const std::uint32_t> operand_of_face) {
+    return find_patches_of(cut, operand_of_face, nullptr);
+}
+
+surface_patches find_patches(const mesh_arrangement& cut,
+                             std::span<const std::uint32_t> operand_of_face, edge_judge judge) {
+    return find_patches_of(cut, operand_of_face, &judge);
 }
 
 }  // namespace treeform::detail::arrange

@@ -6,6 +6,7 @@
 #include <libmesh/arrange/face_side.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/arrange/numbered_sets.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
 
 #include <array>
 #include <cstddef>
@@ -50,5 +51,19 @@ struct surface_patches {
 /// \same on any number of threads
 [[nodiscard]] surface_patches find_patches(const mesh_arrangement& cut,
                                            std::span<const std::uint32_t> operand_of_face);
+
+/// What an edge of an arrangement from which faces are missing is good for.
+enum class edge_use : std::uint8_t {
+    nothing,   ///< faces may be missing there: it links nothing, is no junction, and not open
+    junction,  ///< all are there, but it does not make two faces one patch
+    all
+};
+using edge_judge = function_ref<edge_use(const std::array<std::uint32_t, 2>& points,
+                                         std::span<const face_side> sides)>;
+
+/// The same where faces are missing.
+[[nodiscard]] surface_patches find_patches(const mesh_arrangement& cut,
+                                           std::span<const std::uint32_t> operand_of_face,
+                                           edge_judge judge);
 
 }  // namespace treeform::detail::arrange

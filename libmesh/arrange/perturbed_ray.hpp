@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A ray that grazes nothing, from beside an edge.
+/// A ray along an axis that grazes nothing.
 
 #include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -17,19 +17,24 @@ struct crossing {
     cutting_plane cut{};  ///< the plane, its normal along the ray
 };
 
-/// The ray in direction +x from a point v, moved: along an edge toward point b by s, then across
-/// it by s^2, both seen along x, for an s > 0 smaller than any number. It passes through triangles
-/// strictly inside or not at all, and no two of them in one point unless they overlap there.
+/// The ray in positive direction of an axis from a point v, moved: along an edge toward point b by
+/// s, then across it by s^2, both seen along the axis, for an s > 0 smaller than any number. It
+/// passes through triangles strictly inside or not at all, and no two of them in one point unless
+/// they overlap there. Of an axis k, the other two are k + 1 and k + 2 modulo 3.
 class perturbed_ray {
   public:
-    /// \pre y or z of `toward` differ from those of `from`
-    perturbed_ray(const point3& from, const point3& toward);
+    /// \pre a coordinate of another axis than `along` of `toward` differs from that of `from`
+    perturbed_ray(const point3& from, const point3& toward, int along = 0);
 
     [[nodiscard]] const point3& from() const { return from_; }
+    [[nodiscard]] int along() const { return along_; }
 
     /// How it passes through the triangle, if it does, ahead of where it starts. Triangles that the
     /// edge runs in are not ahead.
     [[nodiscard]] std::optional<crossing> meet(const triangle3& t) const;
+
+    /// How the line of the ray passes through the triangle, if it does, ahead or not.
+    [[nodiscard]] std::optional<crossing> cross(const triangle3& t) const;
 
     /// The parameter of a crossing, 2^-40 of itself wrong at most: how far it is from v.
     [[nodiscard]] double distance(const crossing& c) const;
@@ -38,8 +43,8 @@ class perturbed_ray {
     /// when the triangles overlap there.
     [[nodiscard]] int compare(const crossing& c, const crossing& d) const;
 
-    /// The sign of x of the normal of a triangle when the line of the ray passes through it, else
-    /// 0. Corners are all given or all constructed.
+    /// The sign of the normal of a triangle along the ray when the line of the ray passes through
+    /// it, else 0. Corners are all given or all constructed.
     template <class Point>
     [[nodiscard]] int passes(const Point& a, const Point& b, const Point& c) const {
         const int sign = about(a, b);
@@ -47,13 +52,14 @@ class perturbed_ray {
     }
 
   private:
-    /// Which side of the directed edge from p to r the line passes, seen along x: +1 is the left.
+    /// Which side of the directed edge from p to r the line passes, seen along it: +1 is the left.
     /// About a line through v, what counts is where b is; along a line through both, moving across
-    /// it counts, by (-d.z, d.y) for d = b - v. 0 for edges parallel to x alone.
+    /// it counts, by (-d.z, d.y) for d = b - v and a ray along x. 0 for edges parallel to the ray
+    /// alone.
     template <class Point>
     [[nodiscard]] int about(const Point& p, const Point& r) const {
-        if (const int sign = orient2d(0, p, r, from_as<Point>()); sign != 0) return sign;
-        if (const int sign = orient2d(0, p, r, toward_as<Point>()); sign != 0) return sign;
+        if (const int sign = orient2d(along_, p, r, from_as<Point>()); sign != 0) return sign;
+        if (const int sign = orient2d(along_, p, r, toward_as<Point>()); sign != 0) return sign;
         return treeform::compare(axis_, r, p) * ahead_;
     }
 
@@ -66,9 +72,13 @@ class perturbed_ray {
     point3 toward_;
     implicit_point implicit_from_;
     implicit_point implicit_toward_;
-    int axis_;   ///< in which v and b differ: 1 or 2
+    int along_;
+    int axis_;   ///< another one, in which v and b differ
     int ahead_;  ///< sign of b - v there
 };
+
+/// From q along an axis, moved aside toward anywhere.
+[[nodiscard]] perturbed_ray ray_beside(const point3& q, int along);
 
 template <>
 inline const point3& perturbed_ray::from_as() const {

@@ -3,26 +3,25 @@
 #include <libmesh/arrange/cells_of.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/base/certify.hpp>
+#include <libmesh/base/first_bad.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/boolean/active_boolean.hpp>
+#include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/inside_of_cells.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/labeled_cells.hpp>
 #include <libmesh/boolean/mended_operands.hpp>
-#include <libmesh/boolean/merged_faces.hpp>
 #include <libmesh/boolean/open_input_edges.hpp>
-#include <libmesh/boolean/operand_tree.hpp>
+#include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/boolean/sheet_faces.hpp>
 #include <libmesh/boolean/sound_operand.hpp>
 #include <libmesh/boolean/sound_pair.hpp>
 #include <libmesh/boolean/split_nonmanifold.hpp>
-#include <libmesh/round/round_surface.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/point_location.hpp>
-#include <treeform/tree/parallel.hpp>
-#include <treeform/tree/tree.hpp>
 
 #include <algorithm>
 #include <array>
@@ -38,10 +37,14 @@ namespace treeform {
 namespace {
 
 using detail::base::part_of;
+using detail::boolean::finish_surface;
 using detail::boolean::joined_operands;
 using detail::boolean::label_counts;
+using detail::boolean::open_input_edges;
+using detail::boolean::operand_edges;
 using detail::boolean::rounding_try;
 using detail::boolean::unmended_result;
+using detail::boolean::with_counts;
 
 /// Operands, joined, and their arrangement, which has taken their points; their faces stay.
 struct arranged_operands {
@@ -49,14 +52,27 @@ struct arranged_operands {
     arrange_faces_result arranged;
 };
 
+void arrange_joined(arranged_operands& operands, const progress_callback& progress) {
+    mesh& all = operands.joined.all;
+    operands.arranged = detail::arrange::arrange_without_points(all, {.progress = progress});
+    operands.arranged.cut.given_points = std::move(all.points);
+}
+
+/// \throws std::invalid_argument for a point that is not finite or beyond 2^1000
+joined_operands join_usable(std::span<const mesh_view> operands) {
+    joined_operands joined = detail::boolean::join_operands(operands);
+    const points_view points = joined.all.points;
+    if (detail::base::first_bad(points.size(), [&](std::size_t p) {
+            return !(detail::base::largest_of(points[p]) <= 0x1p1000);
+        }) != points.size())
+        throw std::invalid_argument("treeform::boolean: a coordinate");
+    return joined;
+}
+
 arranged_operands arrange_operands(std::span<const mesh_view> operands,
                                    const progress_callback& progress) {
-    std::optional<tree<3>> tree = detail::boolean::tree_of_operands(operands);
-    arranged_operands result{detail::boolean::join_operands(operands), {}};
-    mesh& all = result.joined.all;
-    result.arranged = tree ? detail::arrange::arrange_by_tree(all, *std::move(tree), progress)
-                           : detail::arrange::arrange_without_points(all, {.progress = progress});
-    result.arranged.cut.given_points = std::move(all.points);
+    arranged_operands result{join_usable(operands), {}};
+    arrange_joined(result, progress);
     return result;
 }
 
@@ -65,120 +81,26 @@ mesh_view input_of(const mesh_arrangement& cut, const joined_operands& joined) {
     return {cut.given_points, joined.all.faces};
 }
 
-certificate open_input(const arrangement_cells& cells, const mesh_arrangement& cut,
-                       const joined_operands& joined, std::uint32_t sheet = operand_element::none) {
-    certificate result{.status = status::open_input, .open_count = cells.open_count};
-    for (const open_arrangement_edge& e : cells.open)
-        result.open.push_back({joined.face_source(e.face),
-                               {rounded(cut.point(e.points[0])), rounded(cut.point(e.points[1]))}});
-    if (const auto known = detail::boolean::count_open_input_edges(
-            input_of(cut, joined), joined.operand_of_face(), sheet)) {
-        result.boundary_edges = known->boundary;
-        result.misoriented_edges = known->misoriented;
-    }
+open_input_edges open_edges_of(const joined_operands& joined, const operand_edges& edges,
+                               std::uint32_t sheet = operand_element::none) {
+    return detail::boolean::find_open_input_edges(joined.all.points, edges.unbalanced, sheet);
+}
+
+certificate open_input(const open_input_edges& found, const joined_operands& joined) {
+    certificate result{.status = status::open_input,
+                       .open_count = found.count,
+                       .boundary_edges = found.boundary_edges,
+                       .misoriented_edges = found.misoriented_edges};
+    for (const auto& [face, ends] : found.stretches)
+        result.open.push_back(
+            {joined.face_source(face), {joined.all.points[ends[0]], joined.all.points[ends[1]]}});
     return result;
 }
 
-/// The status is that of a result which is not there yet.
-boolean_result with_counts(const arrange_faces_result& arranged) {
-    boolean_result result;
-    result.certificate.status = status::cancelled;
-    result.statistics.pairs = arranged.pairs;
-    result.statistics.cut_faces = arranged.cut_faces;
-    result.statistics.degenerate = arranged.degenerate.size();
-    return result;
-}
-
-/// Whether two faces are one, turned or not.
-bool same_corners(const face& f, const face& g) { return f == g || f == face{g[0], g[2], g[1]}; }
-
-/// Merges coplanar faces of the surface. By point that was cut, a face of before that it lies in.
-std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uint32_t>& face_of,
-                                      const mesh_arrangement& cut, const joined_operands& joined,
-                                      const boolean_options& options) {
-    if (!options.face_groups.empty() && options.face_groups.size() != joined.all.faces.size())
-        throw std::invalid_argument("treeform::boolean: not as many face groups as faces");
-    std::vector<operand_element> face_of_point(exact.constructed.size());
-    for (std::size_t f = exact.faces.size(); f-- > 0;)
-        for (const std::uint32_t p : exact.faces[f])
-            if (p >= exact.given.size())
-                face_of_point[p - exact.given.size()] =
-                    joined.face_source(cut.covers_of(face_of[f]).front().face);
-    std::vector<std::uint32_t> plane_of;
-    plane_of.reserve(face_of.size());
-    for (const std::uint32_t f : face_of) plane_of.push_back(cut.covers_of(f).front().face);
-    detail::boolean::merged_faces merged = detail::boolean::merge_coplanar(
-        exact, {{exact.given, joined.all.faces}, plane_of, options.face_groups});
-    std::vector<std::uint8_t> sound(merged.faces.size());
-    for (std::size_t f = 0; f < sound.size(); ++f)
-        sound[f] = merged.is_new[f] != 0 ? std::uint8_t{0} : exact.sound[merged.face_of[f]];
-    exact.sound = std::move(sound);
-    for (std::uint32_t& f : merged.face_of) f = face_of[f];
-    exact.faces = std::move(merged.faces);
-    face_of = std::move(merged.face_of);
-    return face_of_point;
-}
-
-/// `exact_faces` are faces of `cut`, `face_of` says which; both become the surface of `result`.
-/// What is not needed any more is let go on the way: `cut` and `joined.all` are empty then, and
-/// `face_of` is of the input.
-void finish(unmended_result& made, mesh_arrangement& cut, std::vector<face> exact_faces,
-            std::vector<std::uint32_t> face_of, joined_operands& joined, bool solid,
-            const rounding_try& options) {
-    boolean_result& result = made.result;
-    exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
-                        std::move(exact_faces), std::vector<std::uint8_t>(face_of.size())};
-    const auto source_of = [&](std::size_t f) { return cut.covers_of(face_of[f]).front().face; };
-    for_chunks(face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t f = begin; f < end; ++f) {
-            const std::uint32_t source = source_of(f);
-            exact.sound[f] = cut.whole[face_of[f]] != 0 &&
-                             same_corners(exact.faces[f], joined.all.faces[source]);
-            if (!options.simplify) face_of[f] = source;
-        }
-    });
-    const std::size_t given = exact.given.size();
-    std::vector<operand_element> face_of_point;
-    if (options.simplify) {
-        face_of_point = simplify(exact, face_of, cut, joined, options);
-        for (std::size_t f = 0; f < face_of.size(); ++f) face_of[f] = source_of(f);
-    }
-    result.statistics.exact_faces = face_of.size();
-    cut = {};
-    joined.all = {};
-    rounded_surface r =
-        round_surface(std::move(exact), {.precision = options.precision,
-                                         .solid = solid,
-                                         .steps = options.rounding_steps,
-                                         .grids = options.grids,
-                                         .join = options.join,
-                                         .most_rounds = options.most_rounds,
-                                         .most_meeting = options.most_meeting,
-                                         .progress = part_of(options.progress, 0.7, 1.0)});
-    result.certificate = std::move(r.certificate);
-    if (result.certificate.status == status::cancelled) return;
-    result.mesh = std::move(r.surface);
-    result.statistics.rounding_steps = r.steps;
-    made.broken = std::move(r.broken);
-    made.on_grid = r.on_grid;
-    result.vanished_components = r.vanished_components;
-    result.vanished_at = std::move(r.vanished_at);
-    detail::base::parallel_invoke([&] { result.face_source.resize(r.face_of.size()); },
-                                  [&] { result.vertex_source.resize(r.point_of.size()); });
-    for_chunks(r.face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t f = begin; f < end; ++f)
-            result.face_source[f] = joined.face_source(face_of[r.face_of[f]]);
-    });
-    for_chunks(r.point_of.size(), light_grain,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t p = begin; p < end; ++p)
-                       if (r.point_of[p] < given)
-                           result.vertex_source[p] = joined.point_source(r.point_of[p]);
-               });
-    if (!options.simplify) return;
-    for (const std::uint32_t p : r.point_of)
-        result.face_of_cut_vertex.push_back(
-            p < given || p == rounded_surface::none ? operand_element{} : face_of_point[p - given]);
+unmended_result open_result(certificate&& found) {
+    unmended_result made;
+    made.result.certificate = std::move(found);
+    return made;
 }
 
 void check_expression(const char* function, std::span<const mesh_view> operands,
@@ -206,16 +128,24 @@ unmended_result boolean_of(std::span<const mesh_view> operands,
         if (auto result =
                 detail::boolean::boolean_of_sound_pair(operands.first<2>(), expression, options))
             return {std::move(*result), {}};
-    auto [joined, arranged] = arrange_operands(operands, part_of(options.progress, 0.0, 0.5));
+    arranged_operands input{join_usable(operands), {}};
+    auto& [joined, arranged] = input;
+    {
+        const operand_edges edges =
+            detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
+        if (const auto open = open_edges_of(joined, edges); open.count > 0)
+            return open_result(open_input(open, joined));
+        if (!options.volumes)
+            if (auto made =
+                    detail::boolean::boolean_in_active_space(joined, edges, expression, options))
+                return std::move(*made);
+    }
+    arrange_joined(input, part_of(options.progress, 0.0, 0.5));
     unmended_result made{with_counts(arranged), {}};
     boolean_result& result = made.result;
     if (arranged.cancelled) return made;
     arrangement_cells cells = detail::arrange::cells_of(
         input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), operands.size());
-    if (!cells.open.empty()) {
-        result.certificate = open_input(cells, arranged.cut, joined);
-        return made;
-    }
     if (options.volumes && operands.size() == 2)
         result.volumes =
             detail::boolean::find_volumes(operands, arranged.cut, cells, options.inside);
@@ -223,8 +153,7 @@ unmended_result boolean_of(std::span<const mesh_view> operands,
     result.statistics.cells = inside.size();
     detail::round::solid_faces chosen = detail::round::faces_around(arranged.cut, cells, inside);
     cells = {};  // nearly as large as the surface
-    finish(made, arranged.cut, std::move(chosen.faces), std::move(chosen.face_of), joined, true,
-           options);
+    finish_surface(made, arranged.cut, std::move(chosen), joined, true, options);
     return made;
 }
 
@@ -244,8 +173,7 @@ unmended_result labeled_of(mesh_view mesh, const rounding_try& options,
     if (!counts) counts = {count - 1, labels->dropped_area, labels->turned_area};
     detail::round::solid_faces chosen =
         detail::round::faces_around(arranged.cut, cells, labels->inside);
-    finish(made, arranged.cut, std::move(chosen.faces), std::move(chosen.face_of), joined, true,
-           options);
+    finish_surface(made, arranged.cut, std::move(chosen), joined, true, options);
     return made;
 }
 
@@ -256,7 +184,14 @@ unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet
         throw std::invalid_argument("treeform::clip: the sheet is no operand");
     if (!expression.needs(sheet))
         throw std::invalid_argument("treeform::clip: the expression holds more than of the sheet");
-    auto [joined, arranged] = arrange_operands(operands, part_of(options.progress, 0.0, 0.5));
+    arranged_operands input{join_usable(operands), {}};
+    auto& [joined, arranged] = input;
+    if (const auto open = open_edges_of(
+            joined, detail::boolean::find_operand_edges(joined.all, joined.operand_of_face()),
+            sheet);
+        open.count > 0)
+        return open_result(open_input(open, joined));
+    arrange_joined(input, part_of(options.progress, 0.0, 0.5));
     unmended_result made{with_counts(arranged), {}};
     boolean_result& result = made.result;
     if (arranged.cancelled) return made;
@@ -266,14 +201,10 @@ unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet
     detail::boolean::cover_from_both_sides(cut, operand_of_face, sheet);
     const arrangement_cells cells =
         detail::arrange::cells_of(input_of(cut, joined), cut, operand_of_face, operands.size());
-    if (!cells.open.empty()) {
-        result.certificate = open_input(cells, cut, joined, sheet);
-        return made;
-    }
     result.statistics.cells = cells.winding.size() / operands.size();
     detail::round::solid_faces chosen = detail::boolean::kept_of_sheet(
         cut, cells, operand_of_face, way, sheet, expression, options.inside);
-    finish(made, cut, std::move(chosen.faces), std::move(chosen.face_of), joined, false, options);
+    finish_surface(made, cut, std::move(chosen), joined, false, options);
     return made;
 }
 
@@ -287,8 +218,8 @@ unmended_result split_of(std::span<const mesh_view> operands, const rounding_try
     result.statistics.covered = count_covered(arranged, joined.all.faces.size());
     rounding_try as_cut = options;
     as_cut.simplify = false;
-    finish(made, arranged.cut, std::move(arranged.cut.faces), std::move(all), joined, false,
-           as_cut);
+    finish_surface(made, arranged.cut, {std::move(arranged.cut.faces), std::move(all)}, joined,
+                   false, as_cut);
     return made;
 }
 
@@ -454,12 +385,11 @@ certificate detail::boolean::check_solid(const char* called, mesh_view mesh,
                                          const progress_callback& progress) {
     check_operands(called, {&mesh, 1});
     check_coordinates(called, {&mesh, 1});
-    if (!find_open_edge(detail::boolean::join_operands({&mesh, 1}).all)) return {};
-    const auto [joined, arranged] = arrange_operands({&mesh, 1}, part_of(progress, 0.0, 1.0));
-    if (arranged.cancelled) return {.status = status::cancelled};
-    const arrangement_cells cells = detail::arrange::cells_of(
-        input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), 1);
-    return cells.open.empty() ? certificate{} : open_input(cells, arranged.cut, joined);
+    const joined_operands joined = join_operands({&mesh, 1});
+    const auto open =
+        open_edges_of(joined, find_operand_edges(joined.all, joined.operand_of_face()));
+    if (progress && !progress(1.0)) return {.status = status::cancelled};
+    return open.count == 0 ? certificate{} : open_input(open, joined);
 }
 
 }  // namespace treeform

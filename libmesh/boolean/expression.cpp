@@ -8,10 +8,10 @@
 namespace treeform {
 namespace {
 
-constexpr std::int32_t add = -1;
-constexpr std::int32_t intersect = -2;
-constexpr std::int32_t minus = -3;
-constexpr std::int32_t exclude = -4;
+constexpr auto add = boolean_expression::add;
+constexpr auto intersect = boolean_expression::intersect;
+constexpr auto minus = boolean_expression::minus;
+constexpr auto exclude = boolean_expression::exclude;
 constexpr std::int32_t bracket = -5;  // only while reading
 
 std::int32_t operation_of(char c) {

@@ -99,7 +99,7 @@ void join_equal(joined_operands& joined) {
 }  // namespace
 
 operand_element joined_operands::face_source(std::uint32_t face) const {
-    return element_at(first_face, face);
+    return element_at(first_face, number_of_face.empty() ? face : number_of_face[face]);
 }
 
 operand_element joined_operands::point_source(std::uint32_t point) const {
@@ -110,6 +110,9 @@ std::vector<std::uint32_t> joined_operands::operand_of_face() const {
     std::vector<std::uint32_t> operands(first_face.back());
     for (std::uint32_t k = 0; k + 1 < first_face.size(); ++k)
         std::fill(operands.begin() + first_face[k], operands.begin() + first_face[k + 1], k);
+    for (std::size_t f = 0; f < number_of_face.size(); ++f)
+        operands[f] = operands[number_of_face[f]];
+    if (!number_of_face.empty()) operands.resize(number_of_face.size());
     return operands;
 }
 

@@ -17,6 +17,8 @@ struct joined_operands {
     std::vector<std::uint32_t> first_point;  ///< [k + 1] of each, before equal ones were one
     /// [V] of `all`, before: the lowest; or empty, where nothing was left out.
     std::vector<std::uint32_t> number_of_point;
+    /// [F] of `all`, before; or empty, where none was left out.
+    std::vector<std::uint32_t> number_of_face{};
 
     /// [F] of `all`
     [[nodiscard]] std::vector<std::uint32_t> operand_of_face() const;

@@ -1,107 +1,128 @@
-#include <libmesh/base/stars.hpp>
+#include <libmesh/base/union_find.hpp>
 #include <libmesh/boolean/open_input_edges.hpp>
+#include <libmesh/geometry/flat_triangle.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/search.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <vector>
+#include <utility>
 
 namespace treeform::detail::boolean {
 namespace {
 
-struct open_edge_of_input {
-    std::uint32_t operand = 0;
-    std::array<std::uint32_t, 2> ends{};
-    bool misoriented = false;
-};
+constexpr std::size_t most_listed = 100;
 
-/// The faces of an operand at an edge, seen from its lower end.
-struct open_edge_use {
-    std::uint32_t operand = 0;
-    std::uint32_t end = 0;
-    int way = 0;
-
-    [[nodiscard]] bool same_edge(const open_edge_use& other) const {
-        return operand == other.operand && end == other.end;
-    }
-    friend auto operator<=>(const open_edge_use&, const open_edge_use&) = default;
-};
-
-/// The edges from `a` to higher points.
-void collect_uses(mesh_view joined, std::span<const std::uint32_t> operand_of_face, std::uint32_t a,
-                  std::span<const std::uint32_t> star, std::vector<open_edge_use>& uses) {
-    uses.clear();
-    for (const std::uint32_t id : star) {
-        const face& f = joined.faces[id];
-        const std::size_t i = f[0] == a ? 0 : f[1] == a ? 1 : 2;
-        const std::uint32_t next = f[(i + 1) % 3];
-        const std::uint32_t last = f[(i + 2) % 3];
-        if (next > a) uses.push_back({operand_of_face[id], next, 1});
-        if (last > a) uses.push_back({operand_of_face[id], last, -1});
-    }
-    std::sort(uses.begin(), uses.end());
-}
-
-std::vector<open_edge_of_input> find_edges(mesh_view joined,
-                                           std::span<const std::uint32_t> operand_of_face,
-                                           std::uint32_t sheet) {
-    const base::stars stars(joined.points.size(), joined.faces);
-    std::vector<open_edge_of_input> found;
-    std::vector<open_edge_use> uses;
-    for (std::size_t v = 0; v < stars.size(); ++v) {
-        const auto a = static_cast<std::uint32_t>(v);
-        collect_uses(joined, operand_of_face, a, stars[v], uses);
-        for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-            std::ptrdiff_t net = 0;
-            for (; end < uses.size() && uses[end].same_edge(uses[begin]); ++end)
-                net += uses[end].way;
-            if (net != 0 && uses[begin].operand != sheet)
-                found.push_back({uses[begin].operand, {a, uses[begin].end}, net % 2 == 0});
-        }
-    }
-    return found;
-}
-
-aabb<double, 3> box_of(points_view points, std::span<const std::uint32_t> corners) {
+aabb<double, 3> box_of(points_view points, const unbalanced_edge& e) {
     aabb<double, 3> box;
-    for (const std::uint32_t c : corners) box.include(points[c]);
+    for (const std::uint32_t p : e.ends) box.include(points[p]);
     return box;
 }
 
-/// Whether `p`, which is no end of the edge, lies on it.
-bool lies_within(points_view points, std::uint32_t p, const open_edge_of_input& e) {
-    const auto [a, b] = e.ends;
-    if (p == a || p == b) return false;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double x = points[p][axis];
-        const auto [low, high] = std::minmax({points[a][axis], points[b][axis]});
-        if (x < low || x > high) return false;
+/// Edges of one operand in sets: two on one line that have a common point are in one.
+std::vector<std::vector<const unbalanced_edge*>> edges_by_line(
+    points_view points, std::span<const unbalanced_edge> edges) {
+    const tree<3> tree = build(edges, [&](const auto& e) { return box_of(points, e); });
+    base::union_find lines(edges.size());
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        const auto [a, b] = edges[i].ends;
+        search(tree, box_of(points, edges[i]), [&](std::uint32_t j) {
+            if (j <= i || edges[j].operand != edges[i].operand) return;
+            const auto [c, d] = edges[j].ends;
+            if (collinear(points[a], points[b], points[c]) &&
+                collinear(points[a], points[b], points[d]))
+                lines.join(i, j);
+        });
     }
-    return collinear(points[a], points[b], points[p]);
+    const arrange::numbered_sets line = arrange::number_sets(std::move(lines));
+    std::vector<std::vector<const unbalanced_edge*>> result(line.count());
+    for (std::uint32_t i = 0; i < edges.size(); ++i) result[line[i]].push_back(&edges[i]);
+    return result;
 }
+
+/// The points of a line in order, and how often edges run along it from each to the next.
+class line_sum {
+  public:
+    line_sum(points_view points, const std::vector<const unbalanced_edge*>& edges)
+        : points_(points), edges_(edges) {
+        for (const unbalanced_edge* e : edges)
+            on_.insert(on_.end(), e->ends.begin(), e->ends.end());
+        std::ranges::sort(on_, [&](std::uint32_t p, std::uint32_t q) { return is_before(p, q); });
+        on_.erase(std::unique(on_.begin(), on_.end()), on_.end());
+        sum_.resize(on_.size(), 0);
+        for (const unbalanced_edge* e : edges) {
+            const auto [low, high] = places(*e);
+            const std::int64_t net = on_[low] == e->ends[0] ? e->net : -e->net;
+            sum_[low] += net;
+            sum_[high] -= net;
+        }
+        for (std::size_t i = 1; i < sum_.size(); ++i) sum_[i] += sum_[i - 1];
+    }
+
+    void add_to(open_input_edges& found) const {
+        for (std::size_t i = 0; i + 1 < on_.size(); ++i) {
+            if (sum_[i] == 0) continue;
+            if (++found.count <= most_listed) found.stretches.push_back(stretch(i));
+        }
+    }
+    /// Whether no edge overlaps another one.
+    [[nodiscard]] bool is_plain() const {
+        return std::ranges::all_of(edges_, [&](const unbalanced_edge* e) {
+            const auto [low, high] = places(*e);
+            return high == low + 1 && (sum_[low] == e->net || sum_[low] == -e->net);
+        });
+    }
+
+  private:
+    [[nodiscard]] bool is_before(std::uint32_t p, std::uint32_t q) const {
+        return geometry::lexicographically_less(points_[p], points_[q]);
+    }
+    [[nodiscard]] std::size_t place(std::uint32_t p) const {
+        return static_cast<std::size_t>(
+            std::ranges::lower_bound(
+                on_, p, [&](std::uint32_t x, std::uint32_t y) { return is_before(x, y); }) -
+            on_.begin());
+    }
+    [[nodiscard]] std::pair<std::size_t, std::size_t> places(const unbalanced_edge& e) const {
+        return std::minmax({place(e.ends[0]), place(e.ends[1])});
+    }
+    [[nodiscard]] open_stretch stretch(std::size_t i) const {
+        open_stretch result{0, {std::min(on_[i], on_[i + 1]), std::max(on_[i], on_[i + 1])}};
+        for (const unbalanced_edge* e : edges_) {  // one of them runs there
+            const auto [low, high] = places(*e);
+            if (low <= i && i < high) result.face = e->face;
+        }
+        return result;
+    }
+
+    points_view points_;
+    const std::vector<const unbalanced_edge*>& edges_;
+    std::vector<std::uint32_t> on_;
+    std::vector<std::int64_t> sum_;  ///< [on_] from each to the next
+};
 
 }  // namespace
 
-std::optional<open_input_edges> count_open_input_edges(
-    mesh_view joined, std::span<const std::uint32_t> operand_of_face, std::uint32_t sheet) {
-    const std::vector<open_edge_of_input> edges = find_edges(joined, operand_of_face, sheet);
-    const tree<3> tree =
-        build(edges, [&](const open_edge_of_input& e) { return box_of(joined.points, e.ends); });
-    open_input_edges count;
-    for (const open_edge_of_input& e : edges) {
-        ++(e.misoriented ? count.misoriented : count.boundary);
-        for (const std::uint32_t p : e.ends)
-            if (search_any(tree, box_of(joined.points, {&p, 1}), [&](std::uint32_t id) {
-                    return edges[id].operand == e.operand &&
-                           lies_within(joined.points, p, edges[id]);
-                }))
-                return std::nullopt;
+open_input_edges find_open_input_edges(points_view points,
+                                       std::span<const unbalanced_edge> unbalanced,
+                                       std::uint32_t sheet) {
+    open_input_edges found;
+    std::vector<unbalanced_edge> edges;
+    std::ranges::copy_if(unbalanced, std::back_inserter(edges),
+                         [&](const unbalanced_edge& e) { return e.operand != sheet; });
+    if (edges.empty()) return found;
+    bool is_plain = true;
+    for (const auto& line : edges_by_line(points, edges)) {
+        const line_sum sum(points, line);
+        sum.add_to(found);
+        is_plain = is_plain && sum.is_plain();
     }
-    return count;
+    if (is_plain)
+        for (const unbalanced_edge& e : edges)
+            ++(e.net % 2 == 0 ? found.misoriented_edges : found.boundary_edges);
+    return found;
 }
 
 }  // namespace treeform::detail::boolean

@@ -1,29 +1,43 @@
 #pragma once
 /// \file
-/// The edges of operands, before they are cut, at which their surfaces are open.
+/// Where surfaces of operands end, told before anything is cut.
 
+#include <libmesh/boolean/operand_edges.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 
+#include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
+#include <vector>
 
 namespace treeform::detail::boolean {
 
-struct open_input_edges {
-    std::uint64_t boundary = 0;     ///< of an odd number of faces of the operand
-    std::uint64_t misoriented = 0;  ///< of an even number, of which more run one way than the other
+/// A stretch of an edge along which an operand's faces run more often one way than the other.
+struct open_stretch {
+    std::uint32_t face = 0;               ///< of the operand, at the edge
+    std::array<std::uint32_t, 2> ends{};  ///< points, ascending
 };
 
-/// How many there are; none where a corner at one of them lies within another one of its operand,
-/// for such edges may fit together piece by piece. The operand `sheet` may be open, and is left
-/// out.
+struct open_input_edges {
+    std::vector<open_stretch> stretches;  ///< the first, at most 100
+    std::uint64_t count = 0;              ///< of stretches; 0 where all operands are closed
+    /// Of the edges as they are, where none of them overlaps another one: those of an odd number of
+    /// faces, and those of an even number, of which more run one way than the other.
+    std::uint64_t boundary_edges = 0;
+    std::uint64_t misoriented_edges = 0;
+};
+
+/// Exact: faces cut along each other fit together where along every line, the unbalanced edges of
+/// each operand cancel out. An edge of one face may do so with two of the faces beyond it.
 ///
-/// \pre  no two points of `joined` are equal; its coordinates are finite
-/// \cost O(F + E log E) time for E such edges
-[[nodiscard]] std::optional<open_input_edges> count_open_input_edges(
-    mesh_view joined, std::span<const std::uint32_t> operand_of_face,
-    std::uint32_t sheet = operand_element::none);
+/// The operand `sheet` may be open, and is left out.
+///
+/// \pre  no two of `points` are equal; they are finite
+/// \cost O(E log E) time for E edges of which few overlap
+/// \same on any number of threads
+[[nodiscard]] open_input_edges find_open_input_edges(points_view points,
+                                                     std::span<const unbalanced_edge> unbalanced,
+                                                     std::uint32_t sheet = operand_element::none);
 
 }  // namespace treeform::detail::boolean

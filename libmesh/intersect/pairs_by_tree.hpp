@@ -13,4 +13,8 @@ namespace treeform::detail::intersect {
 [[nodiscard]] self_intersection_result pairs_by_tree(mesh_view mesh, tree<3>&& tree,
                                                      const self_intersection_options& options);
 
+/// The same of a tree that stays.
+[[nodiscard]] self_intersection_result pairs_by_tree(mesh_view mesh, const tree<3>& tree,
+                                                     const self_intersection_options& options);
+
 }  // namespace treeform::detail::intersect

@@ -9,6 +9,7 @@
 #include <libmesh/intersect/pairs_by_tree.hpp>
 #include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tree/detail/box_in_space.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search_self.hpp>
 
@@ -43,11 +44,12 @@ void check(mesh_view mesh, const self_intersection_options& options) {
             "treeform::self_intersections: between and within leave no pair");
 }
 
-bool fits_filter(points_view points) {
-    return detail::base::first_bad(points.size(), [&](std::size_t i) {
-               return !(detail::base::largest_of(points[i]) <=
-                        detail::intersect::largest_filtered_coordinate);
-           }) == points.size();
+bool fits_filter(const tree<3>& tree) {
+    const aabb<double, 3> box = detail::box_of_root(tree);
+    constexpr double limit = detail::intersect::largest_filtered_coordinate;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!box.empty() && !(-limit <= box.min[k] && box.max[k] <= limit)) return false;
+    return true;
 }
 
 /// The faces in leaf order, so that candidates find theirs side by side.
@@ -69,8 +71,7 @@ self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
     self_intersection_result result;
     const auto pair_start = std::chrono::steady_clock::now();
     const detail::buffer<detail::intersect::numbered_face> faces = leaf_order(mesh, tree);
-    const detail::intersect::own_faces own{mesh.points, faces.span(), &options,
-                                           fits_filter(mesh.points)};
+    const detail::intersect::own_faces own{mesh.points, faces.span(), &options, fits_filter(tree)};
     const self_search<3> search(tree);
     std::vector<detail::intersect::narrow_phase_output> found(search.chunks());
     detail::intersect::search_progress progress(options.progress, search.chunks());
@@ -124,6 +125,11 @@ self_intersection_result detail::intersect::pairs_by_tree(
     mesh_view mesh, tree<3>&& tree, const self_intersection_options& options) {
     const auto ours = std::move(tree);
     return find_pairs(mesh, ours, options);
+}
+
+self_intersection_result detail::intersect::pairs_by_tree(
+    mesh_view mesh, const tree<3>& tree, const self_intersection_options& options) {
+    return find_pairs(mesh, tree, options);
 }
 
 }  // namespace treeform

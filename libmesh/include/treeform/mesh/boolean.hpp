@@ -55,11 +55,15 @@ class TREEFORM_API boolean_expression {
     /// which it is true.
     [[nodiscard]] bool needs(std::size_t operand) const;
 
+    enum : std::int32_t { add = -1, intersect = -2, minus = -3, exclude = -4 };
+    /// The formula, operations behind what they take: operands as numbers from 0, and these.
+    [[nodiscard]] std::span<const std::int32_t> postfix() const { return postfix_; }
+
   private:
     boolean_expression(std::size_t operand_count, std::int32_t operation);
 
     std::size_t operand_count_ = 0;
-    std::vector<std::int32_t> postfix_;  ///< operands as numbers from 0, operations below 0
+    std::vector<std::int32_t> postfix_;
 };
 
 /// Which points are inside an operand, by how often its surface winds around them.
@@ -127,7 +131,8 @@ struct boolean_statistics {
     std::uint64_t degenerate = 0;  ///< input faces without area
     std::uint64_t cells = 0;       ///< parts of space that the surfaces separate; 0 when they were
                                    ///< not needed
-    std::uint64_t covered = 0;     ///< for `split`: input faces that lie entirely on lower ones
+    std::uint64_t skipped_faces = 0;  ///< input faces not looked at, as the result cannot be there
+    std::uint64_t covered = 0;        ///< for `split`: input faces that lie entirely on lower ones
     /// Faces of the exact result, before rounding. When there are some and `mesh` has none, all of
     /// the result is thinner than the coordinates can show.
     std::uint64_t exact_faces = 0;

@@ -1,0 +1,87 @@
+#include <libmesh/arrange/arrange_pairs.hpp>
+#include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/boolean/active_boolean.hpp>
+#include <libmesh/boolean/active_cells.hpp>
+#include <libmesh/boolean/active_space.hpp>
+#include <libmesh/boolean/finish_surface.hpp>
+#include <libmesh/boolean/partial_expression.hpp>
+#include <libmesh/boolean/surface_components.hpp>
+#include <libmesh/round/solid_faces.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace treeform::detail::boolean {
+namespace {
+
+/// Two components hide little of each other that is not cut anyway.
+constexpr std::size_t fewest_components = 3;
+/// Where more faces than these of ten are active, looking for them has not paid.
+constexpr std::size_t most_active = 9;
+
+std::vector<std::uint32_t> active_faces(const active_space& space) {
+    std::vector<std::uint32_t> faces;
+    const auto is_active = space.is_active_face();
+    for (std::size_t f = 0; f < is_active.size(); ++f)
+        if (is_active[f] != 0) faces.push_back(static_cast<std::uint32_t>(f));
+    return faces;
+}
+
+aabb<double, 3> box_of(mesh_view mesh, std::uint32_t f) {
+    aabb<double, 3> box;
+    for (const std::uint32_t corner : mesh.faces[f]) box.include(mesh.points[corner]);
+    return box;
+}
+
+}  // namespace
+
+std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
+                                                       const operand_edges& edges,
+                                                       const boolean_expression& expression,
+                                                       const rounding_try& options) {
+    if (edges.piece.count() < fewest_components) return std::nullopt;
+    const std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
+    const surface_components components(joined.all, operand_of_face, edges);
+    if (components.size() < fewest_components) return std::nullopt;
+    const partial_expression at_nowhere(expression, options.inside);
+    const active_space space(components, at_nowhere);
+    std::vector<std::uint32_t> number = active_faces(space);
+    const std::size_t all = joined.all.faces.size();
+    if (10 * number.size() > most_active * all) return std::nullopt;
+
+    std::vector<face> faces;
+    std::vector<std::uint32_t> operands;
+    for (const std::uint32_t f : number) {
+        faces.push_back(joined.all.faces[f]);
+        operands.push_back(operand_of_face[f]);
+    }
+    const mesh_view active{joined.all.points, faces};
+    arrange_faces_result arranged = arrange::arrange_wanted(
+        active,
+        [&](const face_pair& pair) {
+            return space.reaches_active(common_box(box_of(active, pair.a), box_of(active, pair.b)));
+        },
+        {.progress = base::part_of(options.progress, 0.2, 0.5)});
+    unmended_result made{with_counts(arranged), {}};
+    made.result.statistics.skipped_faces = all - faces.size();
+    if (arranged.cancelled) return made;
+    // The points stay where they are in memory.
+    arranged.cut.given_points = std::move(joined.all.points);
+    const auto cells =
+        find_active_cells(active, arranged.cut, operands, components, space, at_nowhere);
+    if (!cells) {
+        joined.all.points = std::move(arranged.cut.given_points);
+        return std::nullopt;
+    }
+    round::solid_faces chosen = round::faces_around(arranged.cut, cells->cells, cells->inside);
+    joined.all.faces = std::move(faces);
+    joined.number_of_face = std::move(number);
+    finish_surface(made, arranged.cut, std::move(chosen), joined, true, options);
+    return made;
+}
+
+}  // namespace treeform::detail::boolean

@@ -1,0 +1,461 @@
+#include <libmesh/base/face_boxes.hpp>
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/boolean/active_space.hpp>
+#include <treeform/tree/detail/box_in_space.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace treeform::detail::boolean {
+namespace {
+
+using box3 = aabb<double, 3>;
+using node = active_space::node;
+
+/// Boxes with that few faces are not halved: to arrange those costs less.
+constexpr std::size_t few_faces = 24;
+/// Nor are boxes that have kept more than three quarters of their faces through so many halvings, as
+/// along an edge of many.
+constexpr unsigned most_in_vain = 6;
+/// Nor those that no one component can settle, as in an exclusive or: when few reach into them, or
+/// it has been so through so many halvings.
+constexpr std::size_t few_components = 8;
+constexpr unsigned most_hopeless = 12;
+/// Boxes that are worked on in parallel, and how many follow each other in a copy of the expression.
+constexpr std::size_t most_tasks = 512;
+constexpr std::size_t tasks_a_chunk = 8;
+
+/// What reaches into a box of a component: all below a node of its tree, or a face of it, which is
+/// one level lower.
+struct item {
+    std::uint32_t component;
+    std::uint32_t level;
+    std::uint32_t number;
+};
+using items = std::vector<item>;  // ascending by component
+
+struct settled_component {
+    std::uint32_t component;
+    std::int64_t winding;
+};
+
+/// A box on the way down.
+struct place {
+    box3 box;
+    items inside;
+    std::size_t faces = 0;   ///< below its items
+    std::size_t before = 0;  ///< faces when a halving last told many apart
+    unsigned in_vain = 0;    ///< halvings since then
+    unsigned hopeless = 0;   ///< in a row
+};
+
+struct halves {
+    std::size_t axis = 0;
+    double at = 0.0;
+    place lower, upper;
+};
+
+bool can_be_halved(const box3& box, std::size_t& axis, double& at) {
+    axis = 0;
+    const auto extent = [&](std::size_t k) { return 0.5 * box.max[k] - 0.5 * box.min[k]; };
+    for (const std::size_t k : {std::size_t{1}, std::size_t{2}})
+        if (extent(k) > extent(axis)) axis = k;
+    at = 0.5 * box.min[axis] + 0.5 * box.max[axis];
+    return box.min[axis] < at && at < box.max[axis];
+}
+
+bool is_larger(const box3& a, const box3& b) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (0.5 * a.max[k] - 0.5 * a.min[k] > 0.5 * b.max[k] - 0.5 * b.min[k]) return true;
+    return false;
+}
+
+class divider {
+  public:
+    divider(const surface_components& components, std::vector<std::uint8_t>& is_active_face)
+        : components_(components),
+          box_of_(base::face_boxes(components.mesh().points)),
+          is_active_face_(is_active_face) {}
+
+    [[nodiscard]] place everything() const {
+        place all;
+        for (std::uint32_t c = 0; c < components_.size(); ++c) {
+            all.box.include(components_.box(c));
+            all.inside.push_back({c, 0, 0});
+        }
+        all.faces = all.before = components_.mesh().faces.size();
+        return all;
+    }
+
+    /// Whether to halve a place whose value is not known.
+    [[nodiscard]] bool is_worth_halving(const place& p) const {
+        if (p.faces <= few_faces || p.in_vain >= most_in_vain) return false;
+        // A box that one component alone reaches into has nothing hidden that halves would show.
+        return p.inside.front().component != p.inside.back().component;
+    }
+
+    /// False where the box is too small for that.
+    [[nodiscard]] bool halve(const place& p, halves& result) const {
+        if (!can_be_halved(p.box, result.axis, result.at)) return false;
+        result.lower = {p.box, {}, 0, p.before, p.in_vain + 1, p.hopeless};
+        result.upper = result.lower;
+        result.lower.box.max[result.axis] = result.at;
+        result.upper.box.min[result.axis] = result.at;
+        for (const item& i : p.inside) sort_in(i, result);
+        for (place* half : {&result.lower, &result.upper}) {
+            for (const item& i : half->inside) half->faces += faces_below(i);
+            if (4 * half->faces > 3 * half->before) continue;
+            half->before = half->faces;
+            half->in_vain = 0;
+        }
+        return true;
+    }
+
+    /// The components that reach into a box, but not into that part of it.
+    [[nodiscard]] std::vector<settled_component> settled_in(const place& part,
+                                                            const items& above) const {
+        std::vector<settled_component> result;
+        point3 q;
+        for (std::size_t k = 0; k < 3; ++k) q[k] = part.box.min[k];
+        auto next = part.inside.begin();
+        for_components(above, [&](std::uint32_t c) {
+            while (next != part.inside.end() && next->component < c) ++next;
+            if (next == part.inside.end() || next->component != c)
+                result.push_back({c, components_.winding_around(c, q)});
+        });
+        return result;
+    }
+
+    void mark_faces(const place& p) const {
+        for (const item& i : p.inside) mark_faces(i, p.box);
+    }
+
+    /// Adds the ranges of the components that reach into a box.
+    void tell(partial_expression& state, const items& inside, bool is_there) const {
+        for_components(inside, [&](std::uint32_t c) {
+            const winding_range& range = components_.range(c);
+            const std::int64_t sign = is_there ? 1 : -1;
+            state.add(components_.operand(c), {sign * range.low, sign * range.high});
+        });
+    }
+
+    /// Whether to give up on a box as no one component can settle it; counts how often that is so.
+    [[nodiscard]] bool gives_up(place& p, partial_expression& state) const {
+        std::size_t count = 0;
+        bool is_hopeless = true;
+        for_components(p.inside, [&](std::uint32_t c) {
+            ++count;
+            if (!is_hopeless) return;
+            const winding_range& range = components_.range(c);
+            const bool is_known = range != winding_range::unknown();
+            for (const std::int64_t winding :
+                 {is_known ? range.low : 0, is_known ? range.high : 1}) {
+                settle(state, {c, winding}, true);
+                if (state.value()) is_hopeless = false;
+                settle(state, {c, winding}, false);
+            }
+        });
+        p.hopeless = is_hopeless ? p.hopeless + 1 : 0;
+        return is_hopeless && (count <= few_components || p.hopeless > most_hopeless);
+    }
+
+    /// Puts a winding number in the place of a range, or back.
+    void settle(partial_expression& state, const settled_component& c, bool is_known) const {
+        const winding_range& range = components_.range(c.component);
+        const std::int64_t sign = is_known ? 1 : -1;
+        state.add(components_.operand(c.component),
+                  {sign * (c.winding - range.low), sign * (c.winding - range.high)});
+    }
+
+  private:
+    template <class Visit>
+    static void for_components(const items& inside, const Visit& visit) {
+        std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
+        for (const item& i : inside) {
+            if (i.component == last) continue;
+            last = i.component;
+            visit(last);
+        }
+    }
+
+    [[nodiscard]] bool is_face(const item& i) const {
+        return i.level == components_.tree_of(i.component).levels();
+    }
+    [[nodiscard]] std::size_t faces_below(const item& i) const {
+        if (is_face(i)) return 1;
+        const tree<3>& tree = components_.tree_of(i.component);
+        const std::size_t each = tree.capacity(i.level);
+        return std::min(each, tree.size() - each * i.number);
+    }
+    [[nodiscard]] std::uint32_t face_of(const item& i) const {
+        return components_.faces(i.component)[components_.tree_of(i.component).ids()[i.number]];
+    }
+    [[nodiscard]] box3 box_of(const item& i) const {
+        const tree<3>& tree = components_.tree_of(i.component);
+        if (is_face(i)) return box_of_(components_.mesh().faces[face_of(i)]);
+        if (i.level == 0) return components_.box(i.component);
+        return box_in_space(tree.frame(), tree.level(i.level - 1)[i.number / tree.width],
+                            i.number % tree.width);
+    }
+
+    /// Puts an item into the halves that it reaches into, opened where it is larger than they are.
+    void sort_in(const item& i, halves& result) const {
+        const box3 box = box_of(i);
+        const bool in_lower = overlaps(box, result.lower.box);
+        const bool in_upper = overlaps(box, result.upper.box);
+        if (!in_lower && !in_upper) return;
+        if (is_face(i) || !is_larger(box, result.lower.box)) {
+            if (in_lower) result.lower.inside.push_back(i);
+            if (in_upper) result.upper.inside.push_back(i);
+            return;
+        }
+        const tree<3>& tree = components_.tree_of(i.component);
+        const std::size_t children = tree.children(i.level, i.number);
+        for (std::uint32_t k = 0; k < children; ++k)
+            sort_in(
+                {i.component, i.level + 1, i.number * static_cast<std::uint32_t>(tree.width) + k},
+                result);
+    }
+
+    void mark_faces(const item& i, const box3& box) const {
+        if (!overlaps(box_of(i), box)) return;
+        if (is_face(i)) {
+            std::atomic_ref(is_active_face_[face_of(i)]).store(1, std::memory_order_relaxed);
+            return;
+        }
+        const tree<3>& tree = components_.tree_of(i.component);
+        const std::size_t children = tree.children(i.level, i.number);
+        for (std::uint32_t k = 0; k < children; ++k)
+            mark_faces(
+                {i.component, i.level + 1, i.number * static_cast<std::uint32_t>(tree.width) + k},
+                box);
+    }
+
+    const surface_components& components_;
+    decltype(base::face_boxes(points_view{})) box_of_;
+    std::vector<std::uint8_t>& is_active_face_;
+};
+
+/// Divides a box with all that is below it. One thread's work.
+class subdivision {
+  public:
+    /// `state` is that of the boxes to be divided, and is given back as it was.
+    subdivision(const divider& division, partial_expression& state)
+        : division_(division), state_(state) {}
+
+    /// The first node is the box.
+    [[nodiscard]] std::vector<node> divide(place& p) {
+        nodes_.resize(1);
+        divide(p, 0);
+        return std::move(nodes_);
+    }
+
+  private:
+    void divide(place& p, std::size_t own) {
+        if (state_.value()) return;  // settled, as nodes are at first
+        halves parts;
+        if (!division_.is_worth_halving(p) || division_.gives_up(p, state_) ||
+            !division_.halve(p, parts)) {
+            nodes_[own].axis = node::active;
+            division_.mark_faces(p);
+            return;
+        }
+        const std::size_t below = nodes_.size();
+        nodes_[own] = {static_cast<std::uint8_t>(parts.axis), parts.at,
+                       static_cast<std::uint32_t>(below)};
+        nodes_.resize(below + 2);
+        divide_part(parts.lower, p.inside, below);
+        divide_part(parts.upper, p.inside, below + 1);
+    }
+
+    void divide_part(place& part, const items& above, std::size_t own) {
+        const auto known = division_.settled_in(part, above);
+        for (const settled_component& c : known) division_.settle(state_, c, true);
+        divide(part, own);
+        for (const settled_component& c : known) division_.settle(state_, c, false);
+    }
+
+    const divider& division_;
+    partial_expression& state_;
+    std::vector<node> nodes_{};
+};
+
+/// A box that a task begins with.
+struct task {
+    place begin;
+    std::vector<settled_component> known;  ///< that wind around it
+    std::size_t at = 0;                    ///< its node
+};
+
+/// Halves everything into tasks, wide first, so that they are the same however many threads there
+/// are; `nodes` are above them.
+std::vector<task> divide_into_tasks(const divider& division, std::vector<node>& nodes) {
+    nodes.resize(1);
+    std::vector<task> tasks;
+    tasks.push_back({division.everything(), {}, 0});
+    std::vector<task> whole;
+    for (std::size_t next = 0; next < tasks.size(); ++next) {
+        task above = std::move(tasks[next]);
+        halves parts;
+        if (tasks.size() - next + whole.size() >= most_tasks ||
+            !division.is_worth_halving(above.begin) || !division.halve(above.begin, parts)) {
+            whole.push_back(std::move(above));
+            continue;
+        }
+        const std::size_t below = nodes.size();
+        nodes[above.at] = {static_cast<std::uint8_t>(parts.axis), parts.at,
+                           static_cast<std::uint32_t>(below)};
+        nodes.resize(below + 2);
+        for (place* part : {&parts.lower, &parts.upper}) {
+            auto known = division.settled_in(*part, above.begin.inside);
+            std::erase_if(known, [](const settled_component& c) { return c.winding == 0; });
+            known.insert(known.end(), above.known.begin(), above.known.end());
+            tasks.push_back(
+                {std::move(*part), std::move(known), part == &parts.lower ? below : below + 1});
+        }
+    }
+    return whole;
+}
+
+/// Puts what is below a task's box into `nodes`.
+void append(const std::vector<node>& below, std::size_t at, std::vector<node>& nodes) {
+    const auto shift = static_cast<std::uint32_t>(nodes.size() - 1);
+    const auto moved = [&](node n) {
+        n.below += shift;
+        return n;
+    };
+    nodes[at] = moved(below.front());
+    for (std::size_t i = 1; i < below.size(); ++i) nodes.push_back(moved(below[i]));
+}
+
+/// Whether a box reaches into an active leaf below node `at`.
+bool reaches(const std::vector<node>& nodes, std::size_t at, const box3& box) {
+    for (;;) {
+        const node& n = nodes[at];
+        if (n.axis >= 3) return n.axis == node::active;
+        const bool lower = box.min[n.axis] <= n.at, upper = box.max[n.axis] >= n.at;
+        if (lower && upper && reaches(nodes, n.below, box)) return true;
+        at = upper ? n.below + 1 : n.below;
+    }
+}
+
+/// A triangle or a segment, whose corners are off by no more than `off` along each axis.
+class rough_corners {
+  public:
+    explicit rough_corners(std::span<const box3> corners) : count_(corners.size()) {
+        for (std::size_t i = 0; i < count_; ++i) {
+            all_.include(corners[i]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                at_[i][k] = 0.5 * corners[i].min[k] + 0.5 * corners[i].max[k];
+                off_ = std::max(off_, corners[i].max[k] - corners[i].min[k]);
+                largest_ = std::max({largest_, std::abs(all_.min[k]), std::abs(all_.max[k])});
+            }
+        }
+        const point3 last = base::minus(at_[count_ - 1], at_[0]);
+        if (count_ == 3) add_axis(base::cross(base::minus(at_[1], at_[0]), last));
+        for (std::size_t i = 0; i < count_; ++i) {
+            const point3 edge = base::minus(at_[(i + 1) % count_], at_[i]);
+            add_axis({0.0, -edge.z, edge.y});
+            add_axis({edge.z, 0.0, -edge.x});
+            add_axis({-edge.y, edge.x, 0.0});
+        }
+    }
+
+    [[nodiscard]] const box3& box() const { return all_; }
+
+    /// Whether it is certain that a box has no point of them. Any axis may tell them apart; where
+    /// projections to it are rounded, each of three products and two sums is off by 2^-53 of itself,
+    /// and the difference from the middle by 2^-52 of the larger coordinate.
+    [[nodiscard]] bool is_apart_from(const box3& box) const {
+        point3 middle, half;
+        double largest = largest_;
+        for (std::size_t k = 0; k < 3; ++k) {
+            middle[k] = 0.5 * box.min[k] + 0.5 * box.max[k];
+            half[k] = 0.5 * box.max[k] - 0.5 * box.min[k];
+            largest = std::max({largest, std::abs(box.min[k]), std::abs(box.max[k])});
+        }
+        const double off = off_ + 0x1p-48 * largest;
+        for (std::size_t a = 0; a < axes_; ++a) {
+            const point3& axis = axis_[a];
+            const point3 size = {std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
+            const double reach = base::dot(size, half) + off * (size.x + size.y + size.z);
+            bool is_above = true, is_below = true;
+            for (std::size_t i = 0; i < count_; ++i) {
+                const double at = base::dot(axis, base::minus(at_[i], middle));
+                is_above = is_above && at > reach;
+                is_below = is_below && at < -reach;
+            }
+            if (is_above || is_below) return true;
+        }
+        return false;
+    }
+
+  private:
+    void add_axis(const point3& axis) { axis_[axes_++] = axis; }
+
+    std::size_t count_;
+    std::array<point3, 3> at_{};
+    double off_ = 0.0;
+    double largest_ = 0.0;
+    box3 all_{};
+    std::array<point3, 10> axis_{};
+    std::size_t axes_ = 0;
+};
+
+/// Whether corners may reach into a settled leaf below node `at`, which is `box`.
+bool may_reach_settled(const std::vector<node>& nodes, std::size_t at, box3 box,
+                       const rough_corners& corners) {
+    for (;;) {
+        const node& n = nodes[at];
+        if (n.axis == node::active) return false;
+        if (n.axis == node::settled) return !corners.is_apart_from(box);
+        const bool lower = corners.box().min[n.axis] <= n.at;
+        const bool upper = corners.box().max[n.axis] >= n.at;
+        if (lower && upper) {
+            box3 half = box;
+            half.max[n.axis] = n.at;
+            if (may_reach_settled(nodes, n.below, half, corners)) return true;
+        }
+        (upper ? box.min : box.max)[n.axis] = n.at;
+        at = upper ? n.below + 1 : n.below;
+    }
+}
+
+}  // namespace
+
+active_space::active_space(const surface_components& components,
+                           const partial_expression& at_nowhere)
+    : is_active_face_(components.mesh().faces.size(), 0) {
+    const divider division(components, is_active_face_);
+    box_ = division.everything().box;
+    std::vector<task> tasks = divide_into_tasks(division, nodes_);
+    std::vector<std::vector<node>> found(tasks.size());
+    for_chunks(tasks.size(), tasks_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+        partial_expression state = at_nowhere;
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto tell = [&](std::int64_t sign) {
+                division.tell(state, tasks[i].begin.inside, sign > 0);
+                for (const auto& [c, winding] : tasks[i].known)
+                    state.add(components.operand(c), winding_range::only(sign * winding));
+            };
+            tell(1);
+            found[i] = subdivision(division, state).divide(tasks[i].begin);
+            tell(-1);
+            tasks[i].begin = {};
+        }
+    });
+    for (std::size_t i = 0; i < tasks.size(); ++i) append(found[i], tasks[i].at, nodes_);
+}
+
+bool active_space::reaches_active(const box3& box) const { return reaches(nodes_, 0, box); }
+
+bool active_space::is_within_active(std::span<const box3> corners) const {
+    return !may_reach_settled(nodes_, 0, box_, rough_corners(corners));
+}
+
+}  // namespace treeform::detail::boolean

@@ -1,0 +1,123 @@
+#include <libmesh/base/parallel_invoke.hpp>
+#include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/boolean/finish_surface.hpp>
+#include <libmesh/boolean/merged_faces.hpp>
+#include <libmesh/round/round_surface.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace treeform::detail::boolean {
+namespace {
+
+/// Whether two faces are one, turned or not.
+bool same_corners(const face& f, const face& g) { return f == g || f == face{g[0], g[2], g[1]}; }
+
+/// Merges coplanar faces of the surface. By point that was cut, a face of before that it lies in.
+std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uint32_t>& face_of,
+                                      const mesh_arrangement& cut, const joined_operands& joined,
+                                      const boolean_options& options) {
+    if (!options.face_groups.empty() && options.face_groups.size() != joined.first_face.back())
+        throw std::invalid_argument("treeform::boolean: not as many face groups as faces");
+    std::vector<std::uint32_t> groups(options.face_groups.begin(), options.face_groups.end());
+    if (!groups.empty() && !joined.number_of_face.empty()) {
+        for (std::size_t f = 0; f < joined.number_of_face.size(); ++f)
+            groups[f] = groups[joined.number_of_face[f]];
+        groups.resize(joined.number_of_face.size());
+    }
+    std::vector<operand_element> face_of_point(exact.constructed.size());
+    for (std::size_t f = exact.faces.size(); f-- > 0;)
+        for (const std::uint32_t p : exact.faces[f])
+            if (p >= exact.given.size())
+                face_of_point[p - exact.given.size()] =
+                    joined.face_source(cut.covers_of(face_of[f]).front().face);
+    std::vector<std::uint32_t> plane_of;
+    plane_of.reserve(face_of.size());
+    for (const std::uint32_t f : face_of) plane_of.push_back(cut.covers_of(f).front().face);
+    merged_faces merged =
+        merge_coplanar(exact, {{exact.given, joined.all.faces}, plane_of, groups});
+    std::vector<std::uint8_t> sound(merged.faces.size());
+    for (std::size_t f = 0; f < sound.size(); ++f)
+        sound[f] = merged.is_new[f] != 0 ? std::uint8_t{0} : exact.sound[merged.face_of[f]];
+    exact.sound = std::move(sound);
+    for (std::uint32_t& f : merged.face_of) f = face_of[f];
+    exact.faces = std::move(merged.faces);
+    face_of = std::move(merged.face_of);
+    return face_of_point;
+}
+
+}  // namespace
+
+boolean_result with_counts(const arrange_faces_result& arranged) {
+    boolean_result result;
+    result.certificate.status = status::cancelled;
+    result.statistics.pairs = arranged.pairs;
+    result.statistics.cut_faces = arranged.cut_faces;
+    result.statistics.degenerate = arranged.degenerate.size();
+    return result;
+}
+
+void finish_surface(unmended_result& made, mesh_arrangement& cut, round::solid_faces chosen,
+                    joined_operands& joined, bool solid, const rounding_try& options) {
+    boolean_result& result = made.result;
+    std::vector<std::uint32_t> face_of = std::move(chosen.face_of);
+    exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
+                        std::move(chosen.faces), std::vector<std::uint8_t>(face_of.size())};
+    const auto source_of = [&](std::size_t f) { return cut.covers_of(face_of[f]).front().face; };
+    for_chunks(face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const std::uint32_t source = source_of(f);
+            exact.sound[f] = cut.whole[face_of[f]] != 0 &&
+                             same_corners(exact.faces[f], joined.all.faces[source]);
+            if (!options.simplify) face_of[f] = source;
+        }
+    });
+    const std::size_t given = exact.given.size();
+    std::vector<operand_element> face_of_point;
+    if (options.simplify) {
+        face_of_point = simplify(exact, face_of, cut, joined, options);
+        for (std::size_t f = 0; f < face_of.size(); ++f) face_of[f] = source_of(f);
+    }
+    result.statistics.exact_faces = face_of.size();
+    cut = {};
+    joined.all = {};
+    rounded_surface r =
+        round_surface(std::move(exact), {.precision = options.precision,
+                                         .solid = solid,
+                                         .steps = options.rounding_steps,
+                                         .grids = options.grids,
+                                         .join = options.join,
+                                         .most_rounds = options.most_rounds,
+                                         .most_meeting = options.most_meeting,
+                                         .progress = base::part_of(options.progress, 0.7, 1.0)});
+    result.certificate = std::move(r.certificate);
+    if (result.certificate.status == status::cancelled) return;
+    result.mesh = std::move(r.surface);
+    result.statistics.rounding_steps = r.steps;
+    made.broken = std::move(r.broken);
+    made.on_grid = r.on_grid;
+    result.vanished_components = r.vanished_components;
+    result.vanished_at = std::move(r.vanished_at);
+    base::parallel_invoke([&] { result.face_source.resize(r.face_of.size()); },
+                          [&] { result.vertex_source.resize(r.point_of.size()); });
+    for_chunks(r.face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f)
+            result.face_source[f] = joined.face_source(face_of[r.face_of[f]]);
+    });
+    for_chunks(r.point_of.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t p = begin; p < end; ++p)
+                       if (r.point_of[p] < given)
+                           result.vertex_source[p] = joined.point_source(r.point_of[p]);
+               });
+    if (!options.simplify) return;
+    for (const std::uint32_t p : r.point_of)
+        result.face_of_cut_vertex.push_back(
+            p < given || p == rounded_surface::none ? operand_element{} : face_of_point[p - given]);
+}
+
+}  // namespace treeform::detail::boolean

@@ -1,0 +1,83 @@
+#pragma once
+/// \file
+/// The closed pieces of operands, and how often each winds around points.
+
+#include <libmesh/arrange/perturbed_ray.hpp>
+#include <libmesh/boolean/operand_edges.hpp>
+#include <libmesh/boolean/partial_expression.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/triangle.hpp>
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::boolean {
+
+/// How often an operand winds around a point.
+struct operand_winding {
+    std::uint32_t operand = 0;
+    std::int64_t winding = 0;
+};
+
+/// A component is what edges link of an operand; pieces of an operand that are closed only together
+/// are one. Each has a tree.
+class surface_components {
+  public:
+    /// \param edges of the operands, all of which are closed
+    /// \pre   `joined` and `operand_of_face` outlive this
+    /// \cost  O(F log F), 40 bytes a face; for components of operands that have several, whose faces
+    ///        are not all seen from one point inside, a search for self-intersections
+    /// \same  on any number of threads
+    surface_components(mesh_view joined, std::span<const std::uint32_t> operand_of_face,
+                       const operand_edges& edges);
+
+    [[nodiscard]] std::size_t size() const { return components_.size(); }
+    [[nodiscard]] mesh_view mesh() const { return mesh_; }
+    [[nodiscard]] std::uint32_t operand(std::size_t c) const { return components_[c].operand; }
+    [[nodiscard]] const aabb<double, 3>& box(std::size_t c) const { return components_[c].box; }
+    /// Over its faces: `ids()` are places in `faces`.
+    [[nodiscard]] const tree<3>& tree_of(std::size_t c) const { return components_[c].index; }
+    /// Ascending.
+    [[nodiscard]] std::span<const std::uint32_t> faces(std::size_t c) const {
+        return {faces_.data() + components_[c].begin, components_[c].end - components_[c].begin};
+    }
+
+    /// The winding numbers that a component may have around points. Unknown for the only one of an
+    /// operand, and where the component is not known to be free of self-intersections.
+    [[nodiscard]] const winding_range& range(std::size_t c) const { return components_[c].range; }
+
+    /// How often component c winds around q, exactly. \pre q is not on it
+    [[nodiscard]] std::int64_t winding_around(std::size_t c, const point3& q) const;
+
+    /// How often operands wind around the place right ahead of where a ray meets a face, exactly;
+    /// those that wind around it, ascending.
+    /// \param at what the ray has in common with the face
+    [[nodiscard]] std::vector<operand_winding> windings_ahead(const arrange::perturbed_ray& ray,
+                                                              const arrange::crossing& at) const;
+
+  private:
+    struct component {
+        std::uint32_t operand = 0;
+        std::size_t begin = 0, end = 0;  ///< of its faces
+        bool is_manifold = false;
+        aabb<double, 3> box{};
+        winding_range range = winding_range::unknown();
+        tree<3> index{};
+    };
+
+    void collect(std::span<const std::uint32_t> operand_of_face, const operand_edges& edges);
+    void prepare(component& c, bool with_range) const;
+    [[nodiscard]] winding_range range_of(const component& c) const;
+    [[nodiscard]] triangle3 corners(std::uint32_t f) const;
+
+    mesh_view mesh_;
+    std::vector<std::uint32_t> faces_{};  ///< component by component
+    std::vector<component> components_{};
+    tree<3> boxes_{};  ///< of components
+};
+
+}  // namespace treeform::detail::boolean
