@@ -245,13 +245,13 @@ class cutter {
 
     void force_lines(planar_triangulation& plane) {
         chains_.resize(lines_.size());
-        force_edges(plane);
         const std::size_t named = plane.points().size();
+        force_edges(plane);
         for (const segment& s : segments_)
             if (vertex_of_[s.from] != vertex_of_[s.to])
                 plane.constrain(vertex_of_[s.from], vertex_of_[s.to], s.line);
-        // Where not all pairs that meet are known, a segment may cross an edge at a point without a
-        // name, which is in the way along that edge now.
+        // Where not all pairs that meet are known, edges may be crossed at points without a name, which
+        // are on the way along them now.
         if (!is_single() && plane.points().size() > named) force_edges(plane);
     }
 
