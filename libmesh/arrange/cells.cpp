@@ -197,9 +197,28 @@ numbered_sets number_cells(mesh_view mesh, const mesh_arrangement& cut,
     return joined.number();
 }
 
-std::vector<std::array<std::uint32_t, 2>> cells_beside_faces(const mesh_arrangement& cut,
-                                                             const surface_patches& patches,
-                                                             const numbered_sets& cells) {
+}  // namespace
+
+arrangement_cells find_cells(mesh_view mesh, const mesh_arrangement& cut,
+                             std::span<const std::uint32_t> operand_of_face,
+                             std::size_t operand_count) {
+    check(mesh, cut, operand_of_face, operand_count);
+    return detail::arrange::cells_of(mesh, cut, operand_of_face, operand_count);
+}
+
+numbered_sets detail::arrange::cells_between(mesh_view mesh, const mesh_arrangement& cut,
+                                             std::span<const std::uint32_t> operand_of_face,
+                                             const surface_patches& patches) {
+    const labels labels(cut, operand_of_face);
+    patch_regions joined(patches);
+    for (std::uint32_t p = 0; p < patches.count(); ++p)
+        if (const std::uint32_t f = patches.first_face(p); labels.cancel(f))
+            joined.join(detail::arrange::front_of(f), detail::arrange::behind(f));
+    return number_cells(mesh, cut, patches, joined);
+}
+
+std::vector<std::array<std::uint32_t, 2>> detail::arrange::cells_beside_faces(
+    const mesh_arrangement& cut, const surface_patches& patches, const numbered_sets& cells) {
     std::vector<std::array<std::uint32_t, 2>> cell_of_side(cut.faces.size());
     for_chunks(cut.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
@@ -208,15 +227,6 @@ std::vector<std::array<std::uint32_t, 2>> cells_beside_faces(const mesh_arrangem
         }
     });
     return cell_of_side;
-}
-
-}  // namespace
-
-arrangement_cells find_cells(mesh_view mesh, const mesh_arrangement& cut,
-                             std::span<const std::uint32_t> operand_of_face,
-                             std::size_t operand_count) {
-    check(mesh, cut, operand_of_face, operand_count);
-    return detail::arrange::cells_of(mesh, cut, operand_of_face, operand_count);
 }
 
 arrangement_cells detail::arrange::cells_of(mesh_view mesh, const mesh_arrangement& cut,
@@ -230,12 +240,8 @@ arrangement_cells detail::arrange::cells_of(mesh_view mesh, const mesh_arrangeme
         result.open_count = patches.open_count;
         return result;
     }
+    const numbered_sets cells = cells_between(mesh, cut, operand_of_face, patches);
     const labels labels(cut, operand_of_face);
-    patch_regions joined(patches);
-    for (std::uint32_t p = 0; p < patches.count(); ++p)
-        if (const std::uint32_t f = patches.first_face(p); labels.cancel(f))
-            joined.join(detail::arrange::front_of(f), detail::arrange::behind(f));
-    const numbered_sets cells = number_cells(mesh, cut, patches, joined);
     result.winding = winding_flood(patches, cells, labels, operand_count).run();
     result.cell_of_side = cells_beside_faces(cut, patches, cells);
     return result;

@@ -20,8 +20,8 @@ namespace {
 
 /// Two components hide little of each other that is not cut anyway.
 constexpr std::size_t fewest_components = 3;
-/// Where more faces than these of ten are active, looking for them has not paid.
-constexpr std::size_t most_active = 9;
+/// Where more faces than these of ten are active, all are: what is known of them at once is more.
+constexpr std::size_t most_active = 7;
 
 std::vector<std::uint32_t> active_faces(const active_space& space) {
     std::vector<std::uint32_t> faces;

@@ -19,13 +19,13 @@ using node = active_space::node;
 
 /// Boxes with that few faces are not halved: to arrange those costs less.
 constexpr std::size_t few_faces = 24;
-/// Nor are boxes that have kept more than three quarters of their faces through so many halvings, as
-/// along an edge of many.
-constexpr unsigned most_in_vain = 6;
-/// Nor those that no one component can settle, as in an exclusive or: when few reach into them, or
-/// it has been so through so many halvings.
+/// Nor are boxes that few components reach into, none of which can settle them alone, as in an
+/// exclusive or.
 constexpr std::size_t few_components = 8;
-constexpr unsigned most_hopeless = 12;
+/// To halve a box costs as much as there are items in it. What may be spent is so much for a face,
+/// shared out among the halves; where one is settled, the faces that are in it alone pay so much.
+constexpr double budget_of_face = 16.0;
+constexpr double pay_of_face = 4.0;
 /// Boxes that are worked on in parallel, and how many follow each other in a copy of the expression.
 constexpr std::size_t most_tasks = 512;
 constexpr std::size_t tasks_a_chunk = 8;
@@ -48,10 +48,8 @@ struct settled_component {
 struct place {
     box3 box;
     items inside;
-    std::size_t faces = 0;   ///< below its items
-    std::size_t before = 0;  ///< faces when a halving last told many apart
-    unsigned in_vain = 0;    ///< halvings since then
-    unsigned hopeless = 0;   ///< in a row
+    std::size_t faces = 0;  ///< below its items
+    double budget = 0.0;
 };
 
 struct halves {
@@ -88,13 +86,14 @@ class divider {
             all.box.include(components_.box(c));
             all.inside.push_back({c, 0, 0});
         }
-        all.faces = all.before = components_.mesh().faces.size();
+        all.faces = components_.mesh().faces.size();
+        all.budget = budget_of_face * static_cast<double>(all.faces);
         return all;
     }
 
     /// Whether to halve a place whose value is not known.
     [[nodiscard]] bool is_worth_halving(const place& p) const {
-        if (p.faces <= few_faces || p.in_vain >= most_in_vain) return false;
+        if (p.faces <= few_faces || p.budget < static_cast<double>(p.inside.size())) return false;
         // A box that one component alone reaches into has nothing hidden that halves would show.
         return p.inside.front().component != p.inside.back().component;
     }
@@ -102,16 +101,17 @@ class divider {
     /// False where the box is too small for that.
     [[nodiscard]] bool halve(const place& p, halves& result) const {
         if (!can_be_halved(p.box, result.axis, result.at)) return false;
-        result.lower = {p.box, {}, 0, p.before, p.in_vain + 1, p.hopeless};
-        result.upper = result.lower;
+        result.lower = {p.box, {}};
+        result.upper = {p.box, {}};
         result.lower.box.max[result.axis] = result.at;
         result.upper.box.min[result.axis] = result.at;
         for (const item& i : p.inside) sort_in(i, result);
+        const double rest = p.budget - static_cast<double>(p.inside.size());
+        const std::size_t all = result.lower.inside.size() + result.upper.inside.size();
         for (place* half : {&result.lower, &result.upper}) {
+            half->budget =
+                rest * static_cast<double>(half->inside.size()) / static_cast<double>(all);
             for (const item& i : half->inside) half->faces += faces_below(i);
-            if (4 * half->faces > 3 * half->before) continue;
-            half->before = half->faces;
-            half->in_vain = 0;
         }
         return true;
     }
@@ -144,24 +144,22 @@ class divider {
         });
     }
 
-    /// Whether to give up on a box as no one component can settle it; counts how often that is so.
-    [[nodiscard]] bool gives_up(place& p, partial_expression& state) const {
+    /// Whether few components reach into a box, none of which can settle it alone.
+    [[nodiscard]] bool is_hopeless(const place& p, partial_expression& state) const {
         std::size_t count = 0;
-        bool is_hopeless = true;
+        bool has_hope = false;
         for_components(p.inside, [&](std::uint32_t c) {
-            ++count;
-            if (!is_hopeless) return;
+            if (++count > few_components || has_hope) return;
             const winding_range& range = components_.range(c);
             const bool is_known = range != winding_range::unknown();
             for (const std::int64_t winding :
                  {is_known ? range.low : 0, is_known ? range.high : 1}) {
                 settle(state, {c, winding}, true);
-                if (state.value()) is_hopeless = false;
+                if (state.value()) has_hope = true;
                 settle(state, {c, winding}, false);
             }
         });
-        p.hopeless = is_hopeless ? p.hopeless + 1 : 0;
-        return is_hopeless && (count <= few_components || p.hopeless > most_hopeless);
+        return !has_hope && count <= few_components;
     }
 
     /// Puts a winding number in the place of a range, or back.
@@ -249,17 +247,16 @@ class subdivision {
         : division_(division), state_(state) {}
 
     /// The first node is the box.
-    [[nodiscard]] std::vector<node> divide(place& p) {
+    [[nodiscard]] std::vector<node> divide(const place& p) {
         nodes_.resize(1);
-        divide(p, 0);
+        if (!state_.value()) divide(p, 0);
         return std::move(nodes_);
     }
 
   private:
-    void divide(place& p, std::size_t own) {
-        if (state_.value()) return;  // settled, as nodes are at first
+    void divide(const place& p, std::size_t own) {
         halves parts;
-        if (!division_.is_worth_halving(p) || division_.gives_up(p, state_) ||
+        if (!division_.is_worth_halving(p) || division_.is_hopeless(p, state_) ||
             !division_.halve(p, parts)) {
             nodes_[own].axis = node::active;
             division_.mark_faces(p);
@@ -268,16 +265,28 @@ class subdivision {
         const std::size_t below = nodes_.size();
         nodes_[own] = {static_cast<std::uint8_t>(parts.axis), parts.at,
                        static_cast<std::uint32_t>(below)};
-        nodes_.resize(below + 2);
-        divide_part(parts.lower, p.inside, below);
-        divide_part(parts.upper, p.inside, below + 1);
+        nodes_.resize(below + 2);  // settled, until it turns out that they are not
+        const std::array<place*, 2> half = {&parts.lower, &parts.upper};
+        std::array<std::vector<settled_component>, 2> known;
+        std::array<bool, 2> is_settled{};
+        for (std::size_t i : {0, 1}) {
+            known[i] = division_.settled_in(*half[i], p.inside);
+            settle(known[i], true);
+            is_settled[i] = state_.value().has_value();
+            settle(known[i], false);
+        }
+        for (std::size_t i : {0, 1}) {
+            if (is_settled[i]) continue;
+            if (is_settled[1 - i])
+                half[i]->budget += pay_of_face * static_cast<double>(p.faces - half[i]->faces);
+            settle(known[i], true);
+            divide(*half[i], below + i);
+            settle(known[i], false);
+        }
     }
 
-    void divide_part(place& part, const items& above, std::size_t own) {
-        const auto known = division_.settled_in(part, above);
-        for (const settled_component& c : known) division_.settle(state_, c, true);
-        divide(part, own);
-        for (const settled_component& c : known) division_.settle(state_, c, false);
+    void settle(const std::vector<settled_component>& known, bool is_known) {
+        for (const settled_component& c : known) division_.settle(state_, c, is_known);
     }
 
     const divider& division_;
@@ -347,23 +356,8 @@ bool reaches(const std::vector<node>& nodes, std::size_t at, const box3& box) {
 /// A triangle or a segment, whose corners are off by no more than `off` along each axis.
 class rough_corners {
   public:
-    explicit rough_corners(std::span<const box3> corners) : count_(corners.size()) {
-        for (std::size_t i = 0; i < count_; ++i) {
-            all_.include(corners[i]);
-            for (std::size_t k = 0; k < 3; ++k) {
-                at_[i][k] = 0.5 * corners[i].min[k] + 0.5 * corners[i].max[k];
-                off_ = std::max(off_, corners[i].max[k] - corners[i].min[k]);
-                largest_ = std::max({largest_, std::abs(all_.min[k]), std::abs(all_.max[k])});
-            }
-        }
-        const point3 last = base::minus(at_[count_ - 1], at_[0]);
-        if (count_ == 3) add_axis(base::cross(base::minus(at_[1], at_[0]), last));
-        for (std::size_t i = 0; i < count_; ++i) {
-            const point3 edge = base::minus(at_[(i + 1) % count_], at_[i]);
-            add_axis({0.0, -edge.z, edge.y});
-            add_axis({edge.z, 0.0, -edge.x});
-            add_axis({-edge.y, edge.x, 0.0});
-        }
+    explicit rough_corners(std::span<const box3> corners) : corners_(corners) {
+        for (const box3& corner : corners) all_.include(corner);
     }
 
     [[nodiscard]] const box3& box() const { return all_; }
@@ -371,7 +365,8 @@ class rough_corners {
     /// Whether it is certain that a box has no point of them. Any axis may tell them apart; where
     /// projections to it are rounded, each of three products and two sums is off by 2^-53 of itself,
     /// and the difference from the middle by 2^-52 of the larger coordinate.
-    [[nodiscard]] bool is_apart_from(const box3& box) const {
+    [[nodiscard]] bool is_apart_from(const box3& box) {
+        if (axes_ == 0) find_axes();
         point3 middle, half;
         double largest = largest_;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -385,7 +380,7 @@ class rough_corners {
             const point3 size = {std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
             const double reach = base::dot(size, half) + off * (size.x + size.y + size.z);
             bool is_above = true, is_below = true;
-            for (std::size_t i = 0; i < count_; ++i) {
+            for (std::size_t i = 0; i < corners_.size(); ++i) {
                 const double at = base::dot(axis, base::minus(at_[i], middle));
                 is_above = is_above && at > reach;
                 is_below = is_below && at < -reach;
@@ -396,20 +391,38 @@ class rough_corners {
     }
 
   private:
+    void find_axes() {
+        const std::size_t count = corners_.size();
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                at_[i][k] = 0.5 * corners_[i].min[k] + 0.5 * corners_[i].max[k];
+                off_ = std::max(off_, corners_[i].max[k] - corners_[i].min[k]);
+                largest_ = std::max({largest_, std::abs(all_.min[k]), std::abs(all_.max[k])});
+            }
+        if (count == 3)
+            add_axis(base::cross(base::minus(at_[1], at_[0]), base::minus(at_[2], at_[0])));
+        for (std::size_t i = 0; i < count; ++i) {
+            const point3 edge = base::minus(at_[(i + 1) % count], at_[i]);
+            add_axis({0.0, -edge.z, edge.y});
+            add_axis({edge.z, 0.0, -edge.x});
+            add_axis({-edge.y, edge.x, 0.0});
+        }
+    }
     void add_axis(const point3& axis) { axis_[axes_++] = axis; }
 
-    std::size_t count_;
+    std::span<const box3> corners_;
+    box3 all_{};
+    // Found where boxes do not do.
     std::array<point3, 3> at_{};
     double off_ = 0.0;
     double largest_ = 0.0;
-    box3 all_{};
     std::array<point3, 10> axis_{};
     std::size_t axes_ = 0;
 };
 
 /// Whether corners may reach into a settled leaf below node `at`, which is `box`.
 bool may_reach_settled(const std::vector<node>& nodes, std::size_t at, box3 box,
-                       const rough_corners& corners) {
+                       rough_corners& corners) {
     for (;;) {
         const node& n = nodes[at];
         if (n.axis == node::active) return false;
@@ -455,7 +468,8 @@ active_space::active_space(const surface_components& components,
 bool active_space::reaches_active(const box3& box) const { return reaches(nodes_, 0, box); }
 
 bool active_space::is_within_active(std::span<const box3> corners) const {
-    return !may_reach_settled(nodes_, 0, box_, rough_corners(corners));
+    rough_corners rough(corners);
+    return !may_reach_settled(nodes_, 0, box_, rough);
 }
 
 }  // namespace treeform::detail::boolean

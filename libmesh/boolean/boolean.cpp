@@ -2,6 +2,7 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/cells_of.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/arrange/patches.hpp>
 #include <libmesh/base/certify.hpp>
 #include <libmesh/base/first_bad.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
@@ -15,6 +16,8 @@
 #include <libmesh/boolean/mended_operands.hpp>
 #include <libmesh/boolean/open_input_edges.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
+#include <libmesh/boolean/partial_expression.hpp>
+#include <libmesh/boolean/region_graph.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/boolean/sheet_faces.hpp>
 #include <libmesh/boolean/sound_operand.hpp>
@@ -120,6 +123,34 @@ std::uint64_t count_covered(const arrange_faces_result& arranged, std::size_t fa
     return static_cast<std::uint64_t>(std::count(is_lowest.begin(), is_lowest.end(), 0));
 }
 
+/// The faces that bound the cells which are inside.
+detail::round::solid_faces chosen_faces(std::span<const mesh_view> operands,
+                                        const arranged_operands& input,
+                                        const boolean_expression& expression,
+                                        const rounding_try& options, boolean_result& result) {
+    const mesh_arrangement& cut = input.arranged.cut;
+    const mesh_view mesh = input_of(cut, input.joined);
+    const std::vector<std::uint32_t> operand_of_face = input.joined.operand_of_face();
+    arrangement_cells cells;
+    std::vector<std::uint8_t> inside;
+    if (options.volumes && operands.size() == 2) {
+        cells = detail::arrange::cells_of(mesh, cut, operand_of_face, operands.size());
+        result.volumes = detail::boolean::find_volumes(operands, cut, cells, options.inside);
+        inside = detail::boolean::inside_of_cells(cells, options.inside, expression);
+    } else {
+        const auto patches = detail::arrange::find_patches(cut, operand_of_face);
+        auto numbers = detail::arrange::cells_between(mesh, cut, operand_of_face, patches);
+        cells.cell_of_side = detail::arrange::cells_beside_faces(cut, patches, numbers);
+        const detail::boolean::region_graph regions(cut, operand_of_face, patches,
+                                                    std::move(numbers));
+        inside.resize(regions.size(), 0);
+        detail::boolean::partial_expression state(expression, options.inside);
+        regions.spread({}, state, inside);
+    }
+    result.statistics.cells = inside.size();
+    return detail::round::faces_around(cut, cells, inside);
+}
+
 unmended_result boolean_of(std::span<const mesh_view> operands,
                            const boolean_expression& expression, const rounding_try& options,
                            bool sound) {
@@ -144,15 +175,7 @@ unmended_result boolean_of(std::span<const mesh_view> operands,
     unmended_result made{with_counts(arranged), {}};
     boolean_result& result = made.result;
     if (arranged.cancelled) return made;
-    arrangement_cells cells = detail::arrange::cells_of(
-        input_of(arranged.cut, joined), arranged.cut, joined.operand_of_face(), operands.size());
-    if (options.volumes && operands.size() == 2)
-        result.volumes =
-            detail::boolean::find_volumes(operands, arranged.cut, cells, options.inside);
-    const auto inside = detail::boolean::inside_of_cells(cells, options.inside, expression);
-    result.statistics.cells = inside.size();
-    detail::round::solid_faces chosen = detail::round::faces_around(arranged.cut, cells, inside);
-    cells = {};  // nearly as large as the surface
+    detail::round::solid_faces chosen = chosen_faces(operands, input, expression, options, result);
     finish_surface(made, arranged.cut, std::move(chosen), joined, true, options);
     return made;
 }
