@@ -73,8 +73,9 @@ inline rational_point rational(const tf::implicit_point& p) {
 /// Operands cut along each other, before any rounding.
 class exact_arrangement {
   public:
-    explicit exact_arrangement(std::span<const tf::mesh> operands)
-        : count_(operands.size()), in_(std::make_unique<bool[]>(operands.size())) {
+    explicit exact_arrangement(std::span<const tf::mesh> operands,
+                               tf::fill_rule rule = tf::fill_rule::nonzero)
+        : count_(operands.size()), rule_(rule), in_(std::make_unique<bool[]>(operands.size())) {
         tf::mesh all;
         std::vector<std::uint32_t> operand;
         for (const tf::mesh& mesh : operands) {
@@ -105,11 +106,15 @@ class exact_arrangement {
   private:
     [[nodiscard]] bool inside(std::uint32_t cell, const tf::boolean_expression& expression) const {
         const auto windings = cells_.winding_of(cell);
-        for (std::size_t k = 0; k < count_; ++k) in_[k] = windings[k] != 0;
+        for (std::size_t k = 0; k < count_; ++k)
+            in_[k] = rule_ == tf::fill_rule::odd        ? windings[k] % 2 != 0
+                     : rule_ == tf::fill_rule::positive ? windings[k] > 0
+                                                        : windings[k] != 0;
         return expression({in_.get(), count_});
     }
 
     std::size_t count_;
+    tf::fill_rule rule_;
     std::unique_ptr<bool[]> in_;  ///< [count_]
     tf::mesh_arrangement cut_;
     tf::arrangement_cells cells_;

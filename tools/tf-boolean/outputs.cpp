@@ -36,7 +36,8 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
     entry["inputs"] = json::array();
     for (const char* key : {"pairs", "cut_faces", "cells", "volumes", "separated_points"})
         entry[key] = nullptr;
-    entry["skipped"] = {{"degenerate", nullptr}, {"faces_not_cut", nullptr}};
+    for (const char* key : {"degenerate", "faces_not_cut", "faces_not_looked_at"})
+        entry["skipped"][key] = nullptr;
     entry["max_move"] = {{"given", settings.rails.max_move.given},
                          {"used", nullptr},
                          {"largest", nullptr},
@@ -69,11 +70,11 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
                             {"error", (first - either) + (second - both)}};
     }
     entry["skipped"] = {{"degenerate", did.degenerate},
-                        {"faces_not_cut", triangles - std::min(triangles, did.cut_faces)}};
+                        {"faces_not_cut", triangles - std::min(triangles, did.cut_faces)},
+                        {"faces_not_looked_at", did.skipped_faces}};
     const tf::mesh& surface = result.mesh;
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
-    const auto cut =
-        std::count(result.vertex_source.begin(), result.vertex_source.end(), tf::operand_element{});
+    const auto cut = std::ranges::count(result.vertex_source, tf::operand_element{});
     entry["output"] = {
         {"file", nullptr},
         {"format", nullptr},

@@ -366,7 +366,7 @@ TEST_CASE("boolean: open operands are named with the place") {
 }
 
 TEST_CASE("boolean: open edges are counted as the operand has them, and by what is wrong there") {
-    // A box without a face, and a wall through two of its open edges: they are cut, and stay two.
+    // A box without a face, and a wall through two of its open edges, which stay as they are.
     tf::mesh open = box(2, 2, 2);
     open.faces.erase(open.faces.begin());  // 0, 2, 1
     const tf::certificate plain = tf::check_solid(open);
@@ -378,7 +378,7 @@ TEST_CASE("boolean: open edges are counted as the operand has them, and by what 
     const tf::mesh wall = moved(box(0.5, 4, 4), {0.5, -1, -1});
     const tf::mesh both = together(open, wall);
     const tf::certificate cut = tf::check_solid(both);
-    CHECK(cut.open_count > 3);
+    CHECK(cut.open_count == 3);
     CHECK(cut.boundary_edges == 3);
     CHECK(cut.message().starts_with("its surface ends at 3 edges, the first from "));
 

@@ -51,12 +51,11 @@ class TREEFORM_API boolean_expression {
     [[nodiscard]] bool operator()(std::span<const bool> in_operand) const;
 
     /// True when no point outside this operand can belong to the result: in `a-b` for a, in `a+b`
-    /// for neither. Found in one pass over the formula, so it may be false for long formulas of
-    /// which it is true.
+    /// for neither. Found in one pass, so it may be false for long formulas of which it is true.
     [[nodiscard]] bool needs(std::size_t operand) const;
 
-    enum : std::int32_t { add = -1, intersect = -2, minus = -3, exclude = -4 };
     /// The formula, operations behind what they take: operands as numbers from 0, and these.
+    enum : std::int32_t { add = -1, intersect = -2, minus = -3, exclude = -4 };
     [[nodiscard]] std::span<const std::int32_t> postfix() const { return postfix_; }
 
   private:
@@ -94,10 +93,9 @@ struct boolean_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     /// How often to mend what rounding has broken. The first two steps, or more while they help,
-    /// mend the surface. Further ones mend the operands next to such places: what is nearer than
-    /// 2^-48, 2^-44, 2^-40 ... of the largest coordinate (2^-22, 2^-18, 2^-14 ... for float32) is
-    /// joined, and everything is decided once more, exactly. Where that does not do, and first for
-    /// float32 where many faces meet, corners go on uniform grids, to 512 times as wide.
+    /// mend the surface. Further ones join what is nearer than 2^-48, 2^-44, 2^-40 ... of the largest
+    /// coordinate (float32: 2^-22, 2^-18 ...) next to such places in the operands, and decide all
+    /// once more. Else, and first for float32 where many faces meet, corners go on uniform grids.
     int rounding_steps = 5;
     /// Mending tries nothing that moves a coordinate further at once, in the mesh's own length unit,
     /// and goes on where all of it did: see `certificate::max_displacement`. Not negative.
@@ -113,8 +111,7 @@ struct boolean_options {
     progress_callback progress{};
 };
 
-/// The volumes of two operands, their union and their intersection:
-/// first + second = either + both.
+/// The volumes of two operands, their union and intersection: first + second = either + both.
 struct operand_volumes {
     /// For an operand that winds once around its inside, `signed_volume` without the sign. For
     /// others, the sum over the cells inside, as are all volumes below.
@@ -126,11 +123,10 @@ struct operand_volumes {
 
 /// Counts of what a set operation has done, for reports.
 struct boolean_statistics {
-    std::uint64_t pairs = 0;       ///< of input faces that meet beyond their shared corners
-    std::uint64_t cut_faces = 0;   ///< input faces that were cut or covered by others
-    std::uint64_t degenerate = 0;  ///< input faces without area
-    std::uint64_t cells = 0;       ///< parts of space that the surfaces separate; 0 when they were
-                                   ///< not needed
+    std::uint64_t pairs = 0;          ///< of faces looked at that meet beyond their shared corners
+    std::uint64_t cut_faces = 0;      ///< input faces that were cut or covered by others
+    std::uint64_t degenerate = 0;     ///< input faces without area
+    std::uint64_t cells = 0;          ///< parts of space between the surfaces; 0 when not needed
     std::uint64_t skipped_faces = 0;  ///< input faces not looked at, as the result cannot be there
     std::uint64_t covered = 0;        ///< for `split`: input faces that lie entirely on lower ones
     /// Faces of the exact result, before rounding. When there are some and `mesh` has none, all of
@@ -187,8 +183,8 @@ struct TREEFORM_API boolean_result {
 /// \throws std::invalid_argument when the expression has another number of operands, or naming a
 ///         face with a corner out of range, or a corner with a coordinate that is not finite
 ///         or beyond 2^1000
-/// \cost   as `arrange_faces`, `find_cells` and `round_surface`; of two prepared operands
-///         that bound solids cleanly and meet in a few places, little more than a copy of them
+/// \cost   faces where the result's surface may be are cut, the others are not looked at: O(F log F)
+///         for these. Of two clean prepared solids that meet in few places, about that of a copy
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result boolean(std::span<const mesh_view> operands,
                                                   const boolean_expression& expression,
