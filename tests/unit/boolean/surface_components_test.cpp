@@ -1,6 +1,6 @@
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/surface_components.hpp>
-#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/tf.hpp>
 
@@ -110,7 +110,7 @@ TEST_CASE("surface_components: winding numbers of points") {
     test::random source(3);
     const tf::mesh outer = torus(), inner = moved(ball(2, 1), {3, 0, 0});
     const auto is_in = [](const tf::mesh& m, const tf::point3& q) {
-        return tf::locate(m, std::vector<tf::point3>{q})[0].where == tf::location::inside;
+        return tf::locate(m, q).where == tf::location::inside;
     };
     std::size_t inside = 0;
     for (int i = 0; i < 500; ++i) {

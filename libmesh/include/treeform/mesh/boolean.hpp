@@ -106,8 +106,7 @@ struct boolean_options {
     /// With `simplify`: merge only faces with equal numbers here. [faces of all operands, one
     /// operand after the other], or empty.
     std::span<const std::uint32_t> face_groups{};
-    /// For two operands: compute `boolean_result::volumes`.
-    bool volumes = false;
+    bool volumes = false;  ///< compute `boolean_result::volumes`, of two operands
     progress_callback progress{};
 };
 
