@@ -36,8 +36,8 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
     entry["inputs"] = json::array();
     for (const char* key : {"pairs", "cut_faces", "cells", "volumes", "separated_points"})
         entry[key] = nullptr;
-    for (const char* key : {"degenerate", "faces_not_cut", "faces_not_looked_at"})
-        entry["skipped"][key] = nullptr;
+    entry["skipped"] = {
+        {"degenerate", nullptr}, {"faces_not_cut", nullptr}, {"faces_not_looked_at", nullptr}};
     entry["max_move"] = {{"given", settings.rails.max_move.given},
                          {"used", nullptr},
                          {"largest", nullptr},
@@ -56,7 +56,7 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
     const tf::boolean_statistics& did = result.statistics;
     const tf::certificate& known = result.certificate;
     std::uint64_t triangles = 0;
-    for (const json& input : entry["inputs"]) triangles += input["triangles"].get<std::uint64_t>();
+    for (const json& i : entry["inputs"]) triangles += i["triangles"].get<std::uint64_t>();
     entry["pairs"] = did.pairs;
     entry["cut_faces"] = did.cut_faces;
     entry["cells"] = or_null(did.cells > 0, did.cells);
@@ -74,13 +74,12 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
                         {"faces_not_looked_at", did.skipped_faces}};
     const tf::mesh& surface = result.mesh;
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
-    const auto cut = std::ranges::count(result.vertex_source, tf::operand_element{});
     entry["output"] = {
         {"file", nullptr},
         {"format", nullptr},
         {"precision_out", name_of(known.precision)},
         {"vertices", surface.points.size()},
-        {"cut_vertices", cut},
+        {"cut_vertices", std::ranges::count(result.vertex_source, tf::operand_element{})},
         {"faces", surface.faces.size()},
         {"components", topology.components_by_point},
         {"nonmanifold_edges", topology.nonmanifold_edges},
