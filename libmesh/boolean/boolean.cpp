@@ -94,9 +94,12 @@ certificate open_input(const open_input_edges& found, const joined_operands& joi
                        .open_count = found.count,
                        .boundary_edges = found.boundary_edges,
                        .misoriented_edges = found.misoriented_edges};
+    const auto at = [&](std::uint32_t p) {
+        const auto [x, y, z] = joined.all.points[p];
+        return point3{x + 0.0, y + 0.0, z + 0.0};  // -0 is 0
+    };
     for (const auto& [face, ends] : found.stretches)
-        result.open.push_back(
-            {joined.face_source(face), {joined.all.points[ends[0]], joined.all.points[ends[1]]}});
+        result.open.push_back({joined.face_source(face), {at(ends[0]), at(ends[1])}});
     return result;
 }
 

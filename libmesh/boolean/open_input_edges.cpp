@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <tuple>
 #include <utility>
 
 namespace treeform::detail::boolean {
@@ -61,11 +63,21 @@ class line_sum {
         for (std::size_t i = 1; i < sum_.size(); ++i) sum_[i] += sum_[i - 1];
     }
 
-    void add_to(open_input_edges& found) const {
-        for (std::size_t i = 0; i + 1 < on_.size(); ++i) {
-            if (sum_[i] == 0) continue;
-            if (++found.count <= most_listed) found.stretches.push_back(stretch(i));
+    /// Adds all, without their faces.
+    void add_to(std::vector<open_stretch>& found) const {
+        for (std::size_t i = 0; i + 1 < on_.size(); ++i)
+            if (sum_[i] != 0)
+                found.push_back({0, {std::min(on_[i], on_[i + 1]), std::max(on_[i], on_[i + 1])}});
+    }
+    /// The lowest face at a stretch of the line.
+    [[nodiscard]] std::uint32_t face_at(const open_stretch& s) const {
+        const std::size_t i = std::min(place(s.ends[0]), place(s.ends[1]));
+        std::uint32_t lowest = operand_element::none;
+        for (const unbalanced_edge* e : edges_) {
+            const auto [low, high] = places(*e);
+            if (low <= i && i < high) lowest = std::min(lowest, e->face);
         }
+        return lowest;
     }
     /// Whether no edge overlaps another one.
     [[nodiscard]] bool is_plain() const {
@@ -88,15 +100,6 @@ class line_sum {
     [[nodiscard]] std::pair<std::size_t, std::size_t> places(const unbalanced_edge& e) const {
         return std::minmax({place(e.ends[0]), place(e.ends[1])});
     }
-    [[nodiscard]] open_stretch stretch(std::size_t i) const {
-        open_stretch result{0, {std::min(on_[i], on_[i + 1]), std::max(on_[i], on_[i + 1])}};
-        for (const unbalanced_edge* e : edges_) {  // one of them runs there
-            const auto [low, high] = places(*e);
-            if (low <= i && i < high) result.face = e->face;
-        }
-        return result;
-    }
-
     points_view points_;
     const std::vector<const unbalanced_edge*>& edges_;
     std::vector<std::uint32_t> on_;
@@ -114,11 +117,22 @@ open_input_edges find_open_input_edges(points_view points,
                          [&](const unbalanced_edge& e) { return e.operand != sheet; });
     if (edges.empty()) return found;
     bool is_plain = true;
-    for (const auto& line : edges_by_line(points, edges)) {
+    const auto lines = edges_by_line(points, edges);
+    std::vector<open_stretch> all;
+    for (auto& line : lines) {
         const line_sum sum(points, line);
-        sum.add_to(found);
+        const std::size_t before = all.size();
+        sum.add_to(all);
+        for (std::size_t i = before; i < all.size(); ++i)  // the line, for now
+            all[i].face = static_cast<std::uint32_t>(&line - lines.data());
         is_plain = is_plain && sum.is_plain();
     }
+    found.count = all.size();
+    const auto some = all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), most_listed));
+    std::ranges::partial_sort(all, some, {},
+                              [](const open_stretch& s) { return std::tuple(s.ends, s.face); });
+    found.stretches.assign(all.begin(), some);
+    for (open_stretch& s : found.stretches) s.face = line_sum(points, lines[s.face]).face_at(s);
     if (is_plain)
         for (const unbalanced_edge& e : edges)
             ++(e.net % 2 == 0 ? found.misoriented_edges : found.boundary_edges);

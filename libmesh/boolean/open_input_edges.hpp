@@ -20,7 +20,7 @@ struct open_stretch {
 };
 
 struct open_input_edges {
-    std::vector<open_stretch> stretches;  ///< the first, at most 100
+    std::vector<open_stretch> stretches;  ///< the first by their ends, at most 100
     std::uint64_t count = 0;              ///< of stretches; 0 where all operands are closed
     /// Of the edges as they are, where none of them overlaps another one: those of an odd number of
     /// faces, and those of an even number, of which more run one way than the other.
