@@ -20,14 +20,18 @@ namespace {
 
 /// Two components hide little of each other that is not cut anyway.
 constexpr std::size_t fewest_components = 3;
-/// Where more faces than these of ten are active, all are: what is known of them at once is more.
-constexpr std::size_t most_active = 7;
+/// The least share of faces that a first look, and then the whole effort, have to leave out; else it
+/// is better to cut them all.
+constexpr double first_effort = 0.125, first_share = 0.1, least_share = 0.3;
 
-std::vector<std::uint32_t> active_faces(const active_space& space) {
-    std::vector<std::uint32_t> faces;
+/// The active faces; none where less than a share of all is not active.
+std::vector<std::uint32_t> active_faces(const active_space& space, double least_left_out) {
     const auto is_active = space.is_active_face();
+    std::vector<std::uint32_t> faces;
     for (std::size_t f = 0; f < is_active.size(); ++f)
         if (is_active[f] != 0) faces.push_back(static_cast<std::uint32_t>(f));
+    const auto all = static_cast<double>(is_active.size());
+    if (all - static_cast<double>(faces.size()) < least_left_out * all) faces.clear();
     return faces;
 }
 
@@ -48,10 +52,12 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
     const surface_components components(joined.all, operand_of_face, edges);
     if (components.size() < fewest_components) return std::nullopt;
     const partial_expression at_nowhere(expression, options.inside);
+    if (active_faces(active_space(components, at_nowhere, first_effort), first_share).empty())
+        return std::nullopt;
     const active_space space(components, at_nowhere);
-    std::vector<std::uint32_t> number = active_faces(space);
+    std::vector<std::uint32_t> number = active_faces(space, least_share);
+    if (number.empty()) return std::nullopt;
     const std::size_t all = joined.all.faces.size();
-    if (10 * number.size() > most_active * all) return std::nullopt;
 
     std::vector<face> faces;
     std::vector<std::uint32_t> operands;

@@ -87,18 +87,28 @@ surface_patches find_active_patches(const mesh_arrangement& cut,
 
 /// Where a line meets a face of an arrangement within.
 struct pierced_face {
-    arrange::perturbed_ray ray;
+    arrange::perturbed_ray line;
     arrange::crossing at;
+    bool ahead;  ///< where less of `box` is, along the line
 };
 
-/// A line through a face of the arrangement, along the axis that it faces most if that will do.
-std::optional<pierced_face> find_line(mesh_view mesh, const mesh_arrangement& cut, std::size_t f) {
+/// A line through a face of the arrangement, along the axis on which it is the least way out of a box,
+/// of those that the face is not too steep to, if that will do.
+std::optional<pierced_face> find_line(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
+                                      const box3& box) {
     const triangle3 whole = base::triangle_of(mesh, cut.covers_of(f).front().face);
     const point3 normal =
         base::cross(base::minus(whole[1], whole[0]), base::minus(whole[2], whole[0]));
+    const point3 size = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+    const double steep = 0.25 * std::max({size.x, size.y, size.z});
+    const auto ahead = [&](std::size_t k) { return box.max[k] - whole[0][k]; };
+    const auto back = [&](std::size_t k) { return whole[0][k] - box.min[k]; };
+    const auto cost = [&](int axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        return std::pair(size[k] < steep, std::min(ahead(k), back(k)));
+    };
     std::array<int, 3> axes = {0, 1, 2};
-    const auto size = [&](int k) { return std::abs(normal[static_cast<std::size_t>(k)]); };
-    std::ranges::stable_sort(axes, [&](int i, int j) { return size(i) > size(j); });
+    std::ranges::stable_sort(axes, [&](int i, int j) { return cost(i) < cost(j); });
     const auto& [a, b, c] = cut.faces[f];
     const implicit_point p = cut.point(a), q = cut.point(b), r = cut.point(c);
     constexpr std::array<std::array<double, 3>, 4> shares = {
@@ -112,7 +122,9 @@ std::optional<pierced_face> find_line(mesh_view mesh, const mesh_arrangement& cu
             if (!base::is_finite(from)) continue;
             const arrange::perturbed_ray ray = arrange::ray_beside(from, axis);
             if (ray.passes(p, q, r) == 0) continue;
-            if (const auto at = ray.cross(whole)) return pierced_face{ray, *at};
+            const auto at = ray.cross(whole);
+            const auto k = static_cast<std::size_t>(axis);
+            if (at) return pierced_face{ray, *at, ahead(k) < back(k)};
         }
     return std::nullopt;
 }
@@ -189,11 +201,12 @@ class finder {
     }
 
     [[nodiscard]] std::optional<region_seed> ask(std::uint32_t f) const {
-        const auto line = find_line(mesh_, cut_, f);
+        const auto line = find_line(mesh_, cut_, f, components_.box());
         if (!line) return std::nullopt;
         const std::uint32_t p = patches_.patch[f];
-        return region_seed{line->at.faces > 0 ? regions_.front(p) : regions_.behind(p),
-                           components_.windings_ahead(line->ray, line->at)};
+        const bool in_front = (line->at.faces > 0) == line->ahead;
+        return region_seed{in_front ? regions_.front(p) : regions_.behind(p),
+                           components_.windings_beside(line->line, line->at, line->ahead)};
     }
 
     /// Asks of the faces behind f in its group.

@@ -80,14 +80,14 @@ class divider {
           box_of_(base::face_boxes(components.mesh().points)),
           is_active_face_(is_active_face) {}
 
-    [[nodiscard]] place everything() const {
+    [[nodiscard]] place everything(double effort) const {
         place all;
         for (std::uint32_t c = 0; c < components_.size(); ++c) {
             all.box.include(components_.box(c));
             all.inside.push_back({c, 0, 0});
         }
         all.faces = components_.mesh().faces.size();
-        all.budget = budget_of_face * static_cast<double>(all.faces);
+        all.budget = effort * budget_of_face * static_cast<double>(all.faces);
         return all;
     }
 
@@ -269,13 +269,13 @@ class subdivision {
         const std::array<place*, 2> half = {&parts.lower, &parts.upper};
         std::array<std::vector<settled_component>, 2> known;
         std::array<bool, 2> is_settled{};
-        for (std::size_t i : {0, 1}) {
+        for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
             known[i] = division_.settled_in(*half[i], p.inside);
             settle(known[i], true);
             is_settled[i] = state_.value().has_value();
             settle(known[i], false);
         }
-        for (std::size_t i : {0, 1}) {
+        for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
             if (is_settled[i]) continue;
             if (is_settled[1 - i])
                 half[i]->budget += pay_of_face * static_cast<double>(p.faces - half[i]->faces);
@@ -303,10 +303,11 @@ struct task {
 
 /// Halves everything into tasks, wide first, so that they are the same however many threads there
 /// are; `nodes` are above them.
-std::vector<task> divide_into_tasks(const divider& division, std::vector<node>& nodes) {
+std::vector<task> divide_into_tasks(const divider& division, place&& everything,
+                                    std::vector<node>& nodes) {
     nodes.resize(1);
     std::vector<task> tasks;
-    tasks.push_back({division.everything(), {}, 0});
+    tasks.push_back({std::move(everything), {}, 0});
     std::vector<task> whole;
     for (std::size_t next = 0; next < tasks.size(); ++next) {
         task above = std::move(tasks[next]);
@@ -442,11 +443,12 @@ bool may_reach_settled(const std::vector<node>& nodes, std::size_t at, box3 box,
 }  // namespace
 
 active_space::active_space(const surface_components& components,
-                           const partial_expression& at_nowhere)
+                           const partial_expression& at_nowhere, double effort)
     : is_active_face_(components.mesh().faces.size(), 0) {
     const divider division(components, is_active_face_);
-    box_ = division.everything().box;
-    std::vector<task> tasks = divide_into_tasks(division, nodes_);
+    place everything = division.everything(effort);
+    box_ = everything.box;
+    std::vector<task> tasks = divide_into_tasks(division, std::move(everything), nodes_);
     std::vector<std::vector<node>> found(tasks.size());
     for_chunks(tasks.size(), tasks_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         partial_expression state = at_nowhere;

@@ -29,7 +29,7 @@ std::vector<std::vector<const unbalanced_edge*>> edges_by_line(
     const tree<3> tree = build(edges, [&](const auto& e) { return box_of(points, e); });
     base::union_find lines(edges.size());
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
-        const auto [a, b] = edges[i].ends;
+        const std::uint32_t a = edges[i].ends[0], b = edges[i].ends[1];
         search(tree, box_of(points, edges[i]), [&](std::uint32_t j) {
             if (j <= i || edges[j].operand != edges[i].operand) return;
             const auto [c, d] = edges[j].ends;

@@ -23,9 +23,9 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 using box3 = aabb<double, 3>;
 
-ray<double, 3> ray_from(const point3& p, int along) {
+ray<double, 3> ray_from(const point3& p, int along, bool ahead = true) {
     ray<double, 3> result{{p.x, p.y, p.z}, {}};
-    result.direction[static_cast<std::size_t>(along)] = 1.0;
+    result.direction[static_cast<std::size_t>(along)] = ahead ? 1.0 : -1.0;
     return result;
 }
 
@@ -112,6 +112,7 @@ surface_components::surface_components(mesh_view joined,
                        prepare(components_[i], components_of[components_[i].operand] > 1);
                });
     boxes_ = build(components_, [](const component& c) { return c.box; });
+    for (const component& c : components_) box_.include(c.box);
 }
 
 void surface_components::collect(std::span<const std::uint32_t> operand_of_face,
@@ -198,19 +199,24 @@ std::int64_t surface_components::winding_around(std::size_t c, const point3& q) 
     return winding;
 }
 
-std::vector<operand_winding> surface_components::windings_ahead(const arrange::perturbed_ray& ray,
-                                                                const arrange::crossing& at) const {
-    point3 start = ray.from();
-    const auto along = static_cast<std::size_t>(ray.along());
-    start[along] = std::min({at.plane.a[along], at.plane.b[along], at.plane.c[along]});
+std::vector<operand_winding> surface_components::windings_beside(const arrange::perturbed_ray& line,
+                                                                 const arrange::crossing& at,
+                                                                 bool ahead) const {
+    // Where the line meets the face is not known but to lie in its box.
+    point3 start = line.from();
+    const auto along = static_cast<std::size_t>(line.along());
+    const auto [low, high] = std::minmax({at.plane.a[along], at.plane.b[along], at.plane.c[along]});
+    start[along] = ahead ? low : high;
+    const ray<double, 3> way = ray_from(start, line.along(), ahead);
+    const int sign = ahead ? 1 : -1;
     std::vector<operand_winding> found;
-    visit_along(boxes_, ray_from(start, ray.along()), [&](std::uint32_t c) {
+    visit_along(boxes_, way, [&](std::uint32_t c) {
         const component& of = components_[c];
         const std::uint32_t* const own = faces_.data() + of.begin;
         std::int64_t winding = 0;
-        visit_along(of.index, ray_from(start, ray.along()), [&](std::uint32_t i) {
-            const auto met = ray.cross(corners(own[i]));
-            if (met && ray.compare(at, *met) < 0) winding += met->faces;
+        visit_along(of.index, way, [&](std::uint32_t i) {
+            const auto met = line.cross(corners(own[i]));
+            if (met && sign * line.compare(at, *met) < 0) winding += sign * met->faces;
             return infinite;
         });
         if (winding != 0) found.push_back({of.operand, winding});

@@ -53,11 +53,19 @@ class surface_components {
     /// How often component c winds around q, exactly. \pre q is not on it
     [[nodiscard]] std::int64_t winding_around(std::size_t c, const point3& q) const;
 
-    /// How often operands wind around the place right ahead of where a ray meets a face, exactly;
+    /// The box around all of them.
+    [[nodiscard]] const aabb<double, 3>& box() const { return box_; }
+
+    /// How often operands wind around a place on a line, right beside a face that it meets, exactly;
     /// those that wind around it, ascending.
-    /// \param at what the ray has in common with the face
-    [[nodiscard]] std::vector<operand_winding> windings_ahead(const arrange::perturbed_ray& ray,
-                                                              const arrange::crossing& at) const;
+    ///
+    /// \param line  the line of the ray
+    /// \param at    what it has in common with the face
+    /// \param ahead whether the place is ahead of the face, or behind it; the line is followed that
+    ///              way
+    [[nodiscard]] std::vector<operand_winding> windings_beside(const arrange::perturbed_ray& line,
+                                                               const arrange::crossing& at,
+                                                               bool ahead) const;
 
   private:
     struct component {
@@ -78,6 +86,7 @@ class surface_components {
     std::vector<std::uint32_t> faces_{};  ///< component by component
     std::vector<component> components_{};
     tree<3> boxes_{};  ///< of components
+    aabb<double, 3> box_{};
 };
 
 }  // namespace treeform::detail::boolean
