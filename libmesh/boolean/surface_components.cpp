@@ -1,3 +1,5 @@
+#include <libmesh/arrange/cells_of.hpp>
+#include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/base/face_boxes.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/surface_components.hpp>
@@ -19,6 +21,9 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t components_a_chunk = 16;
+/// Components with more than a pair of their faces meeting for so many faces are not cut on their
+/// own to know their range: they will be cut once more.
+constexpr std::size_t most_pairs_of_faces = 4;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 using box3 = aabb<double, 3>;
@@ -92,6 +97,26 @@ int sign_of_volume(std::size_t count, const Corners& corners) {
     const double off = size * (0x1p-48 + static_cast<double>(count) * 0x1p-52);
     if (!(off < infinite)) return 0;
     return volume > off ? 1 : volume < -off ? -1 : 0;
+}
+
+/// The range of faces that are cut along each other.
+winding_range range_of_cells(points_view points, std::vector<face> faces) {
+    std::vector<std::uint32_t> used;
+    for (const face& f : faces) used.insert(used.end(), f.begin(), f.end());
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    treeform::mesh local;
+    for (const std::uint32_t p : used) local.points.push_back(points[p]);
+    for (face& f : faces)
+        for (std::uint32_t& p : f)
+            p = static_cast<std::uint32_t>(std::ranges::lower_bound(used, p) - used.begin());
+    local.faces = std::move(faces);
+    const mesh_arrangement cut = arrange_faces(local).cut;
+    const std::vector<std::uint32_t> one_operand(local.faces.size(), 0);
+    const arrangement_cells cells = arrange::cells_of(local, cut, one_operand, 1);
+    if (cells.winding.empty()) return winding_range::unknown();
+    const auto [low, high] = std::ranges::minmax(cells.winding);
+    return {low, high};
 }
 
 }  // namespace
@@ -171,18 +196,18 @@ winding_range surface_components::range_of(const component& c) const {
     mean = base::scaled(mean, 1.0 / static_cast<double>(count));
     for (const point3& q : {middle, mean})
         if (const auto range = range_seen_from(q, count, corners_of)) return *range;
-    if (!c.is_manifold) return winding_range::unknown();
-    const int sign = sign_of_volume(count, corners_of);
-    if (sign == 0) return winding_range::unknown();
     std::vector<face> faces(count);
     for (std::size_t i = 0; i < count; ++i) faces[i] = mesh_.faces[own[i]];
-    const self_intersection_result met =
-        intersect::pairs_by_tree({mesh_.points, faces}, c.index,
-                                 {.vertices = vertex_identity::by_index, .first_only = true});
-    if (!met.pairs.empty()) return winding_range::unknown();
-    // What edges link is on the boundary of one region on each of its sides, and the outer one has
-    // winding number 0.
-    return {sign < 0 ? -1 : 0, sign > 0 ? 1 : 0};
+    const self_intersection_result met = intersect::pairs_by_tree(
+        {mesh_.points, faces}, c.index, {.vertices = vertex_identity::by_index});
+    if (met.pairs.empty() && c.is_manifold) {
+        // What edges link is on the boundary of one region on each of its sides, and the outer one
+        // has winding number 0.
+        const int sign = sign_of_volume(count, corners_of);
+        if (sign != 0) return {sign < 0 ? -1 : 0, sign > 0 ? 1 : 0};
+    }
+    if (most_pairs_of_faces * met.pairs.size() > count) return winding_range::unknown();
+    return range_of_cells(mesh_.points, std::move(faces));
 }
 
 std::int64_t surface_components::winding_around(std::size_t c, const point3& q) const {

@@ -30,7 +30,8 @@ class surface_components {
     /// \param edges of the operands, all of which are closed
     /// \pre   `joined` and `operand_of_face` outlive this
     /// \cost  O(F log F), 40 bytes a face; for components of operands that have several, whose faces
-    ///        are not all seen from one point inside, a search for self-intersections
+    ///        are not all seen from one point inside, a search for self-intersections, and
+    ///        where there are some, an arrangement
     /// \same  on any number of threads
     surface_components(mesh_view joined, std::span<const std::uint32_t> operand_of_face,
                        const operand_edges& edges);
@@ -47,7 +48,7 @@ class surface_components {
     }
 
     /// The winding numbers that a component may have around points. Unknown for the only one of an
-    /// operand, and where the component is not known to be free of self-intersections.
+    /// operand, and where too many of the component's faces meet each other.
     [[nodiscard]] const winding_range& range(std::size_t c) const { return components_[c].range; }
 
     /// How often component c winds around q, exactly. \pre q is not on it

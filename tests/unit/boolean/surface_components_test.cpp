@@ -72,13 +72,18 @@ TEST_CASE("surface_components: pieces of an operand, and how often they may wind
     all = together(all, moved(torus(), {0, 20, 0}));
     all = together(all, moved(inside_out(torus()), {0, 20, 20}));
     all = together(all, moved(crossed, {0, 40, 0}));
+    tf::mesh pierced =
+        ball(2, 1);  // a corner pulled through the other side, where it is inside out
+    pierced.points[0] = {-2, 0.01, 0.02};
+    all = together(all, moved(pierced, {0, 60, 0}));
     const prepared p(all);
-    REQUIRE(p.components.size() == 5);
+    REQUIRE(p.components.size() == 6);
     CHECK(p.components.range(0) == winding_range{0, 1});
     CHECK(p.components.range(1) == winding_range{-1, 0});
     CHECK(p.components.range(2) == winding_range{0, 1});
     CHECK(p.components.range(3) == winding_range{-1, 0});
-    CHECK(p.components.range(4) == winding_range::unknown());
+    CHECK(p.components.range(4) == winding_range::unknown());  // too many faces meet
+    CHECK(p.components.range(5) == winding_range{-1, 1});
 }
 
 TEST_CASE("surface_components: the range of an operand's only component is not asked") {
