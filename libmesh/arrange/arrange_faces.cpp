@@ -2,12 +2,14 @@
 #include <libmesh/arrange/cluster.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/checked_face_tree.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/exact/filter.hpp>
 #include <libmesh/intersect/meetings.hpp>
+#include <libmesh/intersect/pairs_by_tree.hpp>
 #include <libmesh/intersect/same_points.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -405,8 +407,8 @@ arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
             }
         usable.faces = kept;
     }
-    self_intersection_result found = self_intersections(
-        usable,
+    self_intersection_result found = intersect::pairs_by_tree(
+        usable, base::checked_face_tree(usable),
         {.vertices = vertex_identity::by_index, .progress = part_of(options.progress, 0.0, 0.5)});
     if (found.cancelled) return cancelled_result(std::move(degenerate));
     if (!degenerate.empty())

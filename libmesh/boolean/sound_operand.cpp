@@ -1,27 +1,89 @@
+#include <libmesh/base/first_bad.hpp>
+#include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/prepared_slots.hpp>
+#include <libmesh/base/union_find.hpp>
 #include <libmesh/base/used_points.hpp>
+#include <libmesh/boolean/joined_operands.hpp>
+#include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/sound_operand.hpp>
-#include <treeform/mesh/boolean.hpp>
+#include <libmesh/boolean/surface_components.hpp>
+#include <libmesh/topology/is_manifold.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace treeform::detail::boolean {
 namespace {
 
-/// Nothing was cut, joined or left out: the solid is bounded by just these faces.
-bool find_out(mesh_view mesh, const progress_callback& progress) {
-    const boolean_result alone =
-        treeform::boolean({&mesh, 1}, boolean_expression::union_of(1), {.progress = progress});
-    if (alone.certificate.status == status::cancelled) throw stopped{};
-    return alone.certificate && alone.statistics.pairs == 0 && alone.statistics.degenerate == 0 &&
-           alone.mesh.faces.size() == mesh.faces.size() &&
-           alone.mesh.points.size() == base::used_points(mesh.points.size(), mesh.faces).size() &&
-           alone.statistics.split_vertices == 0;
+/// Whether a point can be computed with, as `boolean` asks for.
+bool can_be_used(const point3& p) { return base::largest_of(p) <= 0x1p1000; }
+
+bool has_area(mesh_view mesh, const face& f) {
+    return !collinear(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]);
+}
+
+/// Whether all faces hang together.
+bool is_connected(mesh_view mesh) {
+    base::union_find linked(mesh.points.size());
+    for_chunks(mesh.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t f = begin; f < end; ++f) {
+                       linked.join(mesh.faces[f][0], mesh.faces[f][1]);
+                       linked.join(mesh.faces[f][0], mesh.faces[f][2]);
+                   }
+               });
+    const auto root = linked.take_roots();
+    return base::first_bad(root.size(), [&](std::size_t p) { return root[p] != 0; }) == root.size();
+}
+
+/// Whether what is behind the faces of closed components that do not meet is inside, and what is in
+/// front is outside: each is in no other one, or inside out in one.
+bool faces_outward(mesh_view mesh) {
+    if (mesh.faces.empty()) return true;
+    if (is_connected(mesh)) return sign_of_volume(mesh) > 0;
+    const std::vector<std::uint32_t> one_operand(mesh.faces.size(), 0);
+    const surface_components components(mesh, one_operand, find_operand_edges(mesh, one_operand),
+                                        false);
+    return base::first_bad(components.size(), [&](std::size_t c) {
+               const int sign = components.sign_of_volume(c);
+               const point3& corner = mesh.points[mesh.faces[components.faces(c)[0]][0]];
+               return sign == 0 || components.winding_of_others(c, corner) != (sign > 0 ? 0 : 1);
+           }) == components.size();
+}
+
+bool find_out(const prepared_mesh& prepared, const progress_callback& progress) {
+    check_operands("boolean", std::array{prepared.view()});
+    const joined_operands joined = join_operands(std::array{prepared.view()});
+    const mesh_view mesh = joined.all;
+    const auto used = base::used_points(prepared.view().points.size(), prepared.view().faces);
+    if (mesh.points.size() != used.size()) return false;  // two are equal
+    const auto all_of = [](std::size_t count, const auto& holds) {
+        return base::first_bad(count, [&](std::size_t i) { return !holds(i); }) == count;
+    };
+    if (!all_of(mesh.points.size(), [&](std::size_t p) { return can_be_used(mesh.points[p]); }))
+        return false;  // the general way says which
+    if (!topology::is_manifold(mesh)) return false;
+    if (!all_of(mesh.faces.size(), [&](std::size_t f) { return has_area(mesh, mesh.faces[f]); }))
+        return false;
+    const self_intersection_result met =
+        self_intersections(mesh, {.vertices = vertex_identity::by_index,
+                                  .first_only = true,
+                                  .progress = base::part_of(progress, 0.1, 0.9)});
+    if (met.cancelled) throw stopped{};
+    return met.pairs.empty() && faces_outward(mesh);
 }
 
 }  // namespace
 
 bool is_sound(const prepared_mesh& mesh, const progress_callback& progress) {
     constexpr base::slot<bool> slot{base::slot_name::sound_operand};
-    return base::prepared_slots::get(mesh, slot, [&] { return find_out(mesh.view(), progress); });
+    return base::prepared_slots::get(mesh, slot, [&] { return find_out(mesh, progress); });
 }
 
 }  // namespace treeform::detail::boolean

@@ -18,10 +18,11 @@ struct stopped {};
 
 /// Whether two faces of `mesh` have a common corner, a common edge or nothing in common, none is
 /// degenerate, no two vertices have equal coordinates, every edge is closed, and what is behind the
-/// faces is inside: as of what `boolean` has certified. The mesh keeps the answer.
+/// faces is inside: as of what `boolean` has certified. The mesh keeps the answer. False also for
+/// some that are: with a vertex of more than 64 faces, or all but no volume.
 ///
-/// \throws std::invalid_argument as `boolean`; stopped
-/// \cost   once, that of `boolean` with this operand alone
+/// \throws std::invalid_argument naming a face with a corner out of range; stopped
+/// \cost   once, that of `self_intersections` and half as much
 /// \same   on any number of threads
 [[nodiscard]] bool is_sound(const prepared_mesh& mesh, const progress_callback& progress);
 

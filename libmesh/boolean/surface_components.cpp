@@ -8,6 +8,7 @@
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/ray.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <array>
@@ -81,7 +82,7 @@ std::optional<winding_range> range_seen_from(const point3& q, std::size_t count,
 /// by as much, all of them together by less than 2^-49 of the same sum with all signs plus; adding
 /// determinants up is off by F 2^-53 times the sum of these.
 template <class Corners>
-int sign_of_volume(std::size_t count, const Corners& corners) {
+int sign_of(std::size_t count, const Corners& corners) {
     const point3 origin = count > 0 ? corners(0)[0] : point3{};
     double volume = 0.0, size = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -123,7 +124,7 @@ winding_range range_of_cells(points_view points, std::vector<face> faces) {
 
 surface_components::surface_components(mesh_view joined,
                                        std::span<const std::uint32_t> operand_of_face,
-                                       const operand_edges& edges)
+                                       const operand_edges& edges, bool with_ranges)
     : mesh_(joined) {
     collect(operand_of_face, edges);
     // The range of an operand's only component says nothing that its winding numbers, where they
@@ -134,7 +135,8 @@ surface_components::surface_components(mesh_view joined,
     for_chunks(components_.size(), components_a_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t i = begin; i < end; ++i)
-                       prepare(components_[i], components_of[components_[i].operand] > 1);
+                       prepare(components_[i],
+                               with_ranges && components_of[components_[i].operand] > 1);
                });
     boxes_ = build(components_, [](const component& c) { return c.box; });
     for (const component& c : components_) box_.include(c.box);
@@ -203,7 +205,7 @@ winding_range surface_components::range_of(const component& c) const {
     if (met.pairs.empty() && c.is_manifold) {
         // What edges link is on the boundary of one region on each of its sides, and the outer one
         // has winding number 0.
-        const int sign = sign_of_volume(count, corners_of);
+        const int sign = sign_of(count, corners_of);
         if (sign != 0) return {sign < 0 ? -1 : 0, sign > 0 ? 1 : 0};
     }
     if (most_pairs_of_faces * met.pairs.size() > count) return winding_range::unknown();
@@ -222,6 +224,26 @@ std::int64_t surface_components::winding_around(std::size_t c, const point3& q) 
         return infinite;
     });
     return winding;
+}
+
+std::int64_t surface_components::winding_of_others(std::size_t c, const point3& q) const {
+    box3 at;
+    at.include(q);
+    std::int64_t winding = 0;
+    search(boxes_, at, [&](std::uint32_t other) {
+        if (other != c) winding += winding_around(other, q);
+    });
+    return winding;
+}
+
+int sign_of_volume(mesh_view closed) {
+    return sign_of(closed.faces.size(), [&](std::size_t i) {
+        return base::triangle_of(closed, static_cast<std::uint32_t>(i));
+    });
+}
+
+int surface_components::sign_of_volume(std::size_t c) const {
+    return sign_of(faces(c).size(), [&](std::size_t i) { return corners(faces(c)[i]); });
 }
 
 std::vector<operand_winding> surface_components::windings_beside(const arrange::perturbed_ray& line,

@@ -23,6 +23,9 @@ struct operand_winding {
     std::int64_t winding = 0;
 };
 
+/// The sign of the signed volume of a closed surface, or 0 where rounding may have decided it.
+[[nodiscard]] int sign_of_volume(mesh_view closed);
+
 /// A component is what edges link of an operand; pieces of an operand that are closed only together
 /// are one. Each has a tree.
 class surface_components {
@@ -34,7 +37,7 @@ class surface_components {
     ///        where there are some, an arrangement
     /// \same  on any number of threads
     surface_components(mesh_view joined, std::span<const std::uint32_t> operand_of_face,
-                       const operand_edges& edges);
+                       const operand_edges& edges, bool with_ranges = true);
 
     [[nodiscard]] std::size_t size() const { return components_.size(); }
     [[nodiscard]] mesh_view mesh() const { return mesh_; }
@@ -53,6 +56,11 @@ class surface_components {
 
     /// How often component c winds around q, exactly. \pre q is not on it
     [[nodiscard]] std::int64_t winding_around(std::size_t c, const point3& q) const;
+    /// The same of all components but c together.
+    [[nodiscard]] std::int64_t winding_of_others(std::size_t c, const point3& q) const;
+
+    /// The sign of the signed volume of component c, or 0 where rounding may have decided it.
+    [[nodiscard]] int sign_of_volume(std::size_t c) const;
 
     /// The box around all of them.
     [[nodiscard]] const aabb<double, 3>& box() const { return box_; }

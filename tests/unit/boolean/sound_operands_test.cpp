@@ -225,7 +225,7 @@ TEST_CASE("sound operands: progress can say stop while it is found out whether t
     };
     CHECK(until(0.1).certificate.status == tf::status::cancelled);
     CHECK(a.indexes_built() == 0);
-    CHECK(until(0.2).certificate.status == tf::status::cancelled);
+    CHECK(until(0.3).certificate.status == tf::status::cancelled);
     CHECK(a.indexes_built() == 1);
     CHECK(b.indexes_built() == 0);
     told.clear();
