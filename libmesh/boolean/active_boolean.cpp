@@ -25,13 +25,14 @@ constexpr std::size_t fewest_components = 3;
 constexpr double first_effort = 0.125, first_share = 0.1, least_share = 0.3;
 
 /// The active faces; none where less than a share of all is not active.
-std::vector<std::uint32_t> active_faces(const active_space& space, double least_left_out) {
+std::optional<std::vector<std::uint32_t>> active_faces(const active_space& space,
+                                                       double least_left_out) {
     const auto is_active = space.is_active_face();
     std::vector<std::uint32_t> faces;
     for (std::size_t f = 0; f < is_active.size(); ++f)
         if (is_active[f] != 0) faces.push_back(static_cast<std::uint32_t>(f));
     const auto all = static_cast<double>(is_active.size());
-    if (all - static_cast<double>(faces.size()) < least_left_out * all) faces.clear();
+    if (all - static_cast<double>(faces.size()) < least_left_out * all) return std::nullopt;
     return faces;
 }
 
@@ -52,16 +53,16 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
     const surface_components components(joined.all, operand_of_face, edges);
     if (components.size() < fewest_components) return std::nullopt;
     const partial_expression at_nowhere(expression, options.inside);
-    if (active_faces(active_space(components, at_nowhere, first_effort), first_share).empty())
+    if (!active_faces(active_space(components, at_nowhere, first_effort), first_share))
         return std::nullopt;
     const active_space space(components, at_nowhere);
-    std::vector<std::uint32_t> number = active_faces(space, least_share);
-    if (number.empty()) return std::nullopt;
+    auto number = active_faces(space, least_share);
+    if (!number) return std::nullopt;
     const std::size_t all = joined.all.faces.size();
 
     std::vector<face> faces;
     std::vector<std::uint32_t> operands;
-    for (const std::uint32_t f : number) {
+    for (const std::uint32_t f : *number) {
         faces.push_back(joined.all.faces[f]);
         operands.push_back(operand_of_face[f]);
     }
@@ -85,7 +86,7 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
     }
     round::solid_faces chosen = round::faces_around(arranged.cut, cells->cells, cells->inside);
     joined.all.faces = std::move(faces);
-    joined.number_of_face = std::move(number);
+    joined.number_of_face = std::move(*number);
     finish_surface(made, arranged.cut, std::move(chosen), joined, true, options);
     return made;
 }

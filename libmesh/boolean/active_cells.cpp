@@ -137,11 +137,12 @@ arrange::numbered_sets find_regions(mesh_view mesh, const mesh_arrangement& cut,
     return joined.number();
 }
 
-class finder {
+class cell_finder {
   public:
-    finder(mesh_view mesh, const mesh_arrangement& cut,
-           std::span<const std::uint32_t> operand_of_face, const surface_components& components,
-           const active_space& space, const partial_expression& at_nowhere)
+    cell_finder(mesh_view mesh, const mesh_arrangement& cut,
+                std::span<const std::uint32_t> operand_of_face,
+                const surface_components& components, const active_space& space,
+                const partial_expression& at_nowhere)
         : mesh_(mesh),
           cut_(cut),
           components_(components),
@@ -237,7 +238,7 @@ std::optional<active_cells> find_active_cells(mesh_view mesh, const mesh_arrange
                                               const surface_components& components,
                                               const active_space& space,
                                               const partial_expression& at_nowhere) {
-    return finder(mesh, cut, operand_of_face, components, space, at_nowhere).run();
+    return cell_finder(mesh, cut, operand_of_face, components, space, at_nowhere).run();
 }
 
 }  // namespace treeform::detail::boolean

@@ -18,7 +18,7 @@ using box3 = aabb<double, 3>;
 using node = active_space::node;
 
 /// Boxes with that few faces are not halved: to arrange those costs less.
-constexpr std::size_t few_faces = 24;
+constexpr std::size_t faces_not_halved = 24;
 /// Nor are boxes that few components reach into, none of which can settle them alone, as in an
 /// exclusive or.
 constexpr std::size_t few_components = 8;
@@ -93,7 +93,8 @@ class divider {
 
     /// Whether to halve a place whose value is not known.
     [[nodiscard]] bool is_worth_halving(const place& p) const {
-        if (p.faces <= few_faces || p.budget < static_cast<double>(p.inside.size())) return false;
+        if (p.faces <= faces_not_halved || p.budget < static_cast<double>(p.inside.size()))
+            return false;
         // A box that one component alone reaches into has nothing hidden that halves would show.
         return p.inside.front().component != p.inside.back().component;
     }

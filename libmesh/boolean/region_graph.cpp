@@ -7,7 +7,7 @@
 namespace treeform::detail::boolean {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_patch = std::numeric_limits<std::uint32_t>::max();
 
 constexpr std::uint8_t known = 2;  // a region has been entered; plus 1 where it is inside
 
@@ -61,7 +61,7 @@ void region_graph::spread(const region_seed& from, partial_expression& state,
     };
     for (const auto& [operand, winding] : from.windings)
         state.add(operand, winding_range::only(winding));
-    std::vector<step> way{{from.region, none, 0}};
+    std::vector<step> way{{from.region, no_patch, 0}};
     enter(from.region);
     while (!way.empty()) {
         const std::uint32_t region = way.back().region;
@@ -76,7 +76,7 @@ void region_graph::spread(const region_seed& from, partial_expression& state,
         } else {
             const std::uint32_t entered = way.back().patch;
             way.pop_back();
-            if (entered != none) cross(entered, region, state);
+            if (entered != no_patch) cross(entered, region, state);
         }
     }
     for (const auto& [operand, winding] : from.windings)

@@ -22,7 +22,7 @@ namespace treeform::detail::boolean {
 namespace {
 
 /// Whether a point can be computed with, as `boolean` asks for.
-bool can_be_used(const point3& p) { return base::largest_of(p) <= 0x1p1000; }
+bool is_usable(const point3& p) { return base::largest_of(p) <= 0x1p1000; }
 
 bool has_area(mesh_view mesh, const face& f) {
     return !collinear(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]);
@@ -66,7 +66,7 @@ bool find_out(const prepared_mesh& prepared, const progress_callback& progress) 
     const auto all_of = [](std::size_t count, const auto& holds) {
         return base::first_bad(count, [&](std::size_t i) { return !holds(i); }) == count;
     };
-    if (!all_of(mesh.points.size(), [&](std::size_t p) { return can_be_used(mesh.points[p]); }))
+    if (!all_of(mesh.points.size(), [&](std::size_t p) { return is_usable(mesh.points[p]); }))
         return false;  // the general way says which
     if (!topology::is_manifold(mesh)) return false;
     if (!all_of(mesh.faces.size(), [&](std::size_t f) { return has_area(mesh, mesh.faces[f]); }))

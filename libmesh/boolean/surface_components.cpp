@@ -20,7 +20,7 @@
 namespace treeform::detail::boolean {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_component = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t components_a_chunk = 16;
 /// Components with more than a pair of their faces meeting for so many faces are not cut on their
 /// own to know their range: they will be cut once more.
@@ -148,8 +148,8 @@ void surface_components::collect(std::span<const std::uint32_t> operand_of_face,
     std::vector<std::uint8_t> is_unbalanced(pieces, 0);
     for (const unbalanced_edge& e : edges.unbalanced) is_unbalanced[edges.piece[e.face]] = 1;
     std::vector<std::uint32_t> component_of(pieces);
-    std::uint32_t open_operand = none;  // pieces ascend by operand
-    std::uint32_t open_component = none;
+    std::uint32_t open_operand = no_component;  // pieces ascend by operand
+    std::uint32_t open_component = no_component;
     for (std::size_t p = 0; p < pieces; ++p) {
         const std::uint32_t operand = operand_of_face[edges.piece.lowest[p]];
         if (is_unbalanced[p] != 0 && open_operand == operand) {
