@@ -54,11 +54,10 @@ face_places find_places(const mesh_arrangement& cut, const active_space& space) 
         for (std::size_t f = begin; f < end; ++f) {
             std::array<box3, 3> corner;
             for (std::size_t k = 0; k < 3; ++k) corner[k] = box_of(cut, cut.faces[f][k]);
-            if (space.is_within_active(corner))
-                places.is_within[f] = 1;
-            else
-                for (const box3& box : corner)
-                    if (!space.reaches_active(box)) places.is_hidden[f] = 1;
+            const bool hidden = std::ranges::any_of(
+                corner, [&](const box3& box) { return !space.reaches_active(box); });
+            places.is_hidden[f] = hidden ? 1 : 0;
+            places.is_within[f] = !hidden && space.is_within_active(corner) ? 1 : 0;
         }
     });
     return places;

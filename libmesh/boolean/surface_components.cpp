@@ -263,7 +263,8 @@ std::vector<operand_winding> surface_components::windings_beside(const arrange::
         std::int64_t winding = 0;
         visit_along(of.index, way, [&](std::uint32_t i) {
             const auto met = line.cross(corners(own[i]));
-            if (met && sign * line.compare(at, *met) < 0) winding += sign * met->faces;
+            if (met && sign * line.compare(at, *met) < 0)
+                winding += ahead ? met->faces : -met->faces;
             return infinite;
         });
         if (winding != 0) found.push_back({of.operand, winding});
