@@ -4,6 +4,7 @@
 #include <libmesh/arrange/parts.hpp>
 #include <libmesh/arrange/patch_regions.hpp>
 #include <libmesh/arrange/patches.hpp>
+#include <libmesh/arrange/region_patches.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/first_bad.hpp>
 #include <libmesh/base/union_find.hpp>
@@ -21,6 +22,7 @@ namespace {
 using detail::arrange::face_side;
 using detail::arrange::numbered_sets;
 using detail::arrange::patch_regions;
+using detail::arrange::region_patches;
 using detail::arrange::surface_patches;
 using detail::base::first_bad;
 
@@ -100,15 +102,11 @@ class winding_flood {
     winding_flood(const surface_patches& patches, const numbered_sets& cells, const labels& labels,
                   std::size_t operands)
         : patches_(patches),
-          cells_(cells),
           labels_(labels),
           operands_(operands),
           winding_(cells.count() * operands),
           seen_(cells.count()),
-          begin_(cells.count() + 1),
-          patches_at_(2 * std::size_t{patches.count()}) {
-        collect_neighbors();
-    }
+          around_(cells, patches.count()) {}
 
     /// [C][k] windings, 0 in cell 0.
     /// \throws std::logic_error where two ways to a cell give two windings
@@ -118,9 +116,8 @@ class winding_flood {
         while (!open.empty()) {
             const std::uint32_t cell = open.back();
             open.pop_back();
-            for (std::size_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
-                const std::uint32_t p = patches_at_[i];
-                const std::uint32_t next = front(p) == cell ? behind(p) : front(p);
+            for (const std::uint32_t p : around_.around(cell)) {
+                const std::uint32_t next = around_.beyond(p, cell);
                 if (seen_[next] != 0) continue;
                 seen_[next] = 1;
                 cross(p, cell, next);
@@ -132,29 +129,14 @@ class winding_flood {
     }
 
   private:
-    [[nodiscard]] std::uint32_t front(std::uint32_t p) const { return cells_[2 * p + 1]; }
-    [[nodiscard]] std::uint32_t behind(std::uint32_t p) const { return cells_[2 * p + 2]; }
     [[nodiscard]] std::int32_t* row(std::uint32_t cell) {
         return winding_.data() + cell * operands_;
-    }
-
-    void collect_neighbors() {
-        for (std::uint32_t p = 0; p < patches_.count(); ++p) {
-            ++begin_[front(p)];
-            ++begin_[behind(p)];
-        }
-        std::size_t total = 0;
-        for (std::size_t& begin : begin_) begin = total += begin;
-        for (std::uint32_t p = patches_.count(); p-- > 0;) {
-            patches_at_[--begin_[front(p)]] = p;
-            patches_at_[--begin_[behind(p)]] = p;
-        }
     }
 
     /// The windings of `next`, which is beyond patch p from `cell`.
     void cross(std::uint32_t p, std::uint32_t cell, std::uint32_t next) {
         std::copy_n(row(cell), operands_, row(next));
-        const int way = front(p) == cell ? 1 : -1;
+        const int way = around_.front(p) == cell ? 1 : -1;
         labels_.for_each(patches_.first_face(p), [&](std::uint32_t operand, int sign) {
             row(next)[operand] += way * sign;
         });
@@ -163,11 +145,11 @@ class winding_flood {
     void check() {
         std::vector<std::int32_t> beyond(operands_);
         for (std::uint32_t p = 0; p < patches_.count(); ++p) {
-            std::copy_n(row(front(p)), operands_, beyond.data());
+            std::copy_n(row(around_.front(p)), operands_, beyond.data());
             labels_.for_each(patches_.first_face(p),
                              [&](std::uint32_t operand, int sign) { beyond[operand] += sign; });
-            if (seen_[front(p)] == 0 || seen_[behind(p)] == 0 ||
-                !std::equal(beyond.begin(), beyond.end(), row(behind(p))))
+            if (seen_[around_.front(p)] == 0 || seen_[around_.behind(p)] == 0 ||
+                !std::equal(beyond.begin(), beyond.end(), row(around_.behind(p))))
                 throw std::logic_error(
                     "treeform::find_cells: windings contradict each other at face " +
                     std::to_string(patches_.first_face(p)));
@@ -175,13 +157,11 @@ class winding_flood {
     }
 
     const surface_patches& patches_;
-    const numbered_sets& cells_;
     const labels& labels_;
     std::size_t operands_;
     std::vector<std::int32_t> winding_;
     std::vector<unsigned char> seen_;
-    std::vector<std::size_t> begin_;         ///< where the patches of each cell begin
-    std::vector<std::uint32_t> patches_at_;  ///< cell by cell
+    region_patches around_;
 };
 
 /// What looks into one region is one cell; `joined` is known to so far.

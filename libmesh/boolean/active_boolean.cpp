@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -52,12 +53,15 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
     const std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
     const surface_components components(joined.all, operand_of_face, edges);
     if (components.size() < fewest_components) return std::nullopt;
+    const auto stops = [&](double done) { return options.progress && !options.progress(done); };
+    if (stops(0.1)) return unmended_result{with_counts({}), {}};
     const partial_expression at_nowhere(expression, options.inside);
     if (!active_faces(active_space(components, at_nowhere, first_effort), first_share))
         return std::nullopt;
     const active_space space(components, at_nowhere);
     auto number = active_faces(space, least_share);
     if (!number) return std::nullopt;
+    if (stops(0.2)) return unmended_result{with_counts({}), {}};
     const std::size_t all = joined.all.faces.size();
 
     std::vector<face> faces;

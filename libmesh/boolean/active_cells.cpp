@@ -168,7 +168,8 @@ class cell_finder {
         result.cells.cell_of_side.resize(cut_.faces.size(), {0, 0});
         for (std::size_t f = 0; f < cut_.faces.size(); ++f)
             if (const std::uint32_t p = patches_.patch[f]; is_hidden_[p] == 0)
-                result.cells.cell_of_side[f] = {regions_.front(p), regions_.behind(p)};
+                result.cells.cell_of_side[f] = {regions_.patches().front(p),
+                                                regions_.patches().behind(p)};
         return result;
     }
 
@@ -180,8 +181,8 @@ class cell_finder {
         std::vector<std::uint8_t> is_asked(regions_.size(), 0);
         for (std::uint32_t f = 0; f < cut_.faces.size(); ++f) {
             const std::uint32_t p = patches_.patch[f];
-            if (is_hidden_[p] != 0 || is_asked[group[regions_.front(p)]] != 0) continue;
-            is_asked[group[regions_.front(p)]] = 1;
+            if (is_hidden_[p] != 0 || is_asked[group[regions_.patches().front(p)]] != 0) continue;
+            is_asked[group[regions_.patches().front(p)]] = 1;
             asked.push_back(f);
         }
         std::vector<std::optional<region_seed>> found(asked.size());
@@ -205,17 +206,17 @@ class cell_finder {
         if (!line) return std::nullopt;
         const std::uint32_t p = patches_.patch[f];
         const bool in_front = (line->at.faces > 0) == line->ahead;
-        return region_seed{in_front ? regions_.front(p) : regions_.behind(p),
+        return region_seed{in_front ? regions_.patches().front(p) : regions_.patches().behind(p),
                            components_.windings_beside(line->line, line->at, line->ahead)};
     }
 
     /// Asks of the faces behind f in its group.
     [[nodiscard]] std::optional<region_seed> ask_another(const buffer<std::uint32_t>& group,
                                                          std::uint32_t f) const {
-        const std::uint32_t own = group[regions_.front(patches_.patch[f])];
+        const std::uint32_t own = group[regions_.patches().front(patches_.patch[f])];
         for (std::uint32_t g = f + 1; g < cut_.faces.size(); ++g)
             if (const std::uint32_t p = patches_.patch[g];
-                is_hidden_[p] == 0 && group[regions_.front(p)] == own)
+                is_hidden_[p] == 0 && group[regions_.patches().front(p)] == own)
                 if (auto found = ask(g)) return found;
         return std::nullopt;
     }

@@ -202,6 +202,16 @@ class divider {
                             i.number % tree.width);
     }
 
+    /// \pre `i` is no face
+    template <class Visit>
+    void for_children(const item& i, const Visit& visit) const {
+        const tree<3>& tree = components_.tree_of(i.component);
+        const auto first = static_cast<std::uint32_t>(tree.width * i.number);
+        const std::size_t children = tree.children(i.level, i.number);
+        for (std::uint32_t k = 0; k < children; ++k)
+            visit(item{i.component, i.level + 1, first + k});
+    }
+
     /// Puts an item into the halves that it reaches into, opened where it is larger than they are.
     void sort_in(const item& i, halves& result) const {
         const box3 box = box_of(i);
@@ -213,12 +223,7 @@ class divider {
             if (in_upper) result.upper.inside.push_back(i);
             return;
         }
-        const tree<3>& tree = components_.tree_of(i.component);
-        const std::size_t children = tree.children(i.level, i.number);
-        for (std::uint32_t k = 0; k < children; ++k)
-            sort_in(
-                {i.component, i.level + 1, i.number * static_cast<std::uint32_t>(tree.width) + k},
-                result);
+        for_children(i, [&](const item& child) { sort_in(child, result); });
     }
 
     void mark_faces(const item& i, const box3& box) const {
@@ -227,12 +232,7 @@ class divider {
             std::atomic_ref(is_active_face_[face_of(i)]).store(1, std::memory_order_relaxed);
             return;
         }
-        const tree<3>& tree = components_.tree_of(i.component);
-        const std::size_t children = tree.children(i.level, i.number);
-        for (std::uint32_t k = 0; k < children; ++k)
-            mark_faces(
-                {i.component, i.level + 1, i.number * static_cast<std::uint32_t>(tree.width) + k},
-                box);
+        for_children(i, [&](const item& child) { mark_faces(child, box); });
     }
 
     const surface_components& components_;

@@ -174,7 +174,7 @@ unmended_result boolean_of(std::span<const mesh_view> operands,
                     detail::boolean::boolean_in_active_space(joined, edges, expression, options))
                 return std::move(*made);
     }
-    arrange_joined(input, part_of(options.progress, 0.0, 0.5));
+    arrange_joined(input, part_of(options.progress, 0.2, 0.5));
     unmended_result made{with_counts(arranged), {}};
     boolean_result& result = made.result;
     if (arranged.cancelled) return made;

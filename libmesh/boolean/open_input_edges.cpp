@@ -9,13 +9,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <tuple>
 #include <utility>
 
 namespace treeform::detail::boolean {
 namespace {
 
 constexpr std::size_t most_listed = 100;
+
+using stretch_ends = std::array<std::uint32_t, 2>;  // points, ascending
 
 aabb<double, 3> box_of(points_view points, const unbalanced_edge& e) {
     aabb<double, 3> box;
@@ -63,15 +64,19 @@ class line_sum {
         for (std::size_t i = 1; i < sum_.size(); ++i) sum_[i] += sum_[i - 1];
     }
 
-    /// Adds all, without their faces.
-    void add_to(std::vector<open_stretch>& found) const {
+    /// The ends of all stretches.
+    [[nodiscard]] std::vector<stretch_ends> stretches() const {
+        std::vector<stretch_ends> found;
         for (std::size_t i = 0; i + 1 < on_.size(); ++i)
-            if (sum_[i] != 0)
-                found.push_back({0, {std::min(on_[i], on_[i + 1]), std::max(on_[i], on_[i + 1])}});
+            if (sum_[i] != 0) {
+                const auto [low, high] = std::minmax({on_[i], on_[i + 1]});
+                found.push_back({low, high});
+            }
+        return found;
     }
     /// The lowest face at a stretch of the line.
-    [[nodiscard]] std::uint32_t face_at(const open_stretch& s) const {
-        const std::size_t i = std::min(place(s.ends[0]), place(s.ends[1]));
+    [[nodiscard]] std::uint32_t face_at(const stretch_ends& ends) const {
+        const std::size_t i = std::min(place(ends[0]), place(ends[1]));
         std::uint32_t lowest = operand_element::none;
         for (const unbalanced_edge* e : edges_) {
             const auto [low, high] = places(*e);
@@ -118,21 +123,22 @@ open_input_edges find_open_input_edges(points_view points,
     if (edges.empty()) return found;
     bool is_plain = true;
     const auto lines = edges_by_line(points, edges);
-    std::vector<open_stretch> all;
-    for (auto& line : lines) {
-        const line_sum sum(points, line);
-        const std::size_t before = all.size();
-        sum.add_to(all);
-        for (std::size_t i = before; i < all.size(); ++i)  // the line, for now
-            all[i].face = static_cast<std::uint32_t>(&line - lines.data());
+    struct stretch {
+        stretch_ends ends;
+        std::size_t line;
+    };
+    std::vector<stretch> all;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const line_sum sum(points, lines[i]);
+        for (const stretch_ends& ends : sum.stretches()) all.push_back({ends, i});
         is_plain = is_plain && sum.is_plain();
     }
     found.count = all.size();
     const auto some = all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), most_listed));
     std::ranges::partial_sort(all, some, {},
-                              [](const open_stretch& s) { return std::tuple(s.ends, s.face); });
-    found.stretches.assign(all.begin(), some);
-    for (open_stretch& s : found.stretches) s.face = line_sum(points, lines[s.face]).face_at(s);
+                              [](const stretch& s) { return std::pair(s.ends, s.line); });
+    for (auto s = all.begin(); s != some; ++s)
+        found.stretches.push_back({line_sum(points, lines[s->line]).face_at(s->ends), s->ends});
     if (is_plain)
         for (const unbalanced_edge& e : edges)
             ++(e.net % 2 == 0 ? found.misoriented_edges : found.boundary_edges);

@@ -20,29 +20,18 @@ region_graph::region_graph(const mesh_arrangement& cut,
       operand_of_face_(operand_of_face),
       patches_(patches),
       region_(std::move(regions)),
-      begin_(region_.count() + 1, 0),
-      patches_at_(2 * std::size_t{patches.count()}) {
-    for (std::uint32_t p = 0; p < patches.count(); ++p) {
-        ++begin_[front(p)];
-        ++begin_[behind(p)];
-    }
-    std::size_t total = 0;
-    for (std::size_t& begin : begin_) begin = total += begin;
-    for (std::uint32_t p = patches.count(); p-- > 0;) {
-        patches_at_[--begin_[front(p)]] = p;
-        patches_at_[--begin_[behind(p)]] = p;
-    }
-}
+      around_(region_, patches.count()) {}
 
 buffer<std::uint32_t> region_graph::groups() const {
     base::union_find linked(size());
-    for (std::uint32_t p = 0; p < patches_.count(); ++p) linked.join(front(p), behind(p));
+    for (std::uint32_t p = 0; p < patches_.count(); ++p)
+        linked.join(around_.front(p), around_.behind(p));
     return linked.take_roots();
 }
 
 /// Adds what crossing a patch changes on the way out of a region.
 void region_graph::cross(std::uint32_t patch, std::uint32_t from, partial_expression& state) const {
-    const int way = front(patch) == from ? 1 : -1;
+    const int way = around_.front(patch) == from ? 1 : -1;
     for (const covering_face& cover : cut_.covers_of(patches_.first_face(patch)))
         state.add(operand_of_face_[cover.face], winding_range::only(cover.opposite ? -way : way));
 }
@@ -65,10 +54,10 @@ void region_graph::spread(const region_seed& from, partial_expression& state,
     enter(from.region);
     while (!way.empty()) {
         const std::uint32_t region = way.back().region;
-        const auto patches = patches_at(region);
+        const auto patches = around_.around(region);
         if (way.back().next < patches.size()) {
             const std::uint32_t p = patches[way.back().next++];
-            const std::uint32_t next = beyond(p, region);
+            const std::uint32_t next = around_.beyond(p, region);
             if (inside[next] >= known) continue;
             cross(p, region, state);
             enter(next);

@@ -6,6 +6,7 @@
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/arrange/numbered_sets.hpp>
 #include <libmesh/arrange/patches.hpp>
+#include <libmesh/arrange/region_patches.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
 #include <libmesh/boolean/surface_components.hpp>
 #include <treeform/tree/detail/buffer.hpp>
@@ -29,14 +30,12 @@ class region_graph {
     /// \pre   what is referred to outlives this
     region_graph(const mesh_arrangement& cut, std::span<const std::uint32_t> operand_of_face,
                  const arrange::surface_patches& patches, arrange::numbered_sets regions);
+    region_graph(const region_graph&) = delete;
+    region_graph& operator=(const region_graph&) = delete;
 
     [[nodiscard]] std::size_t size() const { return region_.count(); }
-    [[nodiscard]] std::uint32_t front(std::uint32_t patch) const {
-        return region_[2 * std::size_t{patch} + 1];
-    }
-    [[nodiscard]] std::uint32_t behind(std::uint32_t patch) const {
-        return region_[2 * std::size_t{patch} + 2];
-    }
+    /// The regions on both sides of patches.
+    [[nodiscard]] const arrange::region_patches& patches() const { return around_; }
 
     /// [R] the lowest of the regions that patches link with each.
     [[nodiscard]] buffer<std::uint32_t> groups() const;
@@ -51,20 +50,13 @@ class region_graph {
                 std::vector<std::uint8_t>& inside) const;
 
   private:
-    [[nodiscard]] std::uint32_t beyond(std::uint32_t patch, std::uint32_t region) const {
-        return front(patch) == region ? behind(patch) : front(patch);
-    }
-    [[nodiscard]] std::span<const std::uint32_t> patches_at(std::uint32_t region) const {
-        return {patches_at_.data() + begin_[region], begin_[region + 1] - begin_[region]};
-    }
     void cross(std::uint32_t patch, std::uint32_t from, partial_expression& state) const;
 
     const mesh_arrangement& cut_;
     std::span<const std::uint32_t> operand_of_face_;
     const arrange::surface_patches& patches_;
     arrange::numbered_sets region_;
-    std::vector<std::size_t> begin_;         ///< where the patches of each region begin
-    std::vector<std::uint32_t> patches_at_;  ///< region by region
+    arrange::region_patches around_;
 };
 
 }  // namespace treeform::detail::boolean

@@ -53,8 +53,8 @@ struct TREEFORM_API certificate {
     std::uint64_t meeting_count = 0;
     std::vector<std::array<std::uint32_t, 2>> meeting{};
     std::vector<point3> meeting_at{};  ///< a corner of the first face of each pair in `meeting`
-    /// Edges whose signed face count is not zero, in pieces where others overlap them. The first 100 of
-    /// `open_count`.
+    /// Edges whose signed face count is not zero, in pieces where others overlap them. The first 100
+    /// of `open_count`.
     std::uint64_t open_count = 0;
     std::vector<open_edge> open{};
     /// The same edges as the operands have them, with equal coordinates joined: those of an odd
