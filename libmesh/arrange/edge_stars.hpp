@@ -2,8 +2,8 @@
 /// \file
 /// The faces at the lower end of each edge.
 
+#include <libmesh/base/fill_stars.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/detail/buffer.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -21,16 +21,14 @@ class edge_stars {
   public:
     edge_stars(std::size_t point_count, std::span<const face> faces);
 
-    [[nodiscard]] std::size_t size() const { return end_.size(); }
+    [[nodiscard]] std::size_t size() const { return at_.end.size(); }
     /// The faces at `point`, ascending.
     [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t point) const {
-        const std::size_t begin = point == 0 ? 0 : end_[point - 1];
-        return {faces_.data() + begin, end_[point] - begin};
+        return at_[point];
     }
 
   private:
-    buffer<std::uint32_t> end_;    ///< [V] where the faces of each point end in `faces_`
-    buffer<std::uint32_t> faces_;  ///< point by point
+    base::faces_by_point<std::uint32_t> at_;
 };
 
 }  // namespace treeform::detail::arrange

@@ -1,10 +1,13 @@
 #include <libmesh/base/double_double.hpp>
 #include <treeform/mesh/rounding.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace treeform {
 namespace {
@@ -29,11 +32,16 @@ double displacement(const transform<3>& by, const point3& p, std::size_t k, doub
 }  // namespace
 
 double max_displacement(points_view points, const transform<3>& by, points_view placed) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            largest = std::max(largest, displacement(by, points[i], k, placed[i][k]));
-    return largest;
+    std::vector<double> largest(chunk_count(points.size(), light_grain), 0.0);
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        double mine = 0.0;
+        for (std::size_t i = begin; i < end; ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+                mine = std::max(mine, displacement(by, points[i], k, placed[i][k]));
+        largest[c] = mine;
+    });
+    return std::accumulate(largest.begin(), largest.end(), 0.0,
+                           [](double a, double b) { return std::max(a, b); });
 }
 
 }  // namespace treeform

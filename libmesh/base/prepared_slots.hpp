@@ -19,6 +19,7 @@ enum class slot_name : std::size_t {
     joined_corners,
     closed,
     sound_operand,
+    leaf_blocks,
     count
 };
 

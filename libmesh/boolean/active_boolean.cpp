@@ -56,7 +56,7 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
     const auto stops = [&](double done) { return options.progress && !options.progress(done); };
     if (stops(0.1)) return unmended_result{with_counts({}), {}};
     const partial_expression at_nowhere(expression, options.inside);
-    if (!active_faces(active_space(components, at_nowhere, first_effort), first_share))
+    if (!active_faces(active_space(components, at_nowhere, {.effort = first_effort}), first_share))
         return std::nullopt;
     const active_space space(components, at_nowhere);
     auto number = active_faces(space, least_share);

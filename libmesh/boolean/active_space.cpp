@@ -15,13 +15,8 @@ namespace treeform::detail::boolean {
 namespace {
 
 using box3 = aabb<double, 3>;
-using node = active_space::node;
+using node = halved_space::node;
 
-/// Boxes with that few faces are not halved: to arrange those costs less.
-constexpr std::size_t faces_not_halved = 24;
-/// Nor are boxes that few components reach into, none of which can settle them alone, as in an
-/// exclusive or.
-constexpr std::size_t few_components = 8;
 /// To halve a box costs as much as there are items in it. What may be spent is so much for a face,
 /// shared out among the halves; where one is settled, the faces that are in it alone pay so much.
 constexpr double budget_of_face = 16.0;
@@ -44,11 +39,17 @@ struct settled_component {
     std::int64_t winding;
 };
 
+struct range_change {
+    std::uint32_t operand;
+    winding_range by;
+};
+
 /// A box on the way down.
 struct place {
     box3 box;
     items inside;
-    std::size_t faces = 0;  ///< below its items
+    std::vector<std::uint32_t> unusual;  ///< components that may wind otherwise there; ascending
+    std::size_t faces = 0;               ///< below its items
     double budget = 0.0;
 };
 
@@ -75,25 +76,28 @@ bool is_larger(const box3& a, const box3& b) {
 
 class divider {
   public:
-    divider(const surface_components& components, std::vector<std::uint8_t>& is_active_face)
+    divider(const surface_components& components, const division_limits& limits,
+            std::vector<std::uint8_t>& is_active_face)
         : components_(components),
+          limits_(limits),
           box_of_(base::face_boxes(components.mesh().points)),
           is_active_face_(is_active_face) {}
 
-    [[nodiscard]] place everything(double effort) const {
+    [[nodiscard]] place everything() const {
         place all;
         for (std::uint32_t c = 0; c < components_.size(); ++c) {
             all.box.include(components_.box(c));
             all.inside.push_back({c, 0, 0});
+            if (!components_.unusual_boxes(c).empty()) all.unusual.push_back(c);
         }
         all.faces = components_.mesh().faces.size();
-        all.budget = effort * budget_of_face * static_cast<double>(all.faces);
+        all.budget = limits_.effort * budget_of_face * static_cast<double>(all.faces);
         return all;
     }
 
     /// Whether to halve a place whose value is not known.
     [[nodiscard]] bool is_worth_halving(const place& p) const {
-        if (p.faces <= faces_not_halved || p.budget < static_cast<double>(p.inside.size()))
+        if (p.faces <= limits_.faces_not_halved || p.budget < static_cast<double>(p.inside.size()))
             return false;
         // A box that one component alone reaches into has nothing hidden that halves would show.
         return p.inside.front().component != p.inside.back().component;
@@ -102,8 +106,8 @@ class divider {
     /// False where the box is too small for that.
     [[nodiscard]] bool halve(const place& p, halves& result) const {
         if (!can_be_halved(p.box, result.axis, result.at)) return false;
-        result.lower = {p.box, {}};
-        result.upper = {p.box, {}};
+        result.lower = {p.box, {}, {}};
+        result.upper = {p.box, {}, {}};
         result.lower.box.max[result.axis] = result.at;
         result.upper.box.min[result.axis] = result.at;
         for (const item& i : p.inside) sort_in(i, result);
@@ -113,6 +117,11 @@ class divider {
             half->budget =
                 rest * static_cast<double>(half->inside.size()) / static_cast<double>(all);
             for (const item& i : half->inside) half->faces += faces_below(i);
+            for (const std::uint32_t c : p.unusual)
+                if (std::ranges::any_of(components_.unusual_boxes(c), [&](const box3& unusual) {
+                        return overlaps(unusual, half->box);
+                    }))
+                    half->unusual.push_back(c);
         }
         return true;
     }
@@ -132,43 +141,54 @@ class divider {
         return result;
     }
 
+    /// What is known besides of a part of a place.
+    [[nodiscard]] std::vector<range_change> changes_in(const place& part,
+                                                       const place& above) const {
+        std::vector<range_change> result;
+        const auto change = [&](std::uint32_t c, const winding_range& now) {
+            const winding_range& before = range_in(above, c);
+            if (now != before)
+                result.push_back(
+                    {components_.operand(c), {now.low - before.low, now.high - before.high}});
+        };
+        for (const auto& [c, winding] : settled_in(part, above.inside))
+            change(c, winding_range::only(winding));
+        for (const std::uint32_t c : above.unusual)
+            if (!std::ranges::binary_search(part.unusual, c) && is_inside(c, part))
+                change(c, components_.usual_range(c));
+        return result;
+    }
+
     void mark_faces(const place& p) const {
         for (const item& i : p.inside) mark_faces(i, p.box);
     }
 
-    /// Adds the ranges of the components that reach into a box.
-    void tell(partial_expression& state, const items& inside, bool is_there) const {
-        for_components(inside, [&](std::uint32_t c) {
-            const winding_range& range = components_.range(c);
-            const std::int64_t sign = is_there ? 1 : -1;
+    /// Adds the ranges of the components that reach into a place, or takes them away.
+    void tell(partial_expression& state, const place& p, bool is_there) const {
+        const std::int64_t sign = is_there ? 1 : -1;
+        for_components(p.inside, [&](std::uint32_t c) {
+            const winding_range& range = range_in(p, c);
             state.add(components_.operand(c), {sign * range.low, sign * range.high});
         });
     }
 
-    /// Whether few components reach into a box, none of which can settle it alone.
+    /// Whether few components reach into a place, none of which can settle it alone.
     [[nodiscard]] bool is_hopeless(const place& p, partial_expression& state) const {
         std::size_t count = 0;
         bool has_hope = false;
         for_components(p.inside, [&](std::uint32_t c) {
-            if (++count > few_components || has_hope) return;
-            const winding_range& range = components_.range(c);
+            if (++count > limits_.few_components || has_hope) return;
+            const winding_range& range = range_in(p, c);
             const bool is_known = range != winding_range::unknown();
             for (const std::int64_t winding :
                  {is_known ? range.low : 0, is_known ? range.high : 1}) {
-                settle(state, {c, winding}, true);
+                const winding_range by{winding - range.low, winding - range.high};
+                state.add(components_.operand(c), by);
                 if (state.value()) has_hope = true;
-                settle(state, {c, winding}, false);
+                state.add(components_.operand(c), {-by.low, -by.high});
             }
         });
-        return !has_hope && count <= few_components;
-    }
-
-    /// Puts a winding number in the place of a range, or back.
-    void settle(partial_expression& state, const settled_component& c, bool is_known) const {
-        const winding_range& range = components_.range(c.component);
-        const std::int64_t sign = is_known ? 1 : -1;
-        state.add(components_.operand(c.component),
-                  {sign * (c.winding - range.low), sign * (c.winding - range.high)});
+        return !has_hope && count <= limits_.few_components;
     }
 
   private:
@@ -180,6 +200,14 @@ class divider {
             last = i.component;
             visit(last);
         }
+    }
+
+    [[nodiscard]] const winding_range& range_in(const place& p, std::uint32_t c) const {
+        return std::ranges::binary_search(p.unusual, c) ? components_.range(c)
+                                                        : components_.usual_range(c);
+    }
+    [[nodiscard]] static bool is_inside(std::uint32_t c, const place& p) {
+        return std::ranges::binary_search(p.inside, c, {}, &item::component);
     }
 
     [[nodiscard]] bool is_face(const item& i) const {
@@ -236,6 +264,7 @@ class divider {
     }
 
     const surface_components& components_;
+    division_limits limits_;
     decltype(base::face_boxes(points_view{})) box_of_;
     std::vector<std::uint8_t>& is_active_face_;
 };
@@ -268,10 +297,10 @@ class subdivision {
                        static_cast<std::uint32_t>(below)};
         nodes_.resize(below + 2);  // settled, until it turns out that they are not
         const std::array<place*, 2> half = {&parts.lower, &parts.upper};
-        std::array<std::vector<settled_component>, 2> known;
+        std::array<std::vector<range_change>, 2> known;
         std::array<bool, 2> is_settled{};
         for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
-            known[i] = division_.settled_in(*half[i], p.inside);
+            known[i] = division_.changes_in(*half[i], p);
             settle(known[i], true);
             is_settled[i] = state_.value().has_value();
             settle(known[i], false);
@@ -286,8 +315,10 @@ class subdivision {
         }
     }
 
-    void settle(const std::vector<settled_component>& known, bool is_known) {
-        for (const settled_component& c : known) division_.settle(state_, c, is_known);
+    void settle(const std::vector<range_change>& known, bool is_known) {
+        const std::int64_t sign = is_known ? 1 : -1;
+        for (const auto& [operand, by] : known)
+            state_.add(operand, {sign * by.low, sign * by.high});
     }
 
     const divider& division_;
@@ -344,118 +375,22 @@ void append(const std::vector<node>& below, std::size_t at, std::vector<node>& n
     for (std::size_t i = 1; i < below.size(); ++i) nodes.push_back(moved(below[i]));
 }
 
-/// Whether a box reaches into an active leaf below node `at`.
-bool reaches(const std::vector<node>& nodes, std::size_t at, const box3& box) {
-    for (;;) {
-        const node& n = nodes[at];
-        if (n.axis >= 3) return n.axis == node::active;
-        const bool lower = box.min[n.axis] <= n.at, upper = box.max[n.axis] >= n.at;
-        if (lower && upper && reaches(nodes, n.below, box)) return true;
-        at = upper ? n.below + 1 : n.below;
-    }
-}
-
-/// A triangle or a segment, whose corners are off by no more than `off` along each axis.
-class rough_corners {
-  public:
-    explicit rough_corners(std::span<const box3> corners) : corners_(corners) {
-        for (const box3& corner : corners) all_.include(corner);
-    }
-
-    [[nodiscard]] const box3& box() const { return all_; }
-
-    /// Whether it is certain that a box has no point of them. Any axis may tell them apart; where
-    /// projections to it are rounded, each of three products and two sums is off by 2^-53 of itself,
-    /// and the difference from the middle by 2^-52 of the larger coordinate.
-    [[nodiscard]] bool is_apart_from(const box3& box) {
-        if (axes_ == 0) find_axes();
-        point3 middle, half;
-        double largest = largest_;
-        for (std::size_t k = 0; k < 3; ++k) {
-            middle[k] = 0.5 * box.min[k] + 0.5 * box.max[k];
-            half[k] = 0.5 * box.max[k] - 0.5 * box.min[k];
-            largest = std::max({largest, std::abs(box.min[k]), std::abs(box.max[k])});
-        }
-        const double off = off_ + 0x1p-48 * largest;
-        for (std::size_t a = 0; a < axes_; ++a) {
-            const point3& axis = axis_[a];
-            const point3 size = {std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
-            const double reach = base::dot(size, half) + off * (size.x + size.y + size.z);
-            bool is_above = true, is_below = true;
-            for (std::size_t i = 0; i < corners_.size(); ++i) {
-                const double at = base::dot(axis, base::minus(at_[i], middle));
-                is_above = is_above && at > reach;
-                is_below = is_below && at < -reach;
-            }
-            if (is_above || is_below) return true;
-        }
-        return false;
-    }
-
-  private:
-    void find_axes() {
-        const std::size_t count = corners_.size();
-        for (std::size_t i = 0; i < count; ++i)
-            for (std::size_t k = 0; k < 3; ++k) {
-                at_[i][k] = 0.5 * corners_[i].min[k] + 0.5 * corners_[i].max[k];
-                off_ = std::max(off_, corners_[i].max[k] - corners_[i].min[k]);
-                largest_ = std::max({largest_, std::abs(all_.min[k]), std::abs(all_.max[k])});
-            }
-        if (count == 3)
-            add_axis(base::cross(base::minus(at_[1], at_[0]), base::minus(at_[2], at_[0])));
-        for (std::size_t i = 0; i < count; ++i) {
-            const point3 edge = base::minus(at_[(i + 1) % count], at_[i]);
-            add_axis({0.0, -edge.z, edge.y});
-            add_axis({edge.z, 0.0, -edge.x});
-            add_axis({-edge.y, edge.x, 0.0});
-        }
-    }
-    void add_axis(const point3& axis) { axis_[axes_++] = axis; }
-
-    std::span<const box3> corners_;
-    box3 all_{};
-    // Found where boxes do not do.
-    std::array<point3, 3> at_{};
-    double off_ = 0.0;
-    double largest_ = 0.0;
-    std::array<point3, 10> axis_{};
-    std::size_t axes_ = 0;
-};
-
-/// Whether corners may reach into a settled leaf below node `at`, which is `box`.
-bool may_reach_settled(const std::vector<node>& nodes, std::size_t at, box3 box,
-                       rough_corners& corners) {
-    for (;;) {
-        const node& n = nodes[at];
-        if (n.axis == node::active) return false;
-        if (n.axis == node::settled) return !corners.is_apart_from(box);
-        const bool lower = corners.box().min[n.axis] <= n.at;
-        const bool upper = corners.box().max[n.axis] >= n.at;
-        if (lower && upper) {
-            box3 half = box;
-            half.max[n.axis] = n.at;
-            if (may_reach_settled(nodes, n.below, half, corners)) return true;
-        }
-        (upper ? box.min : box.max)[n.axis] = n.at;
-        at = upper ? n.below + 1 : n.below;
-    }
-}
-
 }  // namespace
 
 active_space::active_space(const surface_components& components,
-                           const partial_expression& at_nowhere, double effort)
+                           const partial_expression& at_nowhere, const division_limits& limits)
     : is_active_face_(components.mesh().faces.size(), 0) {
-    const divider division(components, is_active_face_);
-    place everything = division.everything(effort);
-    box_ = everything.box;
-    std::vector<task> tasks = divide_into_tasks(division, std::move(everything), nodes_);
+    const divider division(components, limits, is_active_face_);
+    place everything = division.everything();
+    halves_.box = everything.box;
+    std::vector<node>& nodes = halves_.nodes;
+    std::vector<task> tasks = divide_into_tasks(division, std::move(everything), nodes);
     std::vector<std::vector<node>> found(tasks.size());
     for_chunks(tasks.size(), tasks_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         partial_expression state = at_nowhere;
         for (std::size_t i = begin; i < end; ++i) {
             const auto tell = [&](std::int64_t sign) {
-                division.tell(state, tasks[i].begin.inside, sign > 0);
+                division.tell(state, tasks[i].begin, sign > 0);
                 for (const auto& [c, winding] : tasks[i].known)
                     state.add(components.operand(c), winding_range::only(sign * winding));
             };
@@ -465,14 +400,7 @@ active_space::active_space(const surface_components& components,
             tasks[i].begin = {};
         }
     });
-    for (std::size_t i = 0; i < tasks.size(); ++i) append(found[i], tasks[i].at, nodes_);
-}
-
-bool active_space::reaches_active(const box3& box) const { return reaches(nodes_, 0, box); }
-
-bool active_space::is_within_active(std::span<const box3> corners) const {
-    rough_corners rough(corners);
-    return !may_reach_settled(nodes_, 0, box_, rough);
+    for (std::size_t i = 0; i < tasks.size(); ++i) append(found[i], tasks[i].at, nodes);
 }
 
 }  // namespace treeform::detail::boolean

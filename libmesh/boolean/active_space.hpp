@@ -2,6 +2,7 @@
 /// \file
 /// Where in space an expression has the same value throughout, and where it may have several.
 
+#include <libmesh/boolean/halved_space.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
 #include <libmesh/boolean/surface_components.hpp>
 #include <treeform/tree/aabb.hpp>
@@ -12,6 +13,16 @@
 #include <vector>
 
 namespace treeform::detail::boolean {
+
+/// How far boxes are halved. The result is the same whatever these are.
+struct division_limits {
+    double effort = 1.0;  ///< less for a first look
+    /// Boxes with that few faces are not halved: to arrange those costs less.
+    std::size_t faces_not_halved = 24;
+    /// Nor are boxes that few components reach into, none of which can settle them alone, as in an
+    /// exclusive or.
+    std::size_t few_components = 8;
+};
 
 /// The box around all components, halved again and again, to boxes that are settled (one value
 /// throughout, whatever the components that reach into them do there) or active (all others).
@@ -27,33 +38,25 @@ namespace treeform::detail::boolean {
 class active_space {
   public:
     /// \param at_nowhere the expression where nothing is known to wind around anything
-    /// \param effort     of halving boxes: 1, or less for a first look
     /// \cost  O(F) for a given effort, some 30 ns for each face that halves are told apart by
     /// \same  on any number of threads
     active_space(const surface_components& components, const partial_expression& at_nowhere,
-                 double effort = 1.0);
+                 const division_limits& limits = {});
 
     /// [F] 1 for faces whose boxes reach into active space.
     [[nodiscard]] std::span<const std::uint8_t> is_active_face() const { return is_active_face_; }
 
-    /// Whether some point of a box is in active space.
-    [[nodiscard]] bool reaches_active(const aabb<double, 3>& box) const;
-    /// Whether all points of the triangle or segment are, whose corners are somewhere in these boxes.
-    /// False also for some of which it is true.
-    [[nodiscard]] bool is_within_active(std::span<const aabb<double, 3>> corners) const;
-
-    /// A box of the division: a leaf, or halved where coordinate `axis` is `at`.
-    struct node {
-        static constexpr std::uint8_t settled = 3, active = 4;
-        std::uint8_t axis = settled;
-        double at = 0.0;
-        std::uint32_t below = 0;  ///< the lower half; the upper one is next
-    };
+    /// As `halved_space`.
+    [[nodiscard]] bool reaches_active(const aabb<double, 3>& box) const {
+        return halves_.reaches_active(box);
+    }
+    [[nodiscard]] bool is_within_active(std::span<const aabb<double, 3>> corners) const {
+        return halves_.is_within_active(corners);
+    }
 
   private:
     std::vector<std::uint8_t> is_active_face_{};
-    std::vector<node> nodes_{};  ///< the first is all
-    aabb<double, 3> box_{};
+    halved_space halves_{};
 };
 
 }  // namespace treeform::detail::boolean

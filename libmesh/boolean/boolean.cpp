@@ -155,13 +155,8 @@ detail::round::solid_faces chosen_faces(std::span<const mesh_view> operands,
 }
 
 unmended_result boolean_of(std::span<const mesh_view> operands,
-                           const boolean_expression& expression, const rounding_try& options,
-                           bool sound) {
+                           const boolean_expression& expression, const rounding_try& options) {
     check_expression("boolean", operands, expression);
-    if (sound)
-        if (auto result =
-                detail::boolean::boolean_of_sound_pair(operands.first<2>(), expression, options))
-            return {std::move(*result), {}};
     arranged_operands input{join_usable(operands), {}};
     auto& [joined, arranged] = input;
     {
@@ -287,21 +282,22 @@ boolean_result evaluate(const char* function, std::span<const mesh_view> operand
     }
 }
 
-/// Whether there are two operands, both of them prepared and sound. `looked` is the share of the
-/// work that it took to find out: none where it is known.
-bool both_sound(std::span<const mesh_operand> operands, const progress_callback& progress,
-                double& looked) {
-    if (operands.size() != 2 || operands[0].prepared() == nullptr ||
-        operands[1].prepared() == nullptr)
-        return false;
+/// The two operands where both are prepared and sound. `looked` is the share of the work that it
+/// took to find out: none where it is known.
+std::optional<detail::boolean::prepared_pair> sound_pair_of(std::span<const mesh_operand> operands,
+                                                            const progress_callback& progress,
+                                                            double& looked) {
+    if (operands.size() != 2) return std::nullopt;
+    const detail::boolean::prepared_pair pair{operands[0].prepared(), operands[1].prepared()};
+    if (pair[0] == nullptr || pair[1] == nullptr) return std::nullopt;
     const progress_callback report = [&](double done) {
         looked = done;
         return !progress || progress(done);
     };
-    return std::ranges::all_of(operands, [&](const mesh_operand& operand) {
-        return detail::boolean::is_sound(*operand.prepared(),
-                                         part_of(report, looked, looked + 0.3));
-    });
+    for (const prepared_mesh* operand : pair)
+        if (!detail::boolean::is_sound(*operand, part_of(report, looked, looked + 0.3)))
+            return std::nullopt;
+    return pair;
 }
 
 boolean_result evaluate(const char* function, std::span<const mesh_operand> operands,
@@ -310,13 +306,17 @@ boolean_result evaluate(const char* function, std::span<const mesh_operand> oper
     for (const mesh_operand& operand : operands) views.push_back(operand.view());
     return evaluate(function, views, options, true, [&](auto given, const auto& how) {
         if (given.data() != views.data() || how.simplify || how.volumes)
-            return boolean_of(given, expression, how, false);
+            return boolean_of(given, expression, how);
+        check_expression("boolean", given, expression);
         double looked = 0.0;
         try {
-            const bool sound = both_sound(operands, how.progress, looked);
+            const auto pair = sound_pair_of(operands, how.progress, looked);
             rounding_try rest = how;
             rest.progress = part_of(how.progress, looked, 1.0);
-            return boolean_of(given, expression, rest, sound);
+            if (pair)
+                if (auto result = detail::boolean::boolean_of_sound_pair(*pair, expression, rest))
+                    return unmended_result{std::move(*result), {}};
+            return boolean_of(given, expression, rest);
         } catch (const detail::boolean::stopped&) {
             return unmended_result{with_counts({}), {}};
         }
@@ -328,7 +328,7 @@ boolean_result evaluate(const char* function, std::span<const mesh_operand> oper
 boolean_result boolean(std::span<const mesh_view> operands, const boolean_expression& expression,
                        const boolean_options& options) {
     return evaluate("boolean", operands, options, true, [&](auto given, const auto& how) {
-        return boolean_of(given, expression, how, false);
+        return boolean_of(given, expression, how);
     });
 }
 
@@ -378,7 +378,7 @@ boolean_result detail::boolean::resolve_by_split(mesh_view mesh, const boolean_o
 boolean_result detail::boolean::resolve_by_union(mesh_view mesh, const boolean_options& options) {
     return evaluate("resolve_self_intersections", std::span(&mesh, 1), options, true,
                     [](auto given, const auto& how) {
-                        return boolean_of(given, boolean_expression::union_of(1), how, false);
+                        return boolean_of(given, boolean_expression::union_of(1), how);
                     });
 }
 

@@ -1,122 +1,105 @@
-#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/compact.hpp>
+#include <libmesh/base/union_find.hpp>
+#include <libmesh/boolean/leaf_blocks.hpp>
 #include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/intersect/classify_pair.hpp>
+#include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
-#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search_pair.hpp>
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace treeform::detail::boolean {
 namespace {
 
-constexpr double largest_coordinate = 0x1p1000;
-
-using box = aabb<double, 3>;
 using ids = std::vector<std::uint32_t>;
 
-bool can_be_used(const point3& p) {
-    return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate &&
-           std::abs(p.z) <= largest_coordinate;
-}
-
-/// What `make(begin, end)` gives for chunks, in order.
-template <class T, class Make>
-std::vector<T> by_chunks(std::size_t count, const Make& make) {
-    std::vector<T> made(chunk_count(count, light_grain));
-    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        made[c] = make(begin, end);
-    });
-    return made;
-}
-
-box joined(const std::vector<box>& parts) {
-    box all;
-    for (const box& part : parts) all.include(part);
-    return all;
-}
-
-/// Points that cannot be used apart: faces tell whether they matter.
-box box_of(points_view points) {
-    return joined(by_chunks<box>(points.size(), [&](std::size_t begin, std::size_t end) {
-        box part;
-        for (std::size_t i = begin; i < end; ++i)
-            if (can_be_used(points[i])) part.include(points[i]);
-        return part;
-    }));
-}
-
-/// Where a point is: a bit for each side of a box that it is beyond.
-using outcode = std::uint8_t;
-constexpr outcode unusable = 64;
-
-/// Faces of a mesh by whether their boxes meet another box: all corners of those that do not are
-/// beyond one of its sides.
-class reach_test {
+/// The blocks of two operands: which are near, and where the others are.
+class block_places {
   public:
-    reach_test(mesh_view mesh, const box& reach) : mesh_(mesh), codes_(mesh.points.size()) {
-        for_chunks(codes_.size(), light_grain,
-                   [&](std::size_t begin, std::size_t end, std::size_t) {
-                       for (std::size_t i = begin; i < end; ++i)
-                           codes_[i] = code_of(mesh.points[i], reach);
-                   });
+    explicit block_places(const prepared_pair& operands) : operands_(operands) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            faces_[k] = &build_face_tree(*operands[k]);
+            blocks_[k] = &leaf_blocks_of(*operands[k]);
+            place_[k].assign(blocks_[k]->index.size(), face_place::outside);
+        }
+        for (const auto& part :
+             search<std::vector<id_pair>>(blocks_[0]->index, blocks_[1]->index,
+                                          [](std::vector<id_pair>&mine, std::uint32_t a,
+                                             std::uint32_t b) { mine.emplace_back(a, b); }))
+            for (const auto& [a, b] : part) place_[0][a] = place_[1][b] = face_place::near;
     }
 
-    [[nodiscard]] bool operator()(std::size_t f) const {
-        const auto& [a, b, c] = mesh_.faces[f];
-        return (codes_[a] & codes_[b] & codes_[c]) == 0;
+    /// Blocks that overlap one with a face that is cut are near.
+    void keep_around(const std::vector<face_pair>& pairs) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            std::vector<std::uint8_t> is_cut(operands_[k]->view().faces.size(), 0);
+            for (const face_pair& pair : pairs) is_cut[k == 0 ? pair.a : pair.b] = 1;
+            std::vector<std::uint8_t> has_cut(place_[k].size(), 0);
+            const std::span<const std::uint32_t> face_at = faces_[k]->ids();
+            for (std::size_t place = 0; place < face_at.size(); ++place)
+                has_cut[place / 8] |= is_cut[face_at[place]];
+            for (const auto& part : blocks_[k]->overlaps)
+                for (const auto& [x, y] : part) {
+                    if (has_cut[x] != 0) place_[k][y] = face_place::near;
+                    if (has_cut[y] != 0) place_[k][x] = face_place::near;
+                }
+        }
     }
-    [[nodiscard]] bool can_be_used(std::size_t f) const {
-        const auto& [a, b, c] = mesh_.faces[f];
-        return ((codes_[a] | codes_[b] | codes_[c]) & unusable) == 0;
+
+    /// Tells of the other blocks whether they are inside: each set of those that overlap by a point.
+    void settle() {
+        for (std::size_t k = 0; k < 2; ++k) {
+            base::union_find alike(place_[k].size());
+            const auto is_far = [&](std::uint32_t b) { return place_[k][b] != face_place::near; };
+            for (const auto& part : blocks_[k]->overlaps)
+                for (const auto& [x, y] : part)
+                    if (is_far(x) && is_far(y)) alike.join(x, y);
+            const auto root = alike.take_roots();
+            ids roots;
+            std::vector<point3> asked;
+            for (std::uint32_t b = 0; b < place_[k].size(); ++b) {
+                if (!is_far(b) || root[b] != b) continue;
+                const mesh_view mesh = operands_[k]->view();
+                roots.push_back(b);
+                asked.push_back(mesh.points[mesh.faces[faces_[k]->ids()[8 * b]][0]]);
+            }
+            const auto found =
+                intersect::point_locator(operands_[1 - k]->view(), *faces_[1 - k]).locate(asked);
+            for (std::size_t i = 0; i < roots.size(); ++i)
+                if (found[i].where == location::inside) place_[k][roots[i]] = face_place::inside;
+            for (std::uint32_t b = 0; b < place_[k].size(); ++b)
+                if (is_far(b)) place_[k][b] = place_[k][root[b]];
+        }
+    }
+
+    /// Of faces, counted through.
+    [[nodiscard]] buffer<face_place> of_faces() const {
+        buffer<face_place> result(faces_[0]->size() + faces_[1]->size());
+        for (std::size_t k = 0, first = 0; k < 2; first += faces_[k++]->size()) {
+            const std::span<const std::uint32_t> face_at = faces_[k]->ids();
+            for_chunks(face_at.size(), light_grain,
+                       [&](std::size_t begin, std::size_t end, std::size_t) {
+                           for (std::size_t i = begin; i < end; ++i)
+                               result[first + face_at[i]] = place_[k][i / 8];
+                       });
+        }
+        return result;
     }
 
   private:
-    static outcode code_of(const point3& p, const box& reach) {
-        unsigned code = treeform::detail::boolean::can_be_used(p) ? 0 : unusable;
-        for (std::size_t k = 0; k < 3; ++k)
-            code |= (p[k] < reach.min[k] ? 1U : 0U) << 2 * k | (p[k] > reach.max[k] ? 2U : 0U)
-                                                                   << 2 * k;
-        return static_cast<outcode>(code);
-    }
-
-    mesh_view mesh_;
-    buffer<outcode> codes_;
+    prepared_pair operands_;
+    std::array<const tree<3>*, 2> faces_{};
+    std::array<const leaf_blocks*, 2> blocks_{};
+    std::array<std::vector<face_place>, 2> place_{};
 };
-
-/// The box of the faces that reach into `reach`; none when a face cannot be used.
-std::optional<box> box_within(mesh_view mesh, const box& reach) {
-    const reach_test reaches(mesh, reach);
-    std::atomic<bool> bad{false};
-    const auto parts = by_chunks<box>(mesh.faces.size(), [&](std::size_t begin, std::size_t end) {
-        box part;
-        for (std::size_t f = begin; f < end; ++f) {
-            if (!reaches.can_be_used(f)) bad = true;
-            if (!reaches(f)) continue;
-            for (const std::uint32_t corner : mesh.faces[f]) part.include(mesh.points[corner]);
-        }
-        return part;
-    });
-    if (bad) return std::nullopt;
-    return joined(parts);
-}
-
-ids faces_within(mesh_view mesh, const box& reach) {
-    const reach_test reaches(mesh, reach);
-    ids all;
-    for (const ids& part :
-         by_chunks<ids>(mesh.faces.size(), [&](std::size_t begin, std::size_t end) {
-             ids found;
-             for (std::size_t f = begin; f < end; ++f)
-                 if (reaches(f)) found.push_back(static_cast<std::uint32_t>(f));
-             return found;
-         }))
-        all.insert(all.end(), part.begin(), part.end());
-    return all;
-}
 
 /// Appends the points of `faces`, ascending, and the faces in their numbers.
 void append(mesh_view mesh, const ids& faces, std::uint32_t points_before,
@@ -154,74 +137,79 @@ void append(mesh_view mesh, const ids& faces, std::uint32_t points_before,
     });
 }
 
-/// Points of the second operand become those of the first that they are equal to; false when two of
-/// one operand are equal.
-bool join_equal(const box& common, std::uint32_t points_of_a, near_faces& near) {
+/// Points of the second operand become those of the first that they are equal to.
+void join_equal(near_faces& near) {
     mesh& local = near.local;
-    ids inside;  // points that can equal one of the other operand
-    std::vector<point3> at;
-    base::compact(
-        local.points.size(),
-        [&](std::size_t p) {
-            box point;
-            point.include(local.points[p]);
-            return overlaps(point, common);
-        },
-        [&](std::size_t count) {
-            inside.resize(count);
-            at.resize(count);
-        },
-        [&](std::size_t p, std::size_t place) {
-            inside[place] = static_cast<std::uint32_t>(p);
-            at[place] = local.points[p];
-        });
-    const auto equal = weld::few_equal_points(at);
-    if (!equal) return true;
-    ids same(local.points.size());
-    for (std::uint32_t p = 0; p < same.size(); ++p) same[p] = p;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        const std::uint32_t first = inside[equal->first_of_new[equal->new_of_old[i]]];
-        if (first == inside[i]) continue;
-        if (near.point_of[first] >= points_of_a || near.point_of[inside[i]] < points_of_a)
-            return false;
-        same[inside[i]] = first;
+    const auto equal = weld::few_equal_points(local.points);
+    if (!equal) return;
+    const std::size_t count = equal->first_of_new.size();
+    for (std::size_t p = 0; p < count; ++p) {
+        local.points[p] = local.points[equal->first_of_new[p]];
+        near.point_of[p] = near.point_of[equal->first_of_new[p]];
     }
+    local.points.resize(count);
+    near.point_of.resize(count);
+    for (face& f : local.faces)
+        for (std::uint32_t& corner : f) corner = equal->new_of_old[corner];
+}
+
+/// The pairs by local faces, without those that meet in shared corners only.
+void keep_pairs(std::vector<face_pair>&& pairs, std::size_t faces_of_a, near_faces& near) {
+    const auto local = [&](std::size_t face) {
+        return static_cast<std::uint32_t>(std::ranges::lower_bound(near.face_of, face) -
+                                          near.face_of.begin());
+    };
+    predicate_counters counters;
     std::size_t left = 0;
-    for (std::uint32_t p = 0; p < same.size(); ++p) {
-        if (same[p] != p) {
-            same[p] = same[same[p]];  // the first came before and has its number
-            continue;
+    for (face_pair pair : pairs) {
+        pair.a = local(pair.a);
+        pair.b = local(faces_of_a + pair.b);
+        const face &f = near.local.faces[pair.a], &g = near.local.faces[pair.b];
+        if (std::find_first_of(f.begin(), f.end(), g.begin(), g.end()) != f.end()) {
+            const auto kind = intersect::classify_pair(near.local.points, f, g, counters);
+            if (!kind) continue;
+            pair.kind = *kind;
         }
-        local.points[left] = local.points[p];
-        near.point_of[left] = near.point_of[p];
-        same[p] = static_cast<std::uint32_t>(left++);
+        pairs[left++] = pair;
     }
-    local.points.resize(left);
-    near.point_of.resize(left);
-    for (face& f : local.faces) f = {same[f[0]], same[f[1]], same[f[2]]};
-    return true;
+    pairs.resize(left);
+    near.pairs = std::move(pairs);
 }
 
 }  // namespace
 
-std::optional<near_faces> find_near_faces(std::span<const mesh_view, 2> operands) {
+near_faces find_near_faces(const prepared_pair& operands) {
     near_faces result;
-    for (const mesh_view& operand : operands)
-        base::check_faces("boolean", operand.points.size(), operand.faces);
-    for (std::size_t k = 0; k < 2; ++k) result.box[k] = box_of(operands[k].points);
-    box reach;
-    for (std::size_t k = 0; k < 2; ++k) {
-        const auto part = box_within(operands[k], result.box[1 - k]);
-        if (!part) return std::nullopt;
-        reach.include(*part);
+    const std::size_t faces_of_a = operands[0]->view().faces.size();
+    const std::size_t faces_of_b = operands[1]->view().faces.size();
+    if (faces_of_a == 0 || faces_of_b == 0) {
+        result.place.resize(faces_of_a + faces_of_b);
+        std::fill_n(result.place.data(), result.place.size(), face_place::outside);
+        return result;
     }
-    const auto points_of_a = static_cast<std::uint32_t>(operands[0].points.size());
-    const auto faces_of_a = static_cast<std::uint32_t>(operands[0].faces.size());
-    append(operands[0], faces_within(operands[0], reach), 0, 0, result);
-    result.first_of_b = static_cast<std::uint32_t>(result.local.faces.size());
-    append(operands[1], faces_within(operands[1], reach), points_of_a, faces_of_a, result);
-    if (!join_equal(common_box(result.box[0], result.box[1]), points_of_a, result))
-        return std::nullopt;
+    block_places blocks(operands);
+    std::vector<face_pair> pairs = mesh_intersections(*operands[0], *operands[1]).pairs;
+    blocks.keep_around(pairs);
+    blocks.settle();
+    result.place = blocks.of_faces();
+    std::size_t first_face = 0, first_point = 0;
+    for (const prepared_mesh* operand : operands) {
+        const mesh_view mesh = operand->view();
+        ids near;
+        base::compact(
+            mesh.faces.size(),
+            [&](std::size_t f) { return result.place[first_face + f] == face_place::near; },
+            [&](std::size_t count) { near.resize(count); },
+            [&](std::size_t f, std::size_t place) { near[place] = static_cast<std::uint32_t>(f); });
+        if (first_face != 0)
+            result.first_of_b = static_cast<std::uint32_t>(result.local.faces.size());
+        append(mesh, near, static_cast<std::uint32_t>(first_point),
+               static_cast<std::uint32_t>(first_face), result);
+        first_face += mesh.faces.size();
+        first_point += mesh.points.size();
+    }
+    join_equal(result);
+    keep_pairs(std::move(pairs), faces_of_a, result);
     return result;
 }
 

@@ -1,43 +1,50 @@
 #pragma once
 /// \file
-/// The faces of two operands that can matter to each other.
+/// The faces of two operands that can matter to each other, and on which side the others are.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/aabb.hpp>
+#include <treeform/tree/detail/buffer.hpp>
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace treeform::detail::boolean {
 
-/// Faces of two operands in a region of space, with points of their own. Faces and points of both
-/// operands are counted through, those of the first before those of the second.
+using prepared_pair = std::array<const prepared_mesh*, 2>;
+
+/// Where a face that no face of the other operand reaches is.
+enum class face_place : std::uint8_t { near, outside, inside };
+
+/// Faces of two operands near where their surfaces meet, with points of their own. Faces and points
+/// of both operands are counted through, those of the first before those of the second.
 struct near_faces {
     mesh local;                           ///< ascending; equal points of the operands are one
     std::uint32_t first_of_b = 0;         ///< local faces from here on are of the second
     std::vector<std::uint32_t> face_of;   ///< [F] face of an operand
     std::vector<std::uint32_t> point_of;  ///< [V] the lowest point of an operand, ascending
-    std::array<aabb<double, 3>, 2> box;   ///< of each operand's points
+    std::vector<face_pair> pairs;         ///< of local faces that meet beyond shared corners
+    buffer<face_place> place;             ///< of all faces of both operands
 
     [[nodiscard]] std::size_t operand_of(std::size_t face) const {
         return face < first_of_b ? 0 : 1;
     }
 };
 
-/// All faces that reach into the box of the other operand, and all whose boxes meet the box of
-/// those. Whatever lies in faces of the former kind is apart from all faces that are left out,
-/// and these are outside the other operand.
+/// Near are the faces of leaf blocks whose boxes overlap those of the other operand's, and of those
+/// whose boxes overlap the box of a block with a face that meets another one's. So whatever lies
+/// in the box of a face that is cut has nothing in common with the box of a face that is not near.
 ///
-/// None where it is seen that the operands are not sound (`is_sound`), or
-/// that no such face is to be told: a point that faces use is not finite or beyond 2^1000, or two
-/// points of one operand are equal.
+/// All other blocks are in a box which the other surface does not reach into; where such boxes
+/// overlap, all of them are inside or all are outside the other operand: one point tells.
 ///
-/// \throws std::invalid_argument naming a face with a corner out of range
-/// \cost   O(V + F), and a tenth of a microsecond for each face that stays
+/// \pre    both operands are sound (`is_sound`)
+/// \cost   that of the faces that meet, O(F / 8) besides, and 1 byte a face
 /// \same   on any number of threads
-[[nodiscard]] std::optional<near_faces> find_near_faces(std::span<const mesh_view, 2> operands);
+[[nodiscard]] near_faces find_near_faces(const prepared_pair& operands);
 
 }  // namespace treeform::detail::boolean

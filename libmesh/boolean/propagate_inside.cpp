@@ -40,8 +40,7 @@ struct edge_use {
 /// is its first corner that is not on both surfaces, or else its own.
 class finder {
   public:
-    finder(std::span<const mesh_view, 2> operands, const near_faces& near,
-           const mesh_arrangement& cut)
+    finder(const prepared_pair& operands, const near_faces& near, const mesh_arrangement& cut)
         : operands_(operands),
           near_(near),
           cut_(cut),
@@ -55,7 +54,6 @@ class finder {
         if (!find_covers()) return std::nullopt;
         join_at_points();
         if (!look_at_edges()) return std::nullopt;
-        look_at_boxes();
         if (!ask_rays()) return std::nullopt;
         return answers();
     }
@@ -197,26 +195,6 @@ class finder {
         return std::find(told_.begin(), told_.end(), contradiction) == told_.end();
     }
 
-    /// Points of one surface that are not in the box of the other operand are outside that. Told of
-    /// sets of which nothing is known, as edges are the better witnesses.
-    void look_at_boxes() {
-        const std::size_t given = cut_.given_points.size();
-        for_chunks(given, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t i = begin; i < end; ++i) {
-                if (on_[i] == 0 || on_[i] == both) continue;
-                aabb<double, 3> at;
-                at.include(cut_.given_points[i]);
-                if (overlaps(at, near_.box[on_[i] == 1 ? 1 : 0])) continue;
-                const std::uint32_t root = alike_.root(static_cast<std::uint32_t>(i));
-                if (said_of(root) == 0) tell(root, outside);
-            }
-        });
-    }
-
-    [[nodiscard]] told said_of(std::uint32_t root) {
-        return std::atomic_ref(told_[root]).load(std::memory_order_relaxed);
-    }
-
     /// The sets of faces of which nothing is known, by the lowest element; by the operand that they
     /// may be in.
     [[nodiscard]] std::array<std::vector<std::uint32_t>, 2> unknown_sets() {
@@ -252,8 +230,8 @@ class finder {
             }
         for (std::size_t k = 0; k < 2; ++k) {
             if (asking[k].empty()) continue;
-            const tree<3> tree = build_face_tree(operands_[k]);
-            const intersect::point_locator locator(operands_[k], tree);
+            const intersect::point_locator locator(operands_[k]->view(),
+                                                   build_face_tree(*operands_[k]));
             std::vector<point3> points;
             for (const std::uint32_t p : asking[k]) points.push_back(cut_.given_points[p]);
             const auto found = locator.locate(points);
@@ -273,7 +251,7 @@ class finder {
         return result;
     }
 
-    std::span<const mesh_view, 2> operands_;
+    const prepared_pair& operands_;
     const near_faces& near_;
     const mesh_arrangement& cut_;
     std::size_t points_;
@@ -285,7 +263,7 @@ class finder {
 
 }  // namespace
 
-std::optional<std::vector<std::uint8_t>> find_insides(std::span<const mesh_view, 2> operands,
+std::optional<std::vector<std::uint8_t>> find_insides(const prepared_pair& operands,
                                                       const near_faces& near,
                                                       const mesh_arrangement& cut) {
     return finder(operands, near, cut).run();

@@ -19,15 +19,16 @@ namespace treeform::detail::boolean {
 /// Each operand has outside in front of its faces and inside behind: then no cells are needed.
 /// Faces with a common point that is not on the other surface are inside alike. So are faces at an
 /// edge none of which is the other operand's. Where some are, the nearest of them about the edge
-/// tells. What has no contact is told by a point outside the other's box, or else by a ray.
+/// tells. What has no contact is told by a ray.
 ///
 /// None where the faces contradict each other: an operand is not sound.
 ///
 /// \throws std::invalid_argument when an operand is open that a ray is asked of
-/// \cost   O(V' + F'), a sort of the faces about the edges at which the surfaces meet, and, where
-///         rays are needed, a tree of an operand
+/// \cost   O(V' + F'), a sort of the faces about the edges at which the surfaces meet, and a ray
+///         for each set of faces of which nothing else is known
 /// \same   on any number of threads
-[[nodiscard]] std::optional<std::vector<std::uint8_t>> find_insides(
-    std::span<const mesh_view, 2> operands, const near_faces& near, const mesh_arrangement& cut);
+[[nodiscard]] std::optional<std::vector<std::uint8_t>> find_insides(const prepared_pair& operands,
+                                                                    const near_faces& near,
+                                                                    const mesh_arrangement& cut);
 
 }  // namespace treeform::detail::boolean

@@ -1,3 +1,4 @@
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/first_bad.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/point_math.hpp>
@@ -8,7 +9,9 @@
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/sound_operand.hpp>
 #include <libmesh/boolean/surface_components.hpp>
+#include <libmesh/intersect/pairs_by_tree.hpp>
 #include <libmesh/topology/is_manifold.hpp>
+#include <libmesh/weld/few_equal_points.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -59,20 +62,26 @@ bool faces_outward(mesh_view mesh) {
 
 bool find_out(const prepared_mesh& prepared, const progress_callback& progress) {
     check_operands("boolean", std::array{prepared.view()});
-    const joined_operands joined = join_operands(std::array{prepared.view()});
-    const mesh_view mesh = joined.all;
-    const auto used = base::used_points(prepared.view().points.size(), prepared.view().faces);
-    if (mesh.points.size() != used.size()) return false;  // two are equal
+    // As the faces, but without points that none uses: these may be anything.
+    mesh_view mesh = prepared.view();
+    joined_operands joined;
+    const auto used = base::used_points(mesh.points.size(), mesh.faces);
+    if (used.size() != mesh.points.size()) {
+        joined = join_operands(std::array{mesh});
+        mesh = joined.all;
+        if (mesh.points.size() != used.size()) return false;  // two are equal
+    }
     const auto all_of = [](std::size_t count, const auto& holds) {
         return base::first_bad(count, [&](std::size_t i) { return !holds(i); }) == count;
     };
     if (!all_of(mesh.points.size(), [&](std::size_t p) { return is_usable(mesh.points[p]); }))
         return false;  // the general way says which
-    if (!topology::is_manifold(mesh)) return false;
+    if (!topology::is_manifold(mesh) || weld::few_equal_points(mesh.points)) return false;
     if (!all_of(mesh.faces.size(), [&](std::size_t f) { return has_area(mesh, mesh.faces[f]); }))
         return false;
     const self_intersection_result met =
-        self_intersections(mesh, {.vertices = vertex_identity::by_index,
+        intersect::pairs_by_tree(mesh, build_face_tree(prepared),
+                                 {.vertices = vertex_identity::by_index,
                                   .first_only = true,
                                   .progress = base::part_of(progress, 0.1, 0.9)});
     if (met.cancelled) throw stopped{};

@@ -1,12 +1,9 @@
 #include <libmesh/arrange/arrange_pairs.hpp>
-#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/compact.hpp>
 #include <libmesh/boolean/near_faces.hpp>
 #include <libmesh/boolean/propagate_inside.hpp>
 #include <libmesh/boolean/sound_pair.hpp>
-#include <libmesh/intersect/classify_pair.hpp>
 #include <libmesh/round/round_surface.hpp>
-#include <treeform/mesh/intersections.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -21,28 +18,6 @@ namespace treeform::detail::boolean {
 namespace {
 
 using ids = std::vector<std::uint32_t>;
-
-/// Pairs of a face of each operand that meet beyond the corners they share.
-std::vector<face_pair> meeting_pairs(const near_faces& near) {
-    const mesh_view local = near.local;
-    const mesh_view a{local.points, local.faces.first(near.first_of_b)};
-    const mesh_view b{local.points, local.faces.subspan(near.first_of_b)};
-    std::vector<face_pair> pairs = mesh_intersections(a, b).pairs;
-    predicate_counters counters;
-    std::size_t left = 0;
-    for (face_pair pair : pairs) {
-        pair.b += near.first_of_b;
-        const face &f = local.faces[pair.a], &g = local.faces[pair.b];
-        if (std::find_first_of(f.begin(), f.end(), g.begin(), g.end()) != f.end()) {
-            const auto kind = intersect::classify_pair(local.points, f, g, counters);
-            if (!kind) continue;
-            pair.kind = *kind;
-        }
-        pairs[left++] = pair;
-    }
-    pairs.resize(left);
-    return pairs;
-}
 
 /// Which side of a face is in the solid, if one is.
 enum class kept : std::uint8_t { no, as_it_is, turned };
@@ -117,7 +92,8 @@ class assembly {
     assembly(std::span<const mesh_view, 2> operands, const near_faces& near, const choice& choice)
         : operands_(operands),
           near_(near),
-          keeps_{choice.of(0, false), choice.of(1, false)},
+          keeps_{{{choice.of(0, false), choice.of(0, true)},
+                  {choice.of(1, false), choice.of(1, true)}}},
           faces_{0, operands[0].faces.size(), operands[0].faces.size() + operands[1].faces.size()},
           points_{0, operands[0].points.size(),
                   operands[0].points.size() + operands[1].points.size()},
@@ -148,16 +124,16 @@ class assembly {
         return operands_[k].faces[face - faces_[k]];
     }
 
+    /// What becomes of a face that was not looked at.
+    [[nodiscard]] kept kept_of(std::size_t face) const {
+        return keeps_[operand_of(face)][near_.place[face] == face_place::inside ? 1 : 0];
+    }
+
     /// Calls `visit(face)` for the faces from `begin` to `end` that were not looked at and stay.
     template <class Visit>
     void for_far_faces(std::size_t begin, std::size_t end, const Visit& visit) const {
-        auto near = std::lower_bound(near_.face_of.begin(), near_.face_of.end(), begin);
-        for (std::size_t f = begin; f < end; ++f) {
-            if (near != near_.face_of.end() && *near == f)
-                ++near;
-            else if (keeps_[operand_of(f)] != kept::no)
-                visit(f);
-        }
+        for (std::size_t f = begin; f < end; ++f)
+            if (near_.place[f] != face_place::near && kept_of(f) != kept::no) visit(f);
     }
 
     /// Numbers the points in use, those of operands first.
@@ -241,7 +217,7 @@ class assembly {
                 const std::size_t k = operand_of(f);
                 const std::uint32_t* const number = number_.data() + points_[k];
                 const auto& [p, q, r] = corners(f);
-                put(f, turned_if(keeps_[k] == kept::turned, {number[p], number[q], number[r]}));
+                put(f, turned_if(kept_of(f) == kept::turned, {number[p], number[q], number[r]}));
             });
             put_pieces_before(end);
         });
@@ -249,7 +225,8 @@ class assembly {
 
     std::span<const mesh_view, 2> operands_;
     const near_faces& near_;
-    std::array<kept, 2> keeps_;          ///< faces that were not looked at, by operand
+    /// Faces that were not looked at, by operand, outside and inside the other one.
+    std::array<std::array<kept, 2>, 2> keeps_;
     std::array<std::size_t, 3> faces_;   ///< where those of each operand begin
     std::array<std::size_t, 3> points_;  ///< likewise
     buffer<std::uint32_t> number_;       ///< of points of operands, in the result
@@ -264,9 +241,10 @@ bool can_be_counted_through(std::span<const mesh_view, 2> operands) {
 
 }  // namespace
 
-std::optional<boolean_result> boolean_of_sound_pair(std::span<const mesh_view, 2> operands,
+std::optional<boolean_result> boolean_of_sound_pair(const prepared_pair& pair,
                                                     const boolean_expression& expression,
                                                     const boolean_options& options) {
+    const std::array operands{pair[0]->view(), pair[1]->view()};
     if (options.precision == precision::float32 || !can_be_counted_through(operands))
         return std::nullopt;
     boolean_result result;
@@ -275,20 +253,18 @@ std::optional<boolean_result> boolean_of_sound_pair(std::span<const mesh_view, 2
         result.certificate.status = status::cancelled;
         return false;
     };
-    auto near = find_near_faces(operands);
-    if (!near) return std::nullopt;
-    if (!goes_on(0.2)) return result;
-    const auto pairs = meeting_pairs(*near);
+    if (!goes_on(0.1)) return result;
+    near_faces near = find_near_faces(pair);
     if (!goes_on(0.4)) return result;
-    arrange_faces_result arranged = arrange::arrange_pairs(near->local, pairs, {}, {});
+    arrange_faces_result arranged = arrange::arrange_pairs(near.local, near.pairs, {}, {});
     mesh_arrangement& cut = arranged.cut;
-    auto inside = find_insides(operands, *near, cut);
+    auto inside = find_insides(pair, near, cut);
     if (!inside) return std::nullopt;
-    near->local = {};  // as large as the operands, perhaps
+    near.local = {};  // as large as the operands, perhaps
     if (!goes_on(0.6)) return result;
 
     const choice choice(expression);
-    chosen_faces chosen = choose(*near, cut, *inside, choice);
+    chosen_faces chosen = choose(near, cut, *inside, choice);
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(chosen.faces)};
     exact.sound.resize(chosen.face_of.size());
@@ -300,7 +276,7 @@ std::optional<boolean_result> boolean_of_sound_pair(std::span<const mesh_view, 2
     for_chunks(
         chosen.face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t f = begin; f < end; ++f)  // faces of operands from here on
-                chosen.face_of[f] = near->face_of[cut.covers_of(chosen.face_of[f]).front().face];
+                chosen.face_of[f] = near.face_of[cut.covers_of(chosen.face_of[f]).front().face];
         });
     cut = {};
     inside.reset();
@@ -313,7 +289,7 @@ std::optional<boolean_result> boolean_of_sound_pair(std::span<const mesh_view, 2
     for_chunks(source.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) source[i] = chosen.face_of[rounded.face_of[i]];
     });
-    assembly(operands, *near, choice).write(rounded, source, result);
+    assembly(operands, near, choice).write(rounded, source, result);
     result.certificate = std::move(rounded.certificate);
     result.statistics.pairs = arranged.pairs;
     result.statistics.cut_faces = arranged.cut_faces;

@@ -2,11 +2,10 @@
 /// \file
 /// Set operations on two solids whose surfaces need no second look.
 
+#include <libmesh/boolean/near_faces.hpp>
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/mesh.hpp>
 
 #include <optional>
-#include <span>
 
 namespace treeform::detail::boolean {
 
@@ -16,7 +15,7 @@ namespace treeform::detail::boolean {
 /// None where only the general way will do: float32 is asked for, rounding has broken something, or
 /// the operands turn out not to be sound.
 [[nodiscard]] std::optional<boolean_result> boolean_of_sound_pair(
-    std::span<const mesh_view, 2> operands, const boolean_expression& expression,
+    const prepared_pair& operands, const boolean_expression& expression,
     const boolean_options& options);
 
 }  // namespace treeform::detail::boolean

@@ -25,6 +25,7 @@ constexpr std::size_t components_a_chunk = 16;
 /// Components with more than a pair of their faces meeting for so many faces are not cut on their
 /// own to know their range: they will be cut once more.
 constexpr std::size_t most_pairs_of_faces = 4;
+constexpr std::size_t most_unusual_boxes = 64;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 using box3 = aabb<double, 3>;
@@ -100,8 +101,12 @@ int sign_of(std::size_t count, const Corners& corners) {
     return volume > off ? 1 : volume < -off ? -1 : 0;
 }
 
-/// The range of faces that are cut along each other.
-winding_range range_of_cells(points_view points, std::vector<face> faces) {
+/// The windings of faces that are cut along each other. A cell is around what its boundary is
+/// around, and so in the box of the faces that its boundary is of.
+///
+/// \param usual the range of all cells but few
+component_windings windings_of_cells(points_view points, std::vector<face> faces,
+                                     const winding_range& usual) {
     std::vector<std::uint32_t> used;
     for (const face& f : faces) used.insert(used.end(), f.begin(), f.end());
     std::ranges::sort(used);
@@ -115,9 +120,25 @@ winding_range range_of_cells(points_view points, std::vector<face> faces) {
     const mesh_arrangement cut = arrange_faces(local).cut;
     const std::vector<std::uint32_t> one_operand(local.faces.size(), 0);
     const arrangement_cells cells = arrange::cells_of(local, cut, one_operand, 1);
-    if (cells.winding.empty()) return winding_range::unknown();
+    if (cells.winding.empty()) return {};
     const auto [low, high] = std::ranges::minmax(cells.winding);
-    return {low, high};
+    component_windings result(winding_range{low, high});
+    if (low >= usual.low && high <= usual.high) return result;
+    std::vector<box3> box_of(cells.winding.size());
+    const auto box_of_face = base::face_boxes(local.points);
+    std::size_t unusual = 0;
+    for (std::size_t f = 0; f < cut.faces.size(); ++f)
+        for (const std::uint32_t cell : cells.cell_of_side[f]) {
+            const std::int32_t winding = cells.winding[cell];
+            if (winding >= usual.low && winding <= usual.high) continue;
+            if (box_of[cell].empty()) ++unusual;
+            box_of[cell].include(box_of_face(local.faces[cut.covers_of(f).front().face]));
+        }
+    if (unusual > most_unusual_boxes) return result;
+    result.usual = usual;
+    for (const box3& box : box_of)
+        if (!box.empty()) result.unusual.push_back(box);
+    return result;
 }
 
 }  // namespace
@@ -185,10 +206,10 @@ void surface_components::prepare(component& c, bool with_range) const {
     const auto box_of = base::face_boxes(mesh_.points);
     for (const std::uint32_t f : own) c.box.include(box_of(mesh_.faces[f]));
     c.index = build(own, [&](std::uint32_t f) { return box_of(mesh_.faces[f]); });
-    if (with_range) c.range = range_of(c);
+    if (with_range) c.windings = windings_of(c);
 }
 
-winding_range surface_components::range_of(const component& c) const {
+component_windings surface_components::windings_of(const component& c) const {
     const std::uint32_t* const own = faces_.data() + c.begin;
     const std::size_t count = c.end - c.begin;
     const auto corners_of = [&](std::size_t i) { return corners(own[i]); };
@@ -197,19 +218,19 @@ winding_range surface_components::range_of(const component& c) const {
     for (std::size_t i = 0; i < count; ++i) mean = base::plus(mean, corners_of(i)[0]);
     mean = base::scaled(mean, 1.0 / static_cast<double>(count));
     for (const point3& q : {middle, mean})
-        if (const auto range = range_seen_from(q, count, corners_of)) return *range;
+        if (const auto range = range_seen_from(q, count, corners_of))
+            return component_windings(*range);
     std::vector<face> faces(count);
     for (std::size_t i = 0; i < count; ++i) faces[i] = mesh_.faces[own[i]];
     const self_intersection_result met = intersect::pairs_by_tree(
         {mesh_.points, faces}, c.index, {.vertices = vertex_identity::by_index});
-    if (met.pairs.empty() && c.is_manifold) {
-        // What edges link is on the boundary of one region on each of its sides, and the outer one
-        // has winding number 0.
-        const int sign = sign_of(count, corners_of);
-        if (sign != 0) return {sign < 0 ? -1 : 0, sign > 0 ? 1 : 0};
-    }
-    if (most_pairs_of_faces * met.pairs.size() > count) return winding_range::unknown();
-    return range_of_cells(mesh_.points, std::move(faces));
+    const int sign = sign_of(count, corners_of);
+    const winding_range by_sign{sign < 0 ? -1 : 0, sign > 0 ? 1 : 0};
+    // What edges link is on the boundary of one region on each of its sides, and the outer one has
+    // winding number 0.
+    if (met.pairs.empty() && c.is_manifold && sign != 0) return component_windings(by_sign);
+    if (most_pairs_of_faces * met.pairs.size() > count) return {};
+    return windings_of_cells(mesh_.points, std::move(faces), by_sign);
 }
 
 std::int64_t surface_components::winding_around(std::size_t c, const point3& q) const {

@@ -23,6 +23,16 @@ struct operand_winding {
     std::int64_t winding = 0;
 };
 
+/// The winding numbers that a surface may have, by place.
+struct component_windings {
+    component_windings() = default;
+    explicit component_windings(const winding_range& range) : all(range), usual(range) {}
+
+    winding_range all = winding_range::unknown();
+    winding_range usual = winding_range::unknown();  ///< outside of the boxes
+    std::vector<aabb<double, 3>> unusual{};
+};
+
 /// The sign of the signed volume of a closed surface, or 0 where rounding may have decided it.
 [[nodiscard]] int sign_of_volume(mesh_view closed);
 
@@ -52,7 +62,17 @@ class surface_components {
 
     /// The winding numbers that a component may have around points. Unknown for the only one of an
     /// operand, and where too many of the component's faces meet each other.
-    [[nodiscard]] const winding_range& range(std::size_t c) const { return components_[c].range; }
+    [[nodiscard]] const winding_range& range(std::size_t c) const {
+        return components_[c].windings.all;
+    }
+    /// Those that it may have outside of some boxes, which are around the places where it winds
+    /// otherwise: small ones, where it meets itself.
+    [[nodiscard]] const winding_range& usual_range(std::size_t c) const {
+        return components_[c].windings.usual;
+    }
+    [[nodiscard]] std::span<const aabb<double, 3>> unusual_boxes(std::size_t c) const {
+        return components_[c].windings.unusual;
+    }
 
     /// How often component c winds around q, exactly. \pre q is not on it
     [[nodiscard]] std::int64_t winding_around(std::size_t c, const point3& q) const;
@@ -82,13 +102,13 @@ class surface_components {
         std::size_t begin = 0, end = 0;  ///< of its faces
         bool is_manifold = false;
         aabb<double, 3> box{};
-        winding_range range = winding_range::unknown();
+        component_windings windings{};
         tree<3> index{};
     };
 
     void collect(std::span<const std::uint32_t> operand_of_face, const operand_edges& edges);
     void prepare(component& c, bool with_range) const;
-    [[nodiscard]] winding_range range_of(const component& c) const;
+    [[nodiscard]] component_windings windings_of(const component& c) const;
     [[nodiscard]] triangle3 corners(std::uint32_t f) const;
 
     mesh_view mesh_;

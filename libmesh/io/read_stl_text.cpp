@@ -1,15 +1,31 @@
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/reserve.hpp>
 #include <libmesh/io/text.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <initializer_list>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace treeform::detail::io {
 
 namespace {
+
+constexpr std::size_t piece_bytes = std::size_t{1} << 18;
+constexpr std::size_t pieces_at_once = 32;
+
+/// The first line behind `at` that starts with "facet", where a piece can be cut; else `end`.
+[[nodiscard]] const char* next_facet(const char* at, const char* end) {
+    while (at < end) {
+        at = std::find(at, end, '\n');
+        while (at < end && is_space(*at)) ++at;
+        if (starts_with_word(at, end, "facet")) return at;
+    }
+    return end;
+}
 
 class stl_text_reader {
   public:
@@ -20,6 +36,17 @@ class stl_text_reader {
         const std::size_t lines = in.count_newlines();
         reserve_large(file_.mesh.points, lines / 7 * 3);
         reserve_large(file_.mesh.faces, lines / 7);
+    }
+
+    /// Reads the points of facets alone, for another reader, from `begin` to `end` at most.
+    /// Memory that has been in use is taken over: new pages cost as much as parsing.
+    stl_text_reader(const source& in, const char* begin, const char* end,
+                    std::vector<point3>&& memory)
+        : text_(in), is_piece_(true) {
+        text_.at = begin;
+        text_.end = end;
+        file_.mesh.points = std::move(memory);
+        file_.mesh.points.clear();
     }
 
     mesh_file read() {
@@ -85,8 +112,62 @@ class stl_text_reader {
         expect("solid");
         file_.attributes.parts.push_back(
             {.object = name(), .first_face = static_cast<std::uint32_t>(file_.mesh.faces.size())});
-        while (!accept("endsolid")) facet();
+        facets_by_pieces();
+        while (!accept("endsolid")) {
+            facet();
+            text_.file.release_before(text_.at);
+        }
         (void)name();
+    }
+
+    /// The facets ahead that many threads can read: the text is cut ahead of facets, and what was
+    /// read counts up to the first piece that ends in something else, or cannot be read. There the
+    /// reading in one goes on, which knows what may follow, and says what is wrong and where.
+    void facets_by_pieces() {
+        std::vector<std::vector<point3>> memory(pieces_at_once);
+        while (text_.at >= pieces_tried_) {
+            std::vector<const char*> cuts{text_.at};
+            while (cuts.size() <= pieces_at_once && cuts.back() != text_.end) {
+                const auto left = static_cast<std::size_t>(text_.end - cuts.back());
+                cuts.push_back(next_facet(cuts.back() + std::min(left, piece_bytes), text_.end));
+            }
+            if (cuts.size() < 3) return;
+            pieces_tried_ = cuts.back();
+            std::vector<stl_text_reader> pieces;
+            for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+                pieces.emplace_back(text_.file, cuts[i], cuts[i + 1], std::move(memory[i]));
+            for_chunks(pieces.size(), 1, [&](std::size_t i, auto, auto) { pieces[i].facets(); });
+            for (std::size_t i = 0; i < pieces.size(); ++i) {
+                if (!pieces[i].legible_) return;
+                add(pieces[i]);
+                if (!pieces[i].text_.done()) return;
+                memory[i] = std::move(pieces[i].file_.mesh.points);
+            }
+        }
+    }
+
+    /// Up to the first word that is not "facet".
+    void facets() {
+        try {
+            while (!next_is_end() && at_word("facet")) facet();
+        } catch (const io_error&) {
+            legible_ = false;
+        }
+    }
+
+    void add(const stl_text_reader& piece) {
+        const std::vector<point3>& points = piece.file_.mesh.points;
+        check_count(file_.mesh.points.size() + points.size());
+        auto corner = static_cast<std::uint32_t>(file_.mesh.points.size());
+        file_.mesh.points.insert(file_.mesh.points.end(), points.begin(), points.end());
+        for (std::size_t i = 0; i < points.size(); i += 3, corner += 3)
+            file_.mesh.faces.push_back({corner, corner + 1, corner + 2});
+        if (stray_words_ == 0) first_stray_ = piece.first_stray_;
+        stray_words_ += piece.stray_words_;
+        zero_bytes_ += piece.zero_bytes_;
+        text_.hexadecimal = text_.hexadecimal || piece.text_.hexadecimal;
+        text_.at = piece.text_.at;
+        text_.file.release_before(text_.at);
     }
 
     /// What follows in the line; up to a zero byte, where some programs end their strings.
@@ -117,12 +198,16 @@ class stl_text_reader {
         leave_out_up_to({"endfacet"});
         expect("endfacet");
         leave_out_up_to({"facet", "endsolid"});
+        if (is_piece_) return;
         const std::size_t count = file_.mesh.points.size();
-        if (count > std::numeric_limits<std::uint32_t>::max())
-            text_.fail("more corners than 32-bit numbers can name");
+        check_count(count);
         const auto first = static_cast<std::uint32_t>(count - 3);
         file_.mesh.faces.push_back({first, first + 1, first + 2});
-        text_.file.release_before(text_.at);
+    }
+
+    void check_count(std::size_t points) const {
+        if (points > std::numeric_limits<std::uint32_t>::max())
+            text_.fail("more corners than 32-bit numbers can name");
     }
 
     void vertex() {
@@ -158,6 +243,9 @@ class stl_text_reader {
     std::size_t zero_bytes_ = 0;
     std::size_t stray_words_ = 0;
     const char* first_stray_ = nullptr;
+    const char* pieces_tried_ = text_.at;  ///< up to here, pieces were tried
+    bool is_piece_ = false;
+    bool legible_ = true;  ///< of a piece
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <libmesh/io/source.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -161,16 +162,21 @@ void source::plan_release() const {
 }
 
 std::size_t source::count_newlines() const {
-    std::size_t count = 0;
+    constexpr std::size_t piece = std::size_t{1} << 20;
+    constexpr std::size_t at_once = 32 * piece;  // so that memory can be given back on the way
+    std::vector<std::size_t> counts(chunk_count(std::min(size_, at_once), piece));
+    std::size_t sum = 0;
     for (const char* at = begin_; at < end();) {
-        const auto left = static_cast<std::size_t>(end() - at);
-        const char* const stop = at + std::min(left, std::size_t{1} << 16);
-        count += static_cast<std::size_t>(std::count(at, stop, '\n'));
-        at = stop;
+        const std::size_t some = std::min(static_cast<std::size_t>(end() - at), at_once);
+        for_chunks(some, piece, [&](std::size_t first, std::size_t last, std::size_t chunk) {
+            counts[chunk] = static_cast<std::size_t>(std::count(at + first, at + last, '\n'));
+        });
+        for (std::size_t chunk = 0; chunk < chunk_count(some, piece); ++chunk) sum += counts[chunk];
+        at += some;
         release_before(at);
     }
     rewind();
-    return count;
+    return sum;
 }
 
 std::size_t source::line_of(const char* at) const {

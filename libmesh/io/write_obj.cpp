@@ -1,3 +1,4 @@
+#include <libmesh/io/put_by_pieces.hpp>
 #include <libmesh/io/writers.hpp>
 
 #include <string_view>
@@ -10,15 +11,17 @@ void put_vertices(const write_job& job) {
     auto colors = color_columns(job.file, "vertex");
     if (colors.size() == 4) colors.pop_back();
     const auto& points = job.file.mesh.points;
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        job.out.put("v ");
-        job.point(points[v]);
-        for (const column* c : colors) {
-            job.out.put(' ');
-            job.out.number(color_value(*c, v));
+    put_by_pieces(job, points.size(), [&](const write_job& piece, auto first, auto last) {
+        for (std::size_t v = first; v < last; ++v) {
+            piece.out.put("v ");
+            piece.point(points[v]);
+            for (const column* c : colors) {
+                piece.out.put(' ');
+                piece.out.number(color_value(*c, v));
+            }
+            piece.out.put('\n');
         }
-        job.out.put('\n');
-    }
+    });
 }
 
 void put_row(sink& out, std::string_view keyword, std::span<const double> values) {
@@ -53,6 +56,29 @@ class row_numbers {
     const std::vector<face>& fans_;
 };
 
+/// "f 1/1/1 2/2/2 3/3/3"
+struct face_lines {
+    row_numbers textures;
+    row_numbers normals;
+
+    /// Of the face whose first triangle is `first`.
+    void put(sink& out, std::size_t first, std::span<const std::uint32_t> corners) const {
+        out.put('f');
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            out.put(' ');
+            out.number(std::uint64_t{corners[i]} + 1);
+            const std::uint64_t texture = textures.of(first, i);
+            const std::uint64_t normal = normals.of(first, i);
+            if (texture + normal > 0) out.put('/');
+            if (texture > 0) out.number(texture);
+            if (normal == 0) continue;
+            out.put('/');
+            out.number(normal);
+        }
+        out.put('\n');
+    }
+};
+
 void put_name(sink& out, std::string_view keyword, const std::string& name) {
     out.put(keyword);
     out.put(' ');
@@ -79,31 +105,27 @@ void write_obj(const write_job& job) {
     put_vertices(job);
     const corner_values& values = job.file.attributes.corners;
     put_corner_values(job.out, values);
-    const row_numbers textures(values.texture_of_corner);
-    const row_numbers normals(values.normal_of_corner);
-    const auto& parts = job.file.attributes.parts;
+    const face_lines lines{row_numbers(values.texture_of_corner),
+                           row_numbers(values.normal_of_corner)};
+    const mesh_file& file = job.file;
+    const auto& parts = file.attributes.parts;
+    if (parts.empty() && file.stored_face.empty()) {
+        put_by_pieces(job, file.mesh.faces.size(),
+                      [&](const write_job& piece, auto first, auto last) {
+                          for (std::size_t f = first; f < last; ++f)
+                              lines.put(piece.out, f, file.mesh.faces[f]);
+                      });
+        return;
+    }
     std::size_t part_index = 0;
     part current;
-    for_each_stored_face(job.file, [&](std::size_t first, std::span<const std::uint32_t> corners) {
-        for (;
-             part_index < parts.size() && parts[part_index].first_face <= face_row(job.file, first);
+    for_each_stored_face(file, [&](std::size_t first, std::span<const std::uint32_t> corners) {
+        for (; part_index < parts.size() && parts[part_index].first_face <= face_row(file, first);
              ++part_index) {
             put_names(job.out, parts[part_index], current);
             current = parts[part_index];
         }
-        job.out.put('f');
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            job.out.put(' ');
-            job.out.number(std::uint64_t{corners[i]} + 1);
-            const std::uint64_t texture = textures.of(first, i);
-            const std::uint64_t normal = normals.of(first, i);
-            if (texture + normal > 0) job.out.put('/');
-            if (texture > 0) job.out.number(texture);
-            if (normal == 0) continue;
-            job.out.put('/');
-            job.out.number(normal);
-        }
-        job.out.put('\n');
+        lines.put(job.out, first, corners);
     });
 }
 

@@ -2,6 +2,7 @@
 #include <libmesh/io/face_texture.hpp>
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/ply_header.hpp>
+#include <libmesh/io/put_by_pieces.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/io/writers.hpp>
 
@@ -73,6 +74,13 @@ class ply_writer {
     }
 
   private:
+    /// For some rows of what `whole` writes.
+    ply_writer(const ply_writer& whole, const write_job& piece)
+        : job_(piece),
+          encoding_(whole.encoding_),
+          count_(whole.count_),
+          face_values_(whole.face_values_) {}
+
     [[nodiscard]] std::vector<element>::iterator find_vertices() {
         return std::find_if(names_.begin(), names_.end(),
                             [](const element& e) { return e.name == "vertex"; });
@@ -237,37 +245,56 @@ class ply_writer {
     void put_rows(const element& e, const element* source, std::size_t rows,
                   std::span<const point3> points) {
         if (e.columns.empty()) return;
-        for (std::size_t row = 0; row < rows; ++row) {
-            for (std::size_t i = 0; i < e.columns.size(); ++i) {
-                const column& c = e.columns[i];
-                if (c.role == column_role::data)
-                    put_data(with_values(e, source, i), row);
-                else
-                    put_coordinate(c, points[row][axis_number(c.role)]);
-            }
-            end_row();
+        put_by_pieces(job_, rows, [&](const write_job& piece, auto first, auto last) {
+            ply_writer some(*this, piece);
+            for (std::size_t row = first; row < last; ++row) some.put_row(e, source, row, points);
+        });
+    }
+
+    void put_row(const element& e, const element* source, std::size_t row,
+                 std::span<const point3> points) {
+        for (std::size_t i = 0; i < e.columns.size(); ++i) {
+            const column& c = e.columns[i];
+            if (c.role == column_role::data)
+                put_data(with_values(e, source, i), row);
+            else
+                put_coordinate(c, points[row][axis_number(c.role)]);
         }
+        end_row();
     }
 
     void put_faces(const element& e) {
+        const mesh_file& file = job_.file;
+        if (file.stored_face.empty()) {
+            put_by_pieces(job_, file.mesh.faces.size(),
+                          [&](const write_job& piece, auto first, auto last) {
+                              ply_writer some(*this, piece);
+                              for (std::size_t f = first; f < last; ++f)
+                                  some.put_face(e, f, f, file.mesh.faces[f]);
+                          });
+            return;
+        }
         std::size_t row = 0;
-        for_each_stored_face(job_.file,
-                             [&](std::size_t first, std::span<const std::uint32_t> corners) {
-                                 for (std::size_t i = 0; i < e.columns.size(); ++i) {
-                                     const column& c = e.columns[i];
-                                     if (c.role == column_role::data) {
-                                         put_data(*face_values_[i], row);
-                                     } else if (c.role == column_role::texture) {
-                                         put_texture(c, first, corners.size());
-                                     } else {
-                                         put_as(*c.list_length, corners.size());
-                                         for (const std::uint32_t corner : corners)
-                                             put_as(c.type, corner);
-                                     }
-                                 }
-                                 end_row();
-                                 ++row;
-                             });
+        for_each_stored_face(file, [&](std::size_t first, std::span<const std::uint32_t> corners) {
+            put_face(e, row++, first, corners);
+        });
+    }
+
+    /// `first` is the first of its triangles.
+    void put_face(const element& e, std::size_t row, std::size_t first,
+                  std::span<const std::uint32_t> corners) {
+        for (std::size_t i = 0; i < e.columns.size(); ++i) {
+            const column& c = e.columns[i];
+            if (c.role == column_role::data) {
+                put_data(*face_values_[i], row);
+            } else if (c.role == column_role::texture) {
+                put_texture(c, first, corners.size());
+            } else {
+                put_as(*c.list_length, corners.size());
+                for (const std::uint32_t corner : corners) put_as(c.type, corner);
+            }
+        }
+        end_row();
     }
 
     /// An empty list where no corner has any.

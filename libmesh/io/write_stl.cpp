@@ -1,3 +1,4 @@
+#include <libmesh/io/put_by_pieces.hpp>
 #include <libmesh/io/writers.hpp>
 
 #include <array>
@@ -40,6 +41,19 @@ void put_vector(sink& out, const vector3& v) {
     for (const float x : v) out.raw<std::endian::little>(x);
 }
 
+void binary_facet(const write_job& job, std::size_t f, const std::vector<const column*>& bits) {
+    const mesh_file& file = job.file;
+    put_vector(job.out, normal(written(job, file.mesh.faces[f])));
+    for (const std::uint32_t corner : file.mesh.faces[f]) {
+        const point3& p = file.mesh.points[corner];
+        put_vector(job.out,
+                   {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    }
+    const double value = bits.empty() ? 0.0 : number_at(*bits[0], face_row(file, f));
+    const bool fits = value >= 0.0 && value <= 65535.0;
+    job.out.raw<std::endian::little>(static_cast<std::uint16_t>(fits ? value : 0.0));
+}
+
 void text_facet(const write_job& job, const face& f) {
     sink& out = job.out;
     out.put("facet normal");
@@ -70,18 +84,9 @@ void write_stl_binary(const write_job& job) {
     job.out.raw<std::endian::little>(static_cast<std::uint32_t>(file.mesh.faces.size()));
     constexpr std::string_view names[] = {"stl_attribute"};
     const auto bits = scalar_columns(file, "face", names);
-    for (std::size_t f = 0; f < file.mesh.faces.size(); ++f) {
-        const face& corners = file.mesh.faces[f];
-        put_vector(job.out, normal(written(job, corners)));
-        for (const std::uint32_t corner : corners) {
-            const point3& p = file.mesh.points[corner];
-            put_vector(job.out,
-                       {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-        }
-        const double value = bits.empty() ? 0.0 : number_at(*bits[0], face_row(file, f));
-        const bool fits = value >= 0.0 && value <= 65535.0;
-        job.out.raw<std::endian::little>(static_cast<std::uint16_t>(fits ? value : 0.0));
-    }
+    put_by_pieces(job, file.mesh.faces.size(), [&](const write_job& piece, auto first, auto last) {
+        for (std::size_t f = first; f < last; ++f) binary_facet(piece, f, bits);
+    });
 }
 
 void write_stl_text(const write_job& job) {
@@ -96,7 +101,7 @@ void write_stl_text(const write_job& job) {
         job.out.put('\n');
     };
     put_name("solid");
-    for (std::size_t f = 0; f < file.mesh.faces.size(); ++f) {
+    for (std::size_t f = 0; f < file.mesh.faces.size();) {
         for (; next_part < parts.size() && parts[next_part].first_face <= face_row(file, f);
              ++next_part) {
             const bool goes_on = differ_in_material_alone(now, parts[next_part]);
@@ -104,7 +109,14 @@ void write_stl_text(const write_job& job) {
             now = parts[next_part];
             if (!goes_on) put_name("solid");
         }
-        text_facet(job, file.mesh.faces[f]);
+        const std::size_t stop =
+            next_part < parts.size() ? parts[next_part].first_face : file.mesh.faces.size();
+        std::size_t last = f + 1;
+        while (last < file.mesh.faces.size() && face_row(file, last) < stop) ++last;
+        put_by_pieces(job, last - f, [&](const write_job& piece, auto from, auto to) {
+            for (std::size_t i = from; i < to; ++i) text_facet(piece, file.mesh.faces[f + i]);
+        });
+        f = last;
     }
     put_name("endsolid");
 }

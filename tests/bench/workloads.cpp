@@ -17,6 +17,10 @@ TREEFORM_WORKLOAD(booleans);                   // b6
 TREEFORM_WORKLOAD(placement);                  // b7
 TREEFORM_WORKLOAD(files);                      // b8
 TREEFORM_WORKLOAD(predicates);                 // b9
+TREEFORM_WORKLOAD(crowds);                     // c1
+TREEFORM_WORKLOAD(dense_knots);                // c2
+TREEFORM_WORKLOAD(many_parts);                 // c3
+TREEFORM_WORKLOAD(open_spheres);               // c4
 TREEFORM_WORKLOAD(triangle_pairs);             // e1
 TREEFORM_WORKLOAD(self_intersection_errors);   // e2
 TREEFORM_WORKLOAD(distances);                  // e3
@@ -31,6 +35,7 @@ TREEFORM_WORKLOAD(build_by_threads);           // f5
 TREEFORM_WORKLOAD(strategies);                 // f6
 TREEFORM_WORKLOAD(near_pairs_given_trees);     // f7
 TREEFORM_WORKLOAD(arities);                    // f8
+TREEFORM_WORKLOAD(clean_scans);                // s1
 TREEFORM_WORKLOAD(poses);                      // t1
 TREEFORM_WORKLOAD(weld);                       // w1
 TREEFORM_WORKLOAD(weld_quality_by_tolerance);  // w2
@@ -41,6 +46,10 @@ TREEFORM_WORKLOAD(weld_quality_by_tolerance);  // w2
 TREEFORM_DRAWING(draw_poses_by_peers);
 TREEFORM_DRAWING(draw_near_pairs_from_arrays);
 TREEFORM_DRAWING(draw_nearness);
+TREEFORM_DRAWING(draw_crowds);
+TREEFORM_DRAWING(draw_dense_knots);
+TREEFORM_DRAWING(draw_many_parts);
+TREEFORM_DRAWING(draw_open_spheres);
 TREEFORM_DRAWING(draw_triangle_pairs);
 TREEFORM_DRAWING(draw_self_intersection_errors);
 TREEFORM_DRAWING(draw_distances);
@@ -55,6 +64,7 @@ TREEFORM_DRAWING(draw_build_by_threads);
 TREEFORM_DRAWING(draw_strategies);
 TREEFORM_DRAWING(draw_near_pairs);
 TREEFORM_DRAWING(draw_arities);
+TREEFORM_DRAWING(draw_clean_scans);
 TREEFORM_DRAWING(draw_poses);
 TREEFORM_DRAWING(draw_weld_quality);
 #undef TREEFORM_DRAWING
@@ -74,6 +84,12 @@ std::span<const workload> workloads() {
         workload{"B7", "two meshes met for the first time, and their first contact", placement},
         workload{"B8", "files: read and write, page cache warm", files},
         workload{"B9", "predicates and triangle pairs, by family of hard cases", predicates},
+        workload{"C1", "union of solids that hide each other", crowds, draw_crowds},
+        workload{"C2", "union of knots through each other", dense_knots, draw_dense_knots},
+        workload{"C3", "plate with holes, cubes face to face, cubes at random", many_parts,
+                 draw_many_parts},
+        workload{"C4", "spheres that rounding left open: no solid", open_spheres,
+                 draw_open_spheres},
         workload{"E1", "time against error: whether two triangles meet", triangle_pairs,
                  draw_triangle_pairs},
         workload{"E2", "time against error: self-intersections", self_intersection_errors,
@@ -96,6 +112,8 @@ std::span<const workload> workloads() {
         workload{"F7", "near pairs of points, trees given", near_pairs_given_trees,
                  draw_near_pairs},
         workload{"F8", "sorted stack against heap, by arity and leaf size", arities, draw_arities},
+        workload{"S1", "self-intersections of clean scans, beside the tree alone", clean_scans,
+                 draw_clean_scans},
         workload{"T1", "two models in random positions, beside the paper, trees given", poses,
                  draw_poses},
         workload{"W1", "welding: points within a tolerance become one, from arrays", weld},

@@ -2,6 +2,8 @@
 
 from boolean_support import *
 
+import hashlib
+
 NUMBER = (int, float)
 NULL = type(None)
 FILE = {"input": (str, NULL), "error": NULL, "warnings": list, "operation": (str, NULL),
@@ -135,6 +137,18 @@ class Usage(BooleanTest):
         self.assertEqual(list(entry), list(types))
         for key, kind in types.items():
             self.assertIsInstance(entry[key], kind, msg=key)
+
+    def test_inputs_that_are_read_at_once_are_reported_in_their_order(self):
+        for number in range(4):
+            self.put(f"bad{number}.obj", f"v {number}\n")
+        for threads in (1, 2):
+            run = self.run_tool("union", "a.obj", "a.obj", "bad2.obj", "bad1.obj", "-n", "-j",
+                                threads, "-r", "-", status=3)
+            self.assertIn("bad2.obj:1:", run.err)
+            self.assertNotIn("bad1", run.err)
+            inputs = json.loads(run.text)["files"][0]["inputs"]
+            digest = hashlib.sha256(self.read_bytes("a.obj")).hexdigest()
+            self.assertEqual([i["sha256"] for i in inputs[:3]], [digest, digest, None])
 
     def test_the_report_has_its_keys_in_any_case(self):
         report = self.report("difference", "a.obj", "b.obj", status=0)

@@ -154,6 +154,10 @@ class Report(ToolTest):
         self.assertEqual((run.text, run.err), ("", ""))
         self.assertNotEqual(self.run_tool("missing.obj", "-q", status=3).err, "")
         self.assertIn("region 0:", self.run_tool(part, "-v").err)
+        self.assertRegex(self.run_tool(part, "-v").err,
+                         r"\ntf-selfintersect: \d+\.\d\d s: reading \d+\.\d\d, "
+                         r"geometry \d+\.\d\d \(\d+ %\), writing \d+\.\d\d\n$")
+        self.assertNotIn("geometry", self.run_tool(part).err)
         self.assertIn("debug:", self.run_tool(part, "-vv").err)
         self.assertNotIn("debug:", self.run_tool(part, "-v").err)
         self.run_tool(part, "-v", "--log", "log.txt")

@@ -19,6 +19,20 @@ def many_crossings(n):
     return points, faces
 
 
+def many_blades(n, shift):
+    """n thin boxes side by side, in turn along x and along y."""
+    meshes = []
+    for i in range(n):
+        at = 2.0 * i / n + shift / n
+        low, high = ((at, -1.0, shift), (at + 0.5 / n, 3.0, shift + 1.0))
+        if i % 2:
+            low, high = (low[1], low[0], low[2]), (high[1], high[0], high[2])
+        points, faces = cube()
+        meshes.append(([tuple(low[k] + (high[k] - low[k]) * p[k] for k in range(3))
+                        for p in points], faces))
+    return together(*meshes)
+
+
 class Stops(ToolTest):
     def setUp(self):
         super().setUp()
@@ -81,6 +95,40 @@ class Stops(ToolTest):
     def test_a_generous_limit_changes_nothing(self):
         part = write(self.path("small.obj"), CROSSING)
         self.run_tool(part, "--memory", "1G", "--timeout", "100", status=1)
+        self.run_tool(part, "--memory", "none", status=1)
+
+
+class FreeMemory(ToolTest):
+    """Without --memory, the limit is what is free: here, what the system lets the process have."""
+    tool = BOOLEAN
+
+    def setUp(self):
+        super().setUp()
+        for i in range(12):  # that meet each other everywhere: long lists from short files
+            write(self.path(f"{i}.stl"), many_blades(150, i / 12))
+        self.inputs = sorted(self.listing())
+
+    def run_with(self, size, *options):
+        return subprocess.run([self.tool, "union", *self.inputs, "-o", "u.stl", *options],
+                              cwd=self.folder, capture_output=True, timeout=120,
+                              preexec_fn=limit_memory(size))
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_what_needs_more_than_is_free_stops_with_5_and_says_so(self):
+        for options in ((), ("-j", "1")):
+            done = self.run_with(160 << 20, *options)
+            self.assertEqual(done.returncode, 5, msg=done.stderr)
+            self.assertRegex(done.stderr.decode(),
+                             r"needs more memory than the 168 MB that was free when it started "
+                             r"\(--memory sets another limit\)\n$")
+            self.assertEqual(sorted(self.listing()), self.inputs)
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_a_limit_that_was_asked_for_is_named_as_that(self):
+        done = self.run_with(resource.RLIM_INFINITY, "--memory", "160M")
+        self.assertEqual(done.returncode, 5, msg=done.stderr)
+        self.assertIn(b"stopped by the memory limit (--memory)\n", done.stderr)
+        self.assertEqual(sorted(self.listing()), self.inputs)
 
     def test_a_reader_that_goes_away_is_an_output_error(self):
         part = write(self.path("cubes.obj"), many_crossings(300))

@@ -30,17 +30,11 @@ using test::ball;
 using test::box;
 using test::inside_out;
 using test::moved;
+using test::on_lattice;
+using test::random_tetrahedron;
 using test::together;
 
 constexpr double side = 8.0;
-
-/// All coordinates multiples of 1 / `steps`, so that faces lie on each other; 0: as they are.
-tf::mesh on_lattice(tf::mesh mesh, double steps) {
-    if (steps > 0)
-        for (tf::point3& p : mesh.points)
-            for (std::size_t k = 0; k < 3; ++k) p[k] = std::round(p[k] * steps) / steps;
-    return mesh;
-}
 
 enum class shape : std::uint8_t { boxes, balls, tetrahedra, turned_boxes, all };
 
@@ -53,9 +47,7 @@ tf::mesh random_solid(test::random& source, shape of, double steps) {
             solid = ball(2, source.in(1.0, 4.0));
             break;
         case shape::tetrahedra:
-            for (int i = 0; i < 4; ++i)
-                solid.points.push_back({source.in(-4, 4), source.in(-4, 4), source.in(-4, 4)});
-            solid.faces = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}};
+            solid = random_tetrahedron(source, 4.0);
             break;
         case shape::turned_boxes:
             solid = test::turned(box(source.in(1, 5), source.in(1, 5), source.in(1, 5)),

@@ -68,4 +68,22 @@ inline tf::mesh ball(int levels, double radius) {
     return mesh;
 }
 
+/// All coordinates multiples of 1 / `steps`, so that faces lie on each other; 0: as they are.
+inline tf::mesh on_lattice(tf::mesh mesh, double steps) {
+    if (steps > 0)
+        for (tf::point3& p : mesh.points)
+            for (std::size_t k = 0; k < 3; ++k) p[k] = std::round(p[k] * steps) / steps;
+    return mesh;
+}
+
+/// Turned either way.
+inline tf::mesh random_tetrahedron(random& source, double size) {
+    tf::mesh solid;
+    for (int i = 0; i < 4; ++i)
+        solid.points.push_back(
+            {source.in(-size, size), source.in(-size, size), source.in(-size, size)});
+    solid.faces = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}};
+    return solid;
+}
+
 }  // namespace test

@@ -74,8 +74,12 @@ void add_run_options(command_line& line, common_options& o) {
                     if (count < 1 || count > 1024) refuse("--threads: expected 1 to 1024");
                     o.threads = static_cast<unsigned>(count);
                 });
-    line.option({"--memory", "SIZE", "stay below SIZE (4G, 512M) or stop", "no limit"},
-                [&o](std::string_view value) { o.memory = parse_size("--memory", value); });
+    line.option({"--memory", "SIZE", "stay below SIZE (4G, 512M; none: no limit) or stop",
+                 "what is free at the start"},
+                [&o](std::string_view value) {
+                    o.all_memory = value == "none";
+                    o.memory = o.all_memory ? 0 : parse_size("--memory", value);
+                });
     line.option({"--timeout", "SEC", "stop after SEC seconds", "no limit"},
                 [&o](std::string_view value) { o.timeout = parse_seconds("--timeout", value); });
     line.flag(o.progress, {.names = "--progress",

@@ -34,8 +34,9 @@ struct common_options {
     std::string unit = "unknown";
     std::filesystem::path report;
     std::filesystem::path html;
-    unsigned threads = 0;  ///< 0: all
-    std::uint64_t memory = 0;
+    unsigned threads = 0;      ///< 0: all
+    std::uint64_t memory = 0;  ///< as asked for; 0: not asked
+    bool all_memory = false;   ///< --memory none
     double timeout = 0.0;
     bool progress = false;
     bool quiet = false;

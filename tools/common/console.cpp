@@ -96,6 +96,16 @@ std::string brief(double value) {
     return {text, std::to_chars(text, text + sizeof text, value, form, large ? 0 : 6).ptr};
 }
 
+std::string in_bytes(std::uint64_t bytes) {
+    const bool large = bytes >= 1'000'000'000;
+    char text[32];
+    const auto end =
+        std::to_chars(text, text + sizeof text, static_cast<double>(bytes) / (large ? 1e9 : 1e6),
+                      std::chars_format::fixed, large ? 1 : 0)
+            .ptr;
+    return std::string(text, end) + (large ? " GB" : " MB");
+}
+
 std::string shortest(double value) {
     char text[32];
     const auto end = std::to_chars(text, text + sizeof text, value).ptr;

@@ -59,6 +59,8 @@ class console {
 /// The shortest decimal text that reads back as `value`: for files, and for numbers that people
 /// type back as a limit, which a rounded one would not meet.
 [[nodiscard]] std::string shortest(double value);
+/// "512 MB", "22.4 GB".
+[[nodiscard]] std::string in_bytes(std::uint64_t bytes);
 /// "1 pair", "2 pairs".
 [[nodiscard]] std::string counted(std::uint64_t number, std::string_view one,
                                   std::string_view many);

@@ -1,6 +1,9 @@
 #include "tools/common/guard.hpp"
 
+#include "tools/common/console.hpp"
 #include "tools/common/exit_status.hpp"
+#include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <poll.h>
 #include <pthread.h>
@@ -53,7 +56,7 @@ const char* text_of(reason why) {
         case reason::time:
             return "stopped by the time limit (--timeout)";
         case reason::memory:
-            return "stopped by the memory limit (--memory)";
+            break;
     }
     return "stopped";
 }
@@ -71,13 +74,21 @@ std::uint64_t memory_in_use() {
     return (resident - shared) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
+/// Reserved for the threads of loops: of each stack, some pages are used.
+std::uint64_t memory_of_stacks() {
+    constexpr std::uint64_t usual = std::uint64_t{8} << 20;
+    rlimit stack{};
+    const bool known = getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur != RLIM_INFINITY;
+    return (tf::thread_count() + std::uint64_t{2}) * (known ? stack.rlim_cur : usual);
+}
+
 void bound_data(std::uint64_t bytes) {
 #ifdef TREEFORM_SHADOW_MEMORY
     static_cast<void>(bytes);
 #else
     rlimit bound{};
     if (getrlimit(RLIMIT_DATA, &bound) != 0) return;
-    bound.rlim_cur = std::min<rlim_t>(bytes, bound.rlim_max);
+    bound.rlim_cur = std::min<rlim_t>(bytes, bound.rlim_cur);
     setrlimit(RLIMIT_DATA, &bound);
 #endif
 }
@@ -110,6 +121,10 @@ struct guard::state {
 
     void watch();
     [[nodiscard]] reason next_reason(bool signalled) const;
+    [[nodiscard]] std::string memory_text() const;
+    [[nodiscard]] std::string text() const {
+        return why == reason::memory ? memory_text() : text_of(why);
+    }
     [[noreturn]] void end_process(reason cause, int status);
 };
 
@@ -172,16 +187,25 @@ void guard::state::end_process(reason cause, int status) {
         std::error_code ignored;
         for (const auto& path : open_files) std::filesystem::remove_all(path, ignored);
     }
-    std::fprintf(stderr, "%s: error: %s\n", tool.c_str(),
-                 cause == reason::none ? (status == stopped ? "out of memory" : "internal error")
-                                       : text_of(cause));
+    const std::string text = cause != reason::none ? this->text()
+                             : status == stopped   ? memory_text()
+                                                   : "internal error";
+    std::fprintf(stderr, "%s: error: %s\n", tool.c_str(), text.c_str());
     std::_Exit(status);
+}
+
+std::string guard::state::memory_text() const {
+    if (bounds.memory == 0) return "out of memory";
+    if (!bounds.as_free) return "stopped by the memory limit (--memory)";
+    return "needs more memory than the " + in_bytes(bounds.memory) +
+           " that was free when it started (--memory sets another limit)";
 }
 
 guard::guard(std::string tool, limits bounds) : state_(std::make_unique<state>()) {
     state_->tool = std::move(tool);
     state_->bounds = bounds;
-    if (bounds.memory > 0) bound_data(bounds.memory);
+    if (bounds.memory > 0)
+        bound_data(bounds.memory + (bounds.as_free ? memory_of_stacks() : std::uint64_t{0}));
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an output error like any other
     std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that may not get as large
     state_->signals = watched_signals();
@@ -210,8 +234,10 @@ bool guard::stop_requested() const { return state_->why != reason::none; }
 
 void guard::check() const {
     const reason why = state_->why;
-    if (why != reason::none) throw failure(stopped, code_of(why), text_of(why));
+    if (why != reason::none) throw failure(stopped, code_of(why), state_->text());
 }
+
+std::string guard::want_of_memory() const { return state_->memory_text(); }
 
 void guard::unfinished(const std::filesystem::path& path) {
     const std::lock_guard lock(state_->mutex);

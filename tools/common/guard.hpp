@@ -13,13 +13,15 @@ namespace tools {
 struct limits {
     double seconds = 0.0;      ///< 0: none
     std::uint64_t memory = 0;  ///< bytes; 0: none
+    bool as_free = false;      ///< `memory` is what was free, not what was asked for
 };
 
 /// Watches from a thread of its own. When SIGINT, SIGTERM or SIGHUP arrives or a limit is passed,
 /// `check` throws and the tool ends with `stopped`. If it has not ended within a second, or at a
 /// second signal, the guard removes the unfinished files and ends the process with `stopped`.
 /// Memory is also bounded by the system (RLIMIT_DATA), so an allocation beyond the limit fails
-/// with std::bad_alloc rather than pass it unseen.
+/// with std::bad_alloc rather than pass it unseen. The system counts what is reserved, too: where
+/// the limit is what was free, stacks of threads, which are hardly used, are allowed on top of it.
 ///
 /// Make one before any other thread; threads made later inherit the blocked signals.
 class guard {
@@ -32,6 +34,8 @@ class guard {
     /// \throws failure (stopped) naming what asked for the stop
     void check() const;
     [[nodiscard]] bool stop_requested() const;
+    /// Why there is no memory for more.
+    [[nodiscard]] std::string want_of_memory() const;
 
     /// Files, or folders with all that is in them, to remove if the process is ended in the middle
     /// of the work.

@@ -3,6 +3,7 @@
 #include "tools/common/sha256.hpp"
 #include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <unistd.h>
 
@@ -63,26 +64,61 @@ tf::mesh_file job::read() {
     return file;
 }
 
-tf::mesh_file job::read(const std::string& input, json& about) {
-    const timer whole = time("read");
-    const std::string label = name_of_input(input);
-    out.progress(label + ": read", 0.0);
-    tf::mesh_file file;
-    std::string digest;
-    if (input == "-") {
-        const std::vector<std::byte> bytes = read_standard_input(keeper);
-        if (options.detailed()) digest = sha256_of(bytes);
-        file = tf::read(bytes, label, options.format);
-    } else {
+/// The digest, where a report wants it, is found beside the reading.
+job::read_ahead job::read_one(const std::string& input) const {
+    read_ahead found{.input = input};
+    try {
+        keeper.check();
+        std::vector<std::byte> bytes;
+        const bool from_pipe = input == "-";
+        if (from_pipe) bytes = read_standard_input(keeper);
         std::error_code error;
-        const bool listed = std::count(options.inputs.begin(), options.inputs.end(), input) > 0;
-        if (std::filesystem::is_directory(input, error))
+        if (!from_pipe && std::filesystem::is_directory(input, error)) {
+            const bool listed = std::count(options.inputs.begin(), options.inputs.end(), input) > 0;
             throw failure(
                 bad_input, "read",
                 input + ": is a folder" + (listed ? ", with no file in it that is read" : ""));
-        if (options.detailed()) digest = sha256_of_file(input);
-        file = tf::read(input, options.format);
+        }
+        constexpr std::size_t reading = 0;
+        tf::for_chunks(options.detailed() ? 2 : 1, 1, [&](auto, auto, std::size_t task) {
+            if (task == reading)
+                found.file = from_pipe ? tf::read(bytes, name_of_input(input), options.format)
+                                       : tf::read(input, options.format);
+            else
+                found.digest = from_pipe ? sha256_of(bytes) : sha256_of_file(input);
+        });
+    } catch (...) {
+        found.error = std::current_exception();
     }
+    return found;
+}
+
+job::read_ahead job::take(const std::string& input) {
+    const auto fits = [&](const read_ahead& a) { return !a.taken && a.input == input; };
+    auto at = std::find_if(ahead_.begin(), ahead_.end(), fits);
+    if (at == ahead_.end()) {
+        const auto& all = options.inputs;
+        const bool set = options.joined && all.size() > 1 && ahead_.empty() &&
+                         std::count(all.begin(), all.end(), input) > 0 &&
+                         std::count(all.begin(), all.end(), "-") == 0;
+        if (!set) return read_one(input);
+        ahead_.resize(all.size());
+        tf::for_chunks(all.size(), 1, [&](std::size_t first, auto, auto) {
+            ahead_[first] = read_one(all[first]);
+        });
+        at = std::find_if(ahead_.begin(), ahead_.end(), fits);
+    }
+    at->taken = true;
+    return std::move(*at);
+}
+
+tf::mesh_file job::read(const std::string& input, json& about) {
+    const timer whole = time("read");
+    out.progress(name_of_input(input) + ": read", 0.0);
+    read_ahead found = take(input);
+    if (found.error) std::rethrow_exception(found.error);
+    tf::mesh_file file = std::move(found.file);
+    const std::string& digest = found.digest;
     if (const auto output = mesh_output(options, input)) {
         tf::attributes& all = file.attributes;
         for (auto* names : {&all.material_files, &all.texture_files})

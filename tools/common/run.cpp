@@ -1,5 +1,6 @@
 #include "tools/common/run.hpp"
 
+#include "tools/common/free_memory.hpp"
 #include "tools/common/output_file.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
@@ -8,7 +9,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
 #include <new>
+#include <string_view>
 #include <system_error>
 
 namespace tools {
@@ -35,6 +41,9 @@ outcome attempt(const std::function<exit_status()>& body) {
             return {bug, "bug", std::string("internal error: ") + error.what()};
         return {stopped, "memory", "no memory for a thread"};
     } catch (const std::exception& error) {
+        // TBB says so in words only.
+        if (std::string_view(error.what()).starts_with("pthread_create has failed"))
+            return {stopped, "memory", "no memory for a thread"};
         return {bug, "bug", std::string("internal error: ") + error.what()};
     }
 }
@@ -82,6 +91,33 @@ std::string as_text(const json& report) {
     return report.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
+limits limits_of(const common_options& options) {
+    limits bounds{.seconds = options.timeout, .memory = options.memory};
+    bounds.as_free = options.memory == 0 && !options.all_memory;
+    if (bounds.as_free) bounds.memory = usable_memory();
+    return bounds;
+}
+
+std::string in_hundredths(double seconds) {
+    char text[32];
+    return {text,
+            std::to_chars(text, text + sizeof text, seconds, std::chars_format::fixed, 2).ptr};
+}
+
+/// Where the time went: "0.84 s: reading 0.21, geometry 0.55 (65 %), writing 0.08". What is neither
+/// reading nor writing is geometry.
+std::string times_in_words(const std::map<std::string, double>& seconds, double whole) {
+    double reading = 0.0;
+    double geometry = 0.0;
+    double writing = 0.0;
+    for (const auto& [step, time] : seconds)
+        (step == "read" ? reading : step == "write" ? writing : geometry) += time;
+    const double share = whole > 0.0 ? std::min(1.0, geometry / whole) : 0.0;
+    return in_hundredths(whole) + " s: reading " + in_hundredths(reading) + ", geometry " +
+           in_hundredths(geometry) + " (" + std::to_string(std::lround(100.0 * share)) +
+           " %), writing " + in_hundredths(writing);
+}
+
 class session {
   public:
     session(common_options& options, console& out, guard& keeper)
@@ -89,6 +125,7 @@ class session {
 
     exit_status work(const std::vector<std::string>& steps, json& report,
                      const std::function<exit_status(job&)>& body) {
+        const auto began = std::chrono::steady_clock::now();
         for (const auto& step : steps) seconds_[step] = 0.0;
         exit_status worst = done;
         bool halted = false;
@@ -109,6 +146,8 @@ class session {
         }
         json& times = report["seconds"] = json::object();
         for (const auto& step : steps) times[step] = seconds_[step];
+        const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - began;
+        out_.info(times_in_words(seconds_, whole.count()));
         return worst;
     }
 
@@ -117,9 +156,9 @@ class session {
         out_.end_progress();
         one.entry["exit"] = static_cast<int>(result.status);
         if (result.text.empty()) return;
-        const bool by_limit = result.code == "memory" && options_.memory > 0 &&
-                              result.text.find("--memory") == std::string::npos;
-        const std::string text = by_limit ? "stopped by the memory limit (--memory)" : result.text;
+        const bool by_limit =
+            result.code == "memory" && result.text.find("--memory") == std::string::npos;
+        const std::string text = by_limit ? keeper_.want_of_memory() : result.text;
         one.entry["error"] = {{"code", result.code}, {"text", text}};
         const bool named = text.find(name_of_input(one.path)) != std::string::npos;
         out_.error(named ? text : one.name + ": " + text);
@@ -135,7 +174,7 @@ int run_parsed(command_line& line, common_options& options, const std::vector<st
                int argc, const char* const* argv, const std::function<exit_status(job&)>& body,
                console& out) {
     configure(out, options, line);
-    guard keeper(line.name(), {options.timeout, options.memory});
+    guard keeper(line.name(), limits_of(options));
     const tf::thread_scope threads(options.threads);
     if (!options.report.empty()) check_output(options.report, options.force);
 

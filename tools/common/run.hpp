@@ -12,6 +12,7 @@
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -34,7 +35,8 @@ class job {
     /// Reads the input and enters what is known of it in `entry`. \throws failure
     [[nodiscard]] tf::mesh_file read();
     /// Reads `input` and enters format, digest and precision in `about`; says none of its warnings.
-    /// Names of material and texture files are as seen from the output's folder.
+    /// Names of material and texture files are as seen from the output's folder. The first call
+    /// for a set of several inputs reads all of its files, at the same time.
     [[nodiscard]] tf::mesh_file read(const std::string& input, json& about);
 
     /// Adds the time from now to the end of the returned object's life to the report's `step`.
@@ -72,6 +74,20 @@ class job {
     guard& keeper;
     std::map<std::string, double>& seconds;  ///< of the report, by step
     json entry;                              ///< of the report's `files`
+
+  private:
+    /// What came of reading a file that has not been asked for yet.
+    struct read_ahead {
+        std::string input{};
+        tf::mesh_file file{};
+        std::string digest{};
+        std::exception_ptr error{};
+        bool taken = false;
+    };
+    [[nodiscard]] read_ahead read_one(const std::string& input) const;
+    [[nodiscard]] read_ahead take(const std::string& input);
+
+    std::vector<read_ahead> ahead_;
 };
 
 /// Parses the command line and calls `body` for each input. What `body` returns or throws becomes

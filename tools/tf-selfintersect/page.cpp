@@ -1,4 +1,4 @@
-#include "tools/common/page/page.hpp"
+#include "tools/page/page.hpp"
 
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"

@@ -86,6 +86,46 @@ TEST_CASE("surface_components: pieces of an operand, and how often they may wind
     CHECK(p.components.range(5) == winding_range{-1, 1});
 }
 
+TEST_CASE("surface_components: winding numbers that are not usual have a box") {
+    // A ball with a corner pulled through the other side, where it is inside out.
+    tf::mesh pierced = ball(8, 1);
+    pierced.points[0] = {-1.5, 0.01, 0.02};
+    const prepared p(together(together(pierced, moved(inside_out(pierced), {5, 0, 0})),
+                              moved(torus(), {0, 9, 0})));
+    REQUIRE(p.components.size() == 3);
+    CHECK(p.components.range(0) == winding_range{-1, 1});
+    CHECK(p.components.usual_range(0) == winding_range{0, 1});
+    CHECK(p.components.range(1) == winding_range{-1, 1});
+    CHECK(p.components.usual_range(1) == winding_range{-1, 0});
+    CHECK(p.components.unusual_boxes(2).empty());
+    CHECK(p.components.usual_range(2) == p.components.range(2));
+    test::random source(4);
+    for (const std::size_t c : {std::size_t{0}, std::size_t{1}}) {
+        const auto boxes = p.components.unusual_boxes(c);
+        REQUIRE(!boxes.empty());
+        std::size_t unusual = 0, in_no_box = 0;
+        for (int i = 0; i < 20'000; ++i) {
+            const auto& sampled = i % 2 == 0 ? p.components.box(c) : boxes.front();
+            tf::point3 q;
+            for (std::size_t k = 0; k < 3; ++k) q[k] = source.in(sampled.min[k], sampled.max[k]);
+            const std::int64_t winding = p.components.winding_around(c, q);
+            const bool in_box = std::ranges::any_of(boxes, [&](const auto& box) {
+                for (std::size_t k = 0; k < 3; ++k)
+                    if (q[k] < box.min[k] || q[k] > box.max[k]) return false;
+                return true;
+            });
+            const winding_range usual = p.components.usual_range(c);
+            if (winding < usual.low || winding > usual.high) {
+                ++unusual;
+                CHECK(in_box);
+            }
+            in_no_box += in_box ? 0U : 1U;
+        }
+        CHECK(unusual > 0);
+        CHECK(in_no_box > 5'000);
+    }
+}
+
 TEST_CASE("surface_components: the range of an operand's only component is not asked") {
     CHECK(prepared(ball(2, 1)).components.range(0) == winding_range::unknown());
 }

@@ -1,19 +1,60 @@
 #include "tools/common/console.hpp"
 #include "tools/common/exit_status.hpp"
+#include "tools/common/free_memory.hpp"
 #include "tools/common/help_text.hpp"
-#include "tools/common/page/page.hpp"
-#include "tools/common/page/scene.hpp"
 #include "tools/common/parse_value.hpp"
 #include "tools/common/sha256.hpp"
+#include "tools/page/page.hpp"
+#include "tools/page/scene.hpp"
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+namespace {
+
+/// A folder with the files of a system that the test makes up.
+class made_up_system {
+  public:
+    made_up_system() {
+        std::string name = (std::filesystem::temp_directory_path() / "system-XXXXXX").string();
+        if (mkdtemp(name.data()) != nullptr) folder_ = name;
+        put("proc/meminfo",
+            "MemTotal:  9000 kB\nMemFree:   1000 kB\nMemAvailable:   5000 kB\nSwapFree: 500 kB\n");
+    }
+    ~made_up_system() { std::filesystem::remove_all(folder_); }
+    made_up_system(const made_up_system&) = delete;
+    made_up_system& operator=(const made_up_system&) = delete;
+
+    void put(const std::string& name, std::string_view text) const {
+        const std::filesystem::path path = folder_ / name;
+        std::filesystem::create_directories(path.parent_path());
+        std::ofstream(path) << text;
+    }
+    /// A control group with a bound, what is in use, and some text of memory.stat.
+    void put_group(const std::string& folder, std::initializer_list<const char*> names,
+                   std::initializer_list<const char*> texts) const {
+        for (std::size_t i = 0; i < names.size(); ++i)
+            put("sys/fs/cgroup/" + folder + "/" + names.begin()[i], texts.begin()[i]);
+    }
+    [[nodiscard]] std::uint64_t free() const { return tools::free_memory(folder_); }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+}  // namespace
 
 TEST_CASE("sha256: the examples of the standard") {
     const auto sum = [](std::string_view text) {
@@ -52,6 +93,51 @@ TEST_CASE("values: sizes are in powers of 1024") {
     CHECK(tools::parse_size("--memory", "1T") == std::uint64_t{1} << 40);
     for (const char* bad : {"", "M", "0", "-1G", "4X", "4GG", "4Gb2", "1e30", "0.1"})
         CHECK_THROWS_AS(static_cast<void>(tools::parse_size("--memory", bad)), tools::failure);
+}
+
+TEST_CASE("free memory: of the machine, with swap; 0 where it does not say") {
+    const made_up_system machine;
+    CHECK(machine.free() == 5500 * 1024);
+    machine.put("proc/self/cgroup", "4:memory:/nowhere\nno line\n0::/\n");
+    CHECK(machine.free() == 5500 * 1024);
+    machine.put("proc/meminfo", "MemTotal:  9000 kB\nMemFree:   1000 kB\n");
+    CHECK(machine.free() == 0);
+    CHECK(tools::free_memory("/no/such/folder") == 0);
+}
+
+TEST_CASE("free memory: the tightest control group on the way counts, pages of files do not") {
+    const made_up_system machine;
+    const auto second = {"memory.max", "memory.current", "memory.stat"};
+    machine.put("proc/self/cgroup", "0::/outer/inner\n");
+    machine.put_group("outer", second, {"1000000\n", "600000\n", "anon 1\n"});
+    CHECK(machine.free() == 400000);
+    machine.put_group("outer/inner", second, {"max\n", "600000\n", ""});
+    CHECK(machine.free() == 400000);
+    machine.put_group("outer/inner", second,
+                      {"700000\n", "600000\n", "active_file 20000\ninactive_file 30000\n"});
+    CHECK(machine.free() == 150000);
+    machine.put_group("outer/inner", second, {"700000\n", "800000\n", ""});
+    CHECK(machine.free() == 0);
+    machine.put_group("outer/inner", second, {"90000000\n", "0\n", ""});
+    CHECK(machine.free() == 400000);
+}
+
+TEST_CASE("free memory: in version 1 of control groups, too, and in a container") {
+    const made_up_system machine;
+    const auto first = {"memory.limit_in_bytes", "memory.usage_in_bytes", "memory.stat"};
+    machine.put("proc/self/cgroup", "9:cpu:/c\n4:pids,memory:/docker/7\n0::/\n");
+    machine.put_group("memory", first, {"9223372036854771712\n", "1000\n", ""});
+    CHECK(machine.free() == 5500 * 1024);
+    machine.put_group("memory", first, {"3000\n", "1000\n", "total_inactive_file 500\n"});
+    CHECK(machine.free() == 2500);
+    machine.put_group("memory/docker/7", first, {"2000\n", "1000\n", ""});
+    CHECK(machine.free() == 1000);
+}
+
+TEST_CASE("words: bytes are told in powers of 1000") {
+    CHECK(tools::in_bytes(512'000'000) == "512 MB");
+    CHECK(tools::in_bytes(1'000'000'000) == "1.0 GB");
+    CHECK(tools::in_bytes(22'449'999'999) == "22.4 GB");
 }
 
 TEST_CASE("words: numbers are grouped, and counted in the singular") {

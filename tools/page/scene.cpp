@@ -1,4 +1,4 @@
-#include "tools/common/page/scene.hpp"
+#include "tools/page/scene.hpp"
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>

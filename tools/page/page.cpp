@@ -1,7 +1,7 @@
-#include "tools/common/page/page.hpp"
+#include "tools/page/page.hpp"
 
 #include "tools/common/console.hpp"
-#include "tools/common/page/assets.hpp"
+#include "tools/page/assets.hpp"
 #include <treeform/tf.hpp>
 
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 /// \file
 /// A report as one HTML file that needs nothing else: words, tables, a 3D view.
 
-#include "tools/common/page/scene.hpp"
+#include "tools/page/scene.hpp"
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 

@@ -1,0 +1,195 @@
+/// \file
+/// Holes, cracks and edges that do not fit: what repair fills.
+
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/random.hpp>
+#include <support/repaired.hpp>
+#include <support/solids.hpp>
+#include <support/soups.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using test::is_manifold_in_coordinates;
+using test::require_solid;
+using test::turn;
+
+constexpr std::uint32_t none = tf::repair_result::none;
+
+std::array<tf::point3, 3> triangle(const tf::mesh& mesh, std::size_t f) {
+    const auto [a, b, c] = mesh.faces[f];
+    return {mesh.points[a], mesh.points[b], mesh.points[c]};
+}
+
+/// Each face with corners of its own, moved by up to `by`.
+tf::mesh torn(const tf::mesh& mesh, double by) {
+    test::random source(7);
+    tf::mesh soup;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+        for (const tf::point3& p : triangle(mesh, f))
+            soup.points.push_back(
+                {p.x + source.in(-by, by), p.y + source.in(-by, by), p.z + source.in(-by, by)});
+        soup.faces.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+    }
+    return soup;
+}
+
+}  // namespace
+
+TEST_CASE("repair: missing faces are filled, and faces around them stay") {
+    const tf::mesh ball = test::ball(3, 1.0);
+    tf::mesh dirty = ball;
+    dirty.faces.erase(dirty.faces.begin() + 10);
+    dirty.faces.erase(dirty.faces.begin() + 100, dirty.faces.begin() + 103);
+    const tf::repair_result result = tf::repair(dirty);
+    REQUIRE(result.certificate);
+    CHECK(result.statistics.holes >= 2);
+    CHECK(result.mesh.faces.size() == ball.faces.size());
+    std::uint64_t filled = 0;
+    for (std::size_t f = 0; f < result.face_source.size(); ++f) {
+        if (result.face_source[f] == none)
+            ++filled;
+        else
+            CHECK(triangle(result.mesh, f) == triangle(dirty, result.face_source[f]));
+    }
+    CHECK(filled == 4);
+    CHECK(filled == result.statistics.filled);
+    CHECK(tf::repair(dirty, {.largest_hole = 2}).certificate.status == tf::status::open_input);
+    CHECK(tf::repair(dirty, {.fill = false}).certificate.open_count > 0);
+}
+
+TEST_CASE("repair: a large hole of a ball is filled by a part of a ball, a flat one stays flat") {
+    const tf::mesh ball = test::ball(4, 1.0);
+    tf::mesh dirty = ball;
+    std::erase_if(dirty.faces, [&](const tf::face& f) {
+        return ball.points[f[0]].z > 0.8 || ball.points[f[1]].z > 0.8 || ball.points[f[2]].z > 0.8;
+    });
+    const tf::repair_result result = tf::repair(dirty);
+    REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+    CHECK(result.statistics.holes == 1);
+    for (std::size_t v = 0; v < result.mesh.points.size(); ++v) {
+        const tf::point3& p = result.mesh.points[v];
+        const double radius = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+        CHECK(radius == doctest::Approx(1.0).epsilon(0.02));
+        const bool is_given = result.vertex_source[v] != none;
+        CHECK((is_given ? p == dirty.points[result.vertex_source[v]] : p.z > 0.6));
+    }
+    CHECK(tf::signed_volume(result.mesh) > 0.995 * tf::signed_volume(ball));
+
+    tf::mesh block = test::inside_out(test::grid(8));  // its floor; the lid has a hole of 16 edges
+    tf::mesh lid = test::moved(test::grid(8), {0, 0, 1});
+    std::erase_if(lid.faces, [&](const tf::face& f) {
+        const tf::point3& p = lid.points[f[0]];
+        return p.x >= 2 && p.x < 6 && p.y >= 2 && p.y < 6;
+    });
+    block = test::together(block, lid);
+    for (std::uint32_t i = 0; i < 8; ++i)
+        for (const auto& [a, b] : {std::pair{i, i + 1}, std::pair{73 + i, 72 + i},
+                                   std::pair{9 * i + 9, 9 * i}, std::pair{9 * i + 8, 9 * i + 17}}) {
+            block.faces.push_back({a, b, b + 81});
+            block.faces.push_back({a, b + 81, a + 81});
+        }
+    const tf::repair_result flat = tf::repair(block);
+    REQUIRE_MESSAGE(flat.certificate, flat.certificate.message());
+    CHECK(tf::signed_volume(flat.mesh) == 64.0);
+    CHECK(flat.statistics.filled == 14);
+    CHECK(flat.mesh.points.size() == block.points.size() - 9);
+}
+
+TEST_CASE("repair: cracks are zipped, however the faces are turned") {
+    const tf::mesh ball = test::ball(3, 1.0);
+    tf::mesh soup = torn(ball, 1e-5);
+    turn(soup.faces[77]);
+    const tf::repair_result result = tf::repair(soup);
+    REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+    CHECK(result.mesh.points.size() == ball.points.size());
+    CHECK(result.mesh.faces.size() == ball.faces.size());
+    CHECK(tf::signed_volume(result.mesh) == doctest::Approx(tf::signed_volume(ball)).epsilon(1e-4));
+    CHECK(result.statistics.closed_edges > ball.faces.size());
+    CHECK(result.statistics.widest <= 4e-5);
+    CHECK(result.statistics.widest > 0.0);
+    CHECK(result.statistics.flipped == 1);
+    CHECK(result.statistics.filled == 0);
+    // A crack wider than the gap stays one.
+    CHECK(tf::repair(soup, {.fill = false, .gap = 1e-7}).certificate.status ==
+          tf::status::open_input);
+}
+
+TEST_CASE("repair: an edge is split at the vertices that lie on it") {
+    tf::mesh dirty = test::box(2, 2, 2);  // the edge from 0 to 1 has a vertex on one side only
+    dirty.points.push_back({1, 0, 0});
+    dirty.faces[0] = {0, 2, 8};
+    dirty.faces.push_back({2, 1, 8});
+    const tf::repair_result result = tf::repair(dirty);
+    require_solid(result, 8.0);
+    CHECK(result.statistics.split_edges == 1);
+    CHECK(result.statistics.widest == 0.0);
+    CHECK(result.mesh.faces.size() == 14);
+}
+
+TEST_CASE("repair: a face without area leaves no hole") {
+    tf::mesh dirty = test::box(2, 2, 2);
+    dirty.points.push_back({1, 0, 0});
+    dirty.faces[0] = {0, 2, 8};
+    dirty.faces.push_back({2, 1, 8});
+    dirty.faces.push_back({0, 8, 1});
+    const tf::repair_result result = tf::repair(dirty);
+    require_solid(result, 8.0);
+    CHECK(result.statistics.degenerate == 1);
+    CHECK(result.statistics.split_edges == 1);
+}
+
+TEST_CASE("repair: a cavity stays one where the filling of a hole passes through it") {
+    const tf::mesh inner = test::ball(3, 0.8);
+    tf::mesh dirty = test::ball(4, 1.0);
+    std::erase_if(dirty.faces, [&](const tf::face& f) { return dirty.points[f[0]].z > 0.5; });
+    dirty = test::together(dirty, test::inside_out(inner));
+    const tf::repair_result result = tf::repair(dirty);
+    REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+    CHECK(result.statistics.turned == 0);
+    const double full = tf::signed_volume(test::ball(4, 1.0));
+    CHECK(tf::signed_volume(result.mesh) < full - 0.8 * tf::signed_volume(inner));
+}
+
+TEST_CASE("repair: a hole along an edge of three faces is filled") {
+    tf::mesh dirty = test::box(1, 1, 1);
+    dirty.points.insert(dirty.points.end(), {{0.4, 0.4, -2}, {0.3, 0.5, -1}});
+    // An open cone on the edge from 0 to 1: with what fills it, a body of its own.
+    dirty.faces.insert(dirty.faces.end(), {{1, 0, 8}, {9, 1, 8}, {0, 9, 8}});
+    const tf::repair_result result = tf::repair(dirty);
+    REQUIRE_MESSAGE(result.certificate, result.certificate.message());
+    CHECK(is_manifold_in_coordinates(result.mesh));
+    CHECK(result.statistics.filled == 1);
+    CHECK(tf::signed_volume(result.mesh) > 1.05);
+}
+
+TEST_CASE("repair: a sheet is not filled, half of a ball is") {
+    tf::mesh part = test::ball(4, 1.0);
+    std::erase_if(part.faces, [&](const tf::face& f) {
+        return part.points[f[0]].z + part.points[f[1]].z + part.points[f[2]].z < 0.0;
+    });
+    const tf::repair_result half = tf::repair(part);
+    REQUIRE_MESSAGE(half.certificate, half.certificate.message());
+    CHECK(tf::signed_volume(half.mesh) == doctest::Approx(2.07).epsilon(0.01));
+    std::erase_if(part.faces, [&](const tf::face& f) { return part.points[f[0]].z < 0.7; });
+    const tf::repair_result sheet = tf::repair(part);
+    CHECK(sheet.certificate.status == tf::status::open_input);
+    CHECK(sheet.statistics.holes == 0);
+    CHECK(tf::repair(part, {.max_loss = 1.0}).certificate);  // a lens
+}
