@@ -3,8 +3,6 @@
 
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -13,16 +11,11 @@
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <stdexcept>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace {
 

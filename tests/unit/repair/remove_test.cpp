@@ -1,16 +1,12 @@
 /// \file
 /// Faces that meet, removed, and the holes they leave.
 
-#include <libmesh/base/build_face_tree.hpp>
-#include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/repair/greedy_vertex_cover.hpp>
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
-#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/solids.hpp>
@@ -21,10 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <set>
-#include <stdexcept>
-#include <utility>
 #include <vector>
 
 namespace {

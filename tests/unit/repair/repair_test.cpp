@@ -4,7 +4,6 @@
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -15,18 +14,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace {
 
-using test::is_manifold_in_coordinates;
 using test::require_solid;
 using test::turn;
 

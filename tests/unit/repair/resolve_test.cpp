@@ -3,8 +3,6 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/intersect/point_locator.hpp>
-#include <libmesh/repair/greedy_vertex_cover.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
@@ -17,12 +15,10 @@
 #include <support/soups.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
