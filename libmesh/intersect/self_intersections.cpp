@@ -3,6 +3,7 @@
 #include <libmesh/base/checked_face_tree.hpp>
 #include <libmesh/base/first_bad.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/intersect/height_field_nodes.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
 #include <libmesh/intersect/narrow_phase.hpp>
 #include <libmesh/intersect/own_candidates.hpp>
@@ -72,7 +73,10 @@ self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
     const auto pair_start = std::chrono::steady_clock::now();
     const detail::buffer<detail::intersect::numbered_face> faces = leaf_order(mesh, tree);
     const detail::intersect::own_faces own{mesh.points, faces.span(), &options, fits_filter(tree)};
-    const self_search<3> search(tree);
+    const node_marks<3> fields =
+        own.filtered ? detail::intersect::find_height_fields(mesh.points, faces.span(), tree)
+                     : node_marks<3>(tree);
+    const self_search<3> search(tree, fields);
     std::vector<detail::intersect::narrow_phase_output> found(search.chunks());
     detail::intersect::search_progress progress(options.progress, search.chunks());
     std::atomic<std::size_t> last{search.chunks()};  // the first chunk that found enough

@@ -19,6 +19,7 @@ namespace {
 template <std::size_t D>
 struct self_traversal {
     const tree<D>& t;
+    const node_marks<D>* settled;
     candidate_sink& sink;
     search_statistics seen{};
 
@@ -47,6 +48,7 @@ struct self_traversal {
 
     /// All pairs among the primitives below one node.
     void self(unsigned level, std::size_t a) {
+        if (settled != nullptr && (*settled)(level, a)) return;
         const wide_node<D>& node = t.level(level)[a];
         const std::size_t count = t.children(level, a);
         ++seen.nodes;
@@ -82,12 +84,13 @@ struct self_traversal {
 
 /// The overlapping node pairs of the level below, in the order the serial search meets them.
 template <std::size_t D>
-void descend(const tree<D>& t, unsigned level, std::span<const node_pair> pairs,
-             std::vector<node_pair>& below) {
+void descend(const tree<D>& t, const node_marks<D>* settled, unsigned level,
+             std::span<const node_pair> pairs, std::vector<node_pair>& below) {
     const auto push = [&](std::size_t a, std::size_t b) {
         below.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
     };
     for (const auto [a, b] : pairs) {
+        if (a == b && settled != nullptr && (*settled)(level, a)) continue;
         const wide_node<D>& node_a = t.level(level)[a];
         const wide_node<D>& node_b = t.level(level)[b];
         for (std::size_t i = 0; i < t.children(level, a); ++i) {
@@ -103,10 +106,10 @@ void descend(const tree<D>& t, unsigned level, std::span<const node_pair> pairs,
 }
 
 template <std::size_t D>
-search_statistics search_items(const tree<D>& t, unsigned level, std::span<const node_pair> items,
-                               block_visitor visit) {
+search_statistics search_items(const tree<D>& t, const node_marks<D>* settled, unsigned level,
+                               std::span<const node_pair> items, block_visitor visit) {
     candidate_sink sink(visit);
-    self_traversal<D> traversal{t, sink};
+    self_traversal<D> traversal{t, settled, sink};
     for (std::size_t i = 0; i < items.size() && !sink.stopped(); ++i)
         traversal.visit(level, items[i]);
     sink.flush();
@@ -114,21 +117,21 @@ search_statistics search_items(const tree<D>& t, unsigned level, std::span<const
     return traversal.seen;
 }
 
-void descend_2(const tree<2>& t, unsigned level, std::span<const node_pair> pairs,
-               std::vector<node_pair>& below) {
-    descend(t, level, pairs, below);
+void descend_2(const tree<2>& t, const node_marks<2>* settled, unsigned level,
+               std::span<const node_pair> pairs, std::vector<node_pair>& below) {
+    descend(t, settled, level, pairs, below);
 }
-void descend_3(const tree<3>& t, unsigned level, std::span<const node_pair> pairs,
-               std::vector<node_pair>& below) {
-    descend(t, level, pairs, below);
+void descend_3(const tree<3>& t, const node_marks<3>* settled, unsigned level,
+               std::span<const node_pair> pairs, std::vector<node_pair>& below) {
+    descend(t, settled, level, pairs, below);
 }
-search_statistics search_items_2(const tree<2>& t, unsigned level, std::span<const node_pair> items,
-                                 block_visitor visit) {
-    return search_items(t, level, items, visit);
+search_statistics search_items_2(const tree<2>& t, const node_marks<2>* settled, unsigned level,
+                                 std::span<const node_pair> items, block_visitor visit) {
+    return search_items(t, settled, level, items, visit);
 }
-search_statistics search_items_3(const tree<3>& t, unsigned level, std::span<const node_pair> items,
-                                 block_visitor visit) {
-    return search_items(t, level, items, visit);
+search_statistics search_items_3(const tree<3>& t, const node_marks<3>* settled, unsigned level,
+                                 std::span<const node_pair> items, block_visitor visit) {
+    return search_items(t, settled, level, items, visit);
 }
 
 }  // namespace
@@ -145,21 +148,21 @@ HWY_EXPORT(descend_3);
 HWY_EXPORT(search_items_2);
 HWY_EXPORT(search_items_3);
 
-void descend(const tree<2>& t, unsigned level, std::span<const node_pair> pairs,
-             std::vector<node_pair>& below) {
-    HWY_DYNAMIC_DISPATCH(descend_2)(t, level, pairs, below);
+void descend(const tree<2>& t, const node_marks<2>* settled, unsigned level,
+             std::span<const node_pair> pairs, std::vector<node_pair>& below) {
+    HWY_DYNAMIC_DISPATCH(descend_2)(t, settled, level, pairs, below);
 }
-void descend(const tree<3>& t, unsigned level, std::span<const node_pair> pairs,
-             std::vector<node_pair>& below) {
-    HWY_DYNAMIC_DISPATCH(descend_3)(t, level, pairs, below);
+void descend(const tree<3>& t, const node_marks<3>* settled, unsigned level,
+             std::span<const node_pair> pairs, std::vector<node_pair>& below) {
+    HWY_DYNAMIC_DISPATCH(descend_3)(t, settled, level, pairs, below);
 }
-search_statistics search_items(const tree<2>& t, unsigned level, std::span<const node_pair> items,
-                               block_visitor visit) {
-    return HWY_DYNAMIC_DISPATCH(search_items_2)(t, level, items, visit);
+search_statistics search_items(const tree<2>& t, const node_marks<2>* settled, unsigned level,
+                               std::span<const node_pair> items, block_visitor visit) {
+    return HWY_DYNAMIC_DISPATCH(search_items_2)(t, settled, level, items, visit);
 }
-search_statistics search_items(const tree<3>& t, unsigned level, std::span<const node_pair> items,
-                               block_visitor visit) {
-    return HWY_DYNAMIC_DISPATCH(search_items_3)(t, level, items, visit);
+search_statistics search_items(const tree<3>& t, const node_marks<3>* settled, unsigned level,
+                               std::span<const node_pair> items, block_visitor visit) {
+    return HWY_DYNAMIC_DISPATCH(search_items_3)(t, settled, level, items, visit);
 }
 
 // Where the search is cut: at the first level with enough pairs of nodes, in pieces of a few. Both
@@ -171,12 +174,14 @@ constexpr std::size_t items_per_chunk = 16;
 }  // namespace detail
 
 template <std::size_t D>
-self_search<D>::self_search(const tree<D>& tree) : tree_(&tree) {
+self_search<D>::self_search(const tree<D>& tree, const node_marks<D>* settled)
+    : tree_(&tree), settled_(settled) {
     if (tree.empty()) return;
     items_ = {{0, 0}};
     while (!tree.is_leaf_level(level_) && items_.size() < detail::enough_items) {
         std::vector<detail::node_pair> below;
-        detail::descend(tree, level_, items_, below);
+        detail::descend(tree, settled, level_, items_, below);
+        if (below.empty()) break;
         items_ = std::move(below);
         ++level_;
     }
@@ -192,7 +197,8 @@ search_statistics self_search<D>::visit(
     std::size_t chunk, detail::function_ref<bool(const candidate_block&)> visit) const {
     const std::size_t begin = chunk * detail::items_per_chunk;
     const std::size_t count = std::min(detail::items_per_chunk, items_.size() - begin);
-    return detail::search_items(*tree_, level_, std::span(items_).subspan(begin, count), visit);
+    return detail::search_items(*tree_, settled_, level_, std::span(items_).subspan(begin, count),
+                                visit);
 }
 
 template class self_search<2>;

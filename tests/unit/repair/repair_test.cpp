@@ -23,6 +23,7 @@
 
 namespace {
 
+using test::is_manifold_in_coordinates;
 using test::require_solid;
 using test::turn;
 

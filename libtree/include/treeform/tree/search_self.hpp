@@ -18,6 +18,26 @@
 
 namespace treeform {
 
+/// Nodes of a tree, marked.
+template <std::size_t D>
+class node_marks {
+  public:
+    /// None.
+    explicit node_marks(const tree<D>& tree) : marks_(tree.levels()) {
+        for (unsigned level = 0; level < tree.levels(); ++level)
+            marks_[level].resize(tree.nodes_in_level(level));
+    }
+
+    [[nodiscard]] bool operator()(unsigned level, std::size_t node) const {
+        return marks_[level][node] != 0;
+    }
+    /// May be called for different nodes at once.
+    void mark(unsigned level, std::size_t node) { marks_[level][node] = 1; }
+
+  private:
+    std::vector<std::vector<std::uint8_t>> marks_;  ///< [levels][nodes]
+};
+
 /// The search of a tree by itself, cut into chunks that depend on the tree alone.
 ///
 /// The caller runs the chunks, as a rule with `for_chunks(search.chunks(), 1, ...)`, and keeps a
@@ -29,7 +49,11 @@ template <std::size_t D>
 class TREEFORM_API self_search {
   public:
     /// \pre `tree` outlives the search and is not rebuilt meanwhile
-    explicit self_search(const tree<D>& tree);
+    explicit self_search(const tree<D>& tree) : self_search(tree, nullptr) {}
+
+    /// Without the pairs among the primitives below a marked node.
+    /// \pre so do `settled`
+    self_search(const tree<D>& tree, const node_marks<D>& settled) : self_search(tree, &settled) {}
 
     [[nodiscard]] std::size_t chunks() const;
 
@@ -42,7 +66,10 @@ class TREEFORM_API self_search {
                             detail::function_ref<bool(const candidate_block&)> visit) const;
 
   private:
+    self_search(const tree<D>& tree, const node_marks<D>* settled);
+
     const tree<D>* tree_;
+    const node_marks<D>* settled_;
     unsigned level_ = 0;  ///< of the nodes that the items pair
     std::vector<detail::node_pair> items_;
 };

@@ -1,0 +1,135 @@
+/// \file
+/// Height fields: which patches are certainly free of pairs that meet, and that none is wrong.
+
+#include <libmesh/intersect/classify_pair.hpp>
+#include <libmesh/intersect/height_field.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/random.hpp>
+#include <support/soups.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace {
+
+namespace detail = tf::detail::intersect;
+
+bool is_height_field(const tf::mesh& mesh) {
+    std::vector<detail::numbered_face> patch;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
+        patch.push_back({mesh.faces[f][0], mesh.faces[f][1], mesh.faces[f][2], f});
+    const auto test = std::make_unique<detail::height_field_test>(mesh.points);
+    return (*test)(patch);
+}
+
+bool has_pair_that_meets(const tf::mesh& mesh) {
+    tf::predicate_counters counters;
+    for (std::size_t i = 0; i < mesh.faces.size(); ++i)
+        for (std::size_t j = i + 1; j < mesh.faces.size(); ++j)
+            if (detail::classify_pair(mesh.points, mesh.faces[i], mesh.faces[j], counters))
+                return true;
+    return false;
+}
+
+tf::mesh axes_turned(tf::mesh mesh) {
+    for (tf::point3& p : mesh.points) p = {p.z, p.x, p.y};
+    return mesh;
+}
+
+/// A strip of quads around the z-axis, `angle` round in all, rising by `pitch` each turn.
+tf::mesh ramp(double angle, double pitch, bool is_ring = false) {
+    tf::mesh mesh;
+    constexpr std::uint32_t steps = 40;
+    for (std::uint32_t i = 0; i <= steps; ++i) {
+        const double a = angle * i / steps;
+        for (const double r : {1.0, 2.0})
+            mesh.points.push_back(
+                {r * std::cos(a), r * std::sin(a), pitch * a / (2 * std::numbers::pi)});
+    }
+    for (std::uint32_t i = 0; i < steps; ++i) {
+        const std::uint32_t p = 2 * i, q = is_ring && i + 1 == steps ? 0 : p + 2;
+        mesh.faces.push_back({p, p + 1, q});
+        mesh.faces.push_back({p + 1, q + 1, q});
+    }
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("height fields: a sheet is one over any coordinate plane and on either side") {
+    tf::mesh sheet = test::grid(15);  // 450 faces
+    REQUIRE(sheet.faces.size() <= detail::height_field_test::max_faces);
+    for (tf::point3& p : sheet.points) p.z = std::sin(p.x) * std::cos(p.y);
+    for (int turns = 0; turns < 3; ++turns) {
+        CHECK(is_height_field(sheet));
+        CHECK(is_height_field(test::inside_out(sheet)));
+        sheet = axes_turned(sheet);
+    }
+    std::swap(sheet.faces[7][0], sheet.faces[7][1]);
+    CHECK_FALSE(is_height_field(sheet));
+}
+
+TEST_CASE("height fields: patches with holes, of several pieces, or joined at a corner are, too") {
+    tf::mesh sheet = test::grid(9);
+    sheet.faces.erase(sheet.faces.begin() + 60, sheet.faces.begin() + 62);
+    sheet.faces.erase(sheet.faces.begin() + 20, sheet.faces.begin() + 22);
+    CHECK(is_height_field(sheet));
+    CHECK(is_height_field(test::together(sheet, test::moved(sheet, {100, 3, 5}))));
+    CHECK(is_height_field(ramp(2 * std::numbers::pi, 0, true)));
+
+    tf::mesh corner;
+    corner.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
+    corner.faces = {{0, 1, 2}, {0, 3, 4}};
+    CHECK(is_height_field(corner));
+}
+
+TEST_CASE("height fields: what covers a point of the plane twice is none") {
+    const tf::mesh sheet = test::grid(9);
+    CHECK_FALSE(is_height_field(test::together(sheet, test::moved(sheet, {0, 0, 1}))));
+    CHECK_FALSE(is_height_field(
+        test::together(sheet, test::moved(test::scaled(sheet, 0.5), {2.1, 2.1, 1}))));  // above it
+    CHECK_FALSE(is_height_field(ramp(3 * std::numbers::pi, 1)));
+    CHECK(is_height_field(ramp(1.5 * std::numbers::pi, 1)));
+    tf::mesh corner;  // faces on top of each other that share a corner
+    corner.points = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {3, 1, 1}, {3, 2, 1}};
+    corner.faces = {{0, 1, 2}, {0, 3, 4}};
+    CHECK_FALSE(is_height_field(corner));
+    corner.points = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {1, 0, 0}, {1, -1, 0}};  // edges in line
+    corner.faces = {{0, 1, 2}, {0, 4, 3}};
+    CHECK_FALSE(is_height_field(corner));
+}
+
+TEST_CASE("height fields: of random patches on lattices, none has a pair that meets") {
+    test::random source(3);
+    const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(source.below(n)); };
+    std::size_t fields = 0, others = 0, meeting = 0;
+    for (int round = 0; round < 60'000; ++round) {
+        const std::uint32_t side = 3 + below(3);
+        tf::mesh mesh;
+        const std::uint32_t points = 4 + below(9);
+        for (std::uint32_t p = 0; p < points; ++p)
+            mesh.points.push_back({double(below(side)), double(below(side)), double(below(2))});
+        const std::uint32_t faces = 2 + below(6);
+        for (int tries = 0; tries < 100 && mesh.faces.size() < faces; ++tries) {
+            const tf::face f{below(points), below(points), below(points)};
+            const tf::point3 a = mesh.points[f[0]], b = mesh.points[f[1]], c = mesh.points[f[2]];
+            if ((b.x - a.x) * (c.y - a.y) > (b.y - a.y) * (c.x - a.x)) mesh.faces.push_back(f);
+        }
+        if (mesh.faces.empty()) continue;
+        const bool is_field = is_height_field(mesh), meets = has_pair_that_meets(mesh);
+        REQUIRE_FALSE((is_field && meets));
+        ++(is_field ? fields : others);
+        meeting += meets;
+    }
+    CHECK(fields > 1'000);
+    CHECK(others > 1'000);
+    CHECK(meeting > 1'000);
+}
