@@ -244,8 +244,8 @@ unmended_result split_of(std::span<const mesh_view> operands, const rounding_try
     return made;
 }
 
-/// The result as it is returned: a solid as a manifold.
-boolean_result finished(boolean_result&& result, bool solid, precision of) {
+/// The result as it is returned: a solid as a manifold, which takes a `split` where it may not be one.
+boolean_result finished(boolean_result&& result, bool split, precision of) {
     detail::base::describe(result.certificate, result.mesh, of);
     if (!result.certificate) return std::move(result);
     if (result.mesh.faces.empty() && result.statistics.exact_faces > 0) {
@@ -253,7 +253,7 @@ boolean_result finished(boolean_result&& result, bool solid, precision of) {
         result.certificate.vanished_faces = result.statistics.exact_faces;
         return std::move(result);
     }
-    if (!solid) return std::move(result);
+    if (!split) return std::move(result);
     detail::boolean::manifold_surface manifold =
         detail::boolean::split_nonmanifold(std::move(result.mesh));
     result.mesh = std::move(manifold.surface);
@@ -265,61 +265,95 @@ boolean_result finished(boolean_result&& result, bool solid, precision of) {
     return std::move(result);
 }
 
-/// What `make` makes of the operands: checked, mended where rounding asks for it, as returned.
-template <class Make>
-boolean_result evaluate(const char* function, std::span<const mesh_view> operands,
-                        const boolean_options& options, bool solid, const Make& make) {
+/// What `run` returns for operands that can be computed with.
+template <class Run>
+boolean_result with_checks(const char* function, std::span<const mesh_view> operands,
+                           const boolean_options& options, const Run& run) {
     detail::boolean::check_operands(function, operands);
     if (!(options.max_displacement >= 0.0))
         throw std::invalid_argument("treeform::" + std::string(function) +
                                     ": the largest displacement is negative or not a number");
     try {
-        return finished(detail::boolean::with_mended_operands(operands, options, make), solid,
-                        options.precision);
+        return run();
     } catch (const std::invalid_argument&) {  // where an operand is to blame, its face is named
         detail::boolean::check_coordinates(function, operands);
         throw;
     }
 }
 
-/// The two operands where both are prepared and sound. `looked` is the share of the work that it
-/// took to find out: none where it is known.
-std::optional<detail::boolean::prepared_pair> sound_pair_of(std::span<const mesh_operand> operands,
-                                                            const progress_callback& progress,
-                                                            double& looked) {
-    if (operands.size() != 2) return std::nullopt;
-    const detail::boolean::prepared_pair pair{operands[0].prepared(), operands[1].prepared()};
-    if (pair[0] == nullptr || pair[1] == nullptr) return std::nullopt;
+/// What `make` makes of the operands, mended where rounding asks for it, as returned.
+template <class Make>
+boolean_result evaluate(const char* function, std::span<const mesh_view> operands,
+                        const boolean_options& options, bool solid, const Make& make) {
+    return with_checks(function, operands, options, [&] {
+        return finished(detail::boolean::with_mended_operands(operands, options, make), solid,
+                        options.precision);
+    });
+}
+
+/// Whether both operands are sound, and the share of the work that it took to find out: none where
+/// it is known.
+std::pair<bool, double> are_sound(const detail::boolean::prepared_pair& operands,
+                                  const progress_callback& progress) {
+    double looked = 0.0;
     const progress_callback report = [&](double done) {
         looked = done;
         return !progress || progress(done);
     };
-    for (const prepared_mesh* operand : pair)
-        if (!detail::boolean::is_sound(*operand, part_of(report, looked, looked + 0.3)))
-            return std::nullopt;
-    return pair;
+    const bool sound = std::all_of(operands.begin(), operands.end(), [&](const auto* operand) {
+        return detail::boolean::is_sound(*operand, part_of(report, looked, looked + 0.3));
+    });
+    return {sound, looked};
+}
+
+/// What `expression` makes of two operands if they are sound and nothing else is asked for.
+std::optional<boolean_result> result_of_pair(std::span<const mesh_operand> operands,
+                                             const boolean_expression& expression,
+                                             const boolean_options& options) {
+    if (operands.size() != 2 || options.simplify || options.volumes ||
+        options.precision == precision::float32)
+        return std::nullopt;
+    std::array<prepared_mesh, 2> own;
+    detail::boolean::prepared_pair pair;
+    for (std::size_t k = 0; k < 2; ++k) {
+        pair[k] = operands[k].prepared();
+        if (pair[k] != nullptr) continue;
+        own[k] = prepared_mesh::borrow(operands[k].view());
+        pair[k] = &own[k];
+    }
+    const auto [sound, looked] = are_sound(pair, options.progress);
+    if (!sound) return std::nullopt;
+    boolean_options rest = options;
+    rest.progress = part_of(options.progress, looked, 1.0);
+    const bool once = operands[0].prepared() == nullptr || operands[1].prepared() == nullptr;
+    auto made = detail::boolean::boolean_of_sound_pair(pair, once, expression, rest);
+    if (!made) return std::nullopt;
+    return finished(std::move(made->result), !made->is_manifold, options.precision);
 }
 
 boolean_result evaluate(const char* function, std::span<const mesh_operand> operands,
                         const boolean_expression& expression, const boolean_options& options) {
     std::vector<mesh_view> views;
     for (const mesh_operand& operand : operands) views.push_back(operand.view());
-    return evaluate(function, views, options, true, [&](auto given, const auto& how) {
-        if (given.data() != views.data() || how.simplify || how.volumes)
-            return boolean_of(given, expression, how);
-        check_expression("boolean", given, expression);
-        double looked = 0.0;
+    return with_checks(function, views, options, [&] {
+        check_expression("boolean", views, expression);
+        boolean_options now = options;
+        double done = 0.0;
+        now.progress = [&](double share) {
+            done = share;
+            return !options.progress || options.progress(share);
+        };
         try {
-            const auto pair = sound_pair_of(operands, how.progress, looked);
-            rounding_try rest = how;
-            rest.progress = part_of(how.progress, looked, 1.0);
-            if (pair)
-                if (auto result = detail::boolean::boolean_of_sound_pair(*pair, expression, rest))
-                    return unmended_result{std::move(*result), {}};
-            return boolean_of(given, expression, rest);
+            if (auto result = result_of_pair(operands, expression, now)) return std::move(*result);
         } catch (const detail::boolean::stopped&) {
-            return unmended_result{with_counts({}), {}};
+            return finished(with_counts({}), false, options.precision);
         }
+        now.progress = part_of(options.progress, done, 1.0);
+        return finished(
+            detail::boolean::with_mended_operands(
+                views, now,
+                [&](auto given, const auto& how) { return boolean_of(given, expression, how); }),
+            true, options.precision);
     });
 }
 
@@ -327,9 +361,8 @@ boolean_result evaluate(const char* function, std::span<const mesh_operand> oper
 
 boolean_result boolean(std::span<const mesh_view> operands, const boolean_expression& expression,
                        const boolean_options& options) {
-    return evaluate("boolean", operands, options, true, [&](auto given, const auto& how) {
-        return boolean_of(given, expression, how);
-    });
+    return boolean(std::vector<mesh_operand>(operands.begin(), operands.end()), expression,
+                   options);
 }
 
 boolean_result boolean(std::span<const mesh_operand> operands, const boolean_expression& expression,

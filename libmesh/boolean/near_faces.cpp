@@ -1,13 +1,16 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/compact.hpp>
+#include <libmesh/base/face_boxes.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/boolean/leaf_blocks.hpp>
 #include <libmesh/boolean/near_faces.hpp>
 #include <libmesh/intersect/classify_pair.hpp>
+#include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/predicates.hpp>
+#include <treeform/tree/build.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search_pair.hpp>
 
@@ -21,85 +24,158 @@ namespace {
 
 using ids = std::vector<std::uint32_t>;
 
-/// The blocks of two operands: which are near, and where the others are.
-class block_places {
+using marks = std::vector<std::uint8_t>;
+
+void mark(std::uint8_t& mark) { std::atomic_ref(mark).store(1, std::memory_order_relaxed); }
+bool is_marked(std::uint8_t& mark) {
+    return std::atomic_ref(mark).load(std::memory_order_relaxed) != 0;
+}
+
+/// Leaf blocks of each operand whose boxes overlap one of the other operand's.
+std::array<marks, 2> find_reached(const std::array<const leaf_blocks*, 2>& blocks) {
+    std::array reached{marks(blocks[0]->index.size()), marks(blocks[1]->index.size())};
+    for (const auto& part :
+         search<std::vector<id_pair>>(blocks[0]->index, blocks[1]->index,
+                                      [](std::vector<id_pair>&mine, std::uint32_t a,
+                                         std::uint32_t b) { mine.emplace_back(a, b); }))
+        for (const auto& [a, b] : part) reached[0][a] = reached[1][b] = 1;
+    return reached;
+}
+
+/// Faces of each operand whose boxes overlap that of a face of `pairs`, by leaf order.
+std::array<marks, 2> find_near(const prepared_pair& operands,
+                               const std::array<const tree<3>*, 2>& trees,
+                               const std::vector<face_pair>& pairs) {
+    std::vector<aabb<double, 3>> cut;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const mesh_view mesh = operands[k]->view();
+        ids met;
+        for (const face_pair& pair : pairs) met.push_back(k == 0 ? pair.a : pair.b);
+        std::sort(met.begin(), met.end());
+        met.erase(std::unique(met.begin(), met.end()), met.end());
+        for (const std::uint32_t f : met)
+            cut.push_back(base::face_boxes(mesh.points)(mesh.faces[f]));
+    }
+    const tree<3> around = build(cut, [](const aabb<double, 3>& box) { return box; });
+    std::array<marks, 2> near;
+    for (std::size_t k = 0; k < 2; ++k) {
+        near[k].resize(trees[k]->size());
+        (void)search_broad<int>(*trees[k], around, [&](int&, const candidate_block& block) {
+            for (const std::uint32_t place : block.first) mark(near[k][place]);
+        });
+    }
+    return near;
+}
+
+/// Where the faces of one operand are, of which some are near and the others not cut. Those of a
+/// block that is not reached are alike, and so are those at a point, and those of blocks that
+/// overlap, as long as they are not near or reached.
+class far_places {
   public:
-    explicit block_places(const prepared_pair& operands) : operands_(operands) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            faces_[k] = &build_face_tree(*operands[k]);
-            blocks_[k] = &leaf_blocks_of(*operands[k]);
-            place_[k].assign(blocks_[k]->index.size(), face_place::outside);
-        }
-        for (const auto& part :
-             search<std::vector<id_pair>>(blocks_[0]->index, blocks_[1]->index,
-                                          [](std::vector<id_pair>&mine, std::uint32_t a,
-                                             std::uint32_t b) { mine.emplace_back(a, b); }))
-            for (const auto& [a, b] : part) place_[0][a] = place_[1][b] = face_place::near;
+    far_places(mesh_view mesh, const tree<3>& faces, const leaf_blocks& blocks,
+               const marks& reached, const marks& near)
+        : mesh_(mesh),
+          face_at_(faces.ids()),
+          reached_(reached),
+          near_(near),
+          alike_(reached.size() + mesh.points.size()) {
+        join(blocks);
+        root_ = alike_.take_roots();
     }
 
-    /// Blocks that overlap one with a face that is cut are near.
-    void keep_around(const std::vector<face_pair>& pairs) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            std::vector<std::uint8_t> is_cut(operands_[k]->view().faces.size(), 0);
-            for (const face_pair& pair : pairs) is_cut[k == 0 ? pair.a : pair.b] = 1;
-            std::vector<std::uint8_t> has_cut(place_[k].size(), 0);
-            const std::span<const std::uint32_t> face_at = faces_[k]->ids();
-            for (std::size_t place = 0; place < face_at.size(); ++place)
-                has_cut[place / 8] |= is_cut[face_at[place]];
-            for (const auto& part : blocks_[k]->overlaps)
-                for (const auto& [x, y] : part) {
-                    if (has_cut[x] != 0) place_[k][y] = face_place::near;
-                    if (has_cut[y] != 0) place_[k][x] = face_place::near;
-                }
-        }
-    }
-
-    /// Tells of the other blocks whether they are inside: each set of those that overlap by a point.
-    void settle() {
-        for (std::size_t k = 0; k < 2; ++k) {
-            base::union_find alike(place_[k].size());
-            const auto is_far = [&](std::uint32_t b) { return place_[k][b] != face_place::near; };
-            for (const auto& part : blocks_[k]->overlaps)
-                for (const auto& [x, y] : part)
-                    if (is_far(x) && is_far(y)) alike.join(x, y);
-            const auto root = alike.take_roots();
-            ids roots;
-            std::vector<point3> asked;
-            for (std::uint32_t b = 0; b < place_[k].size(); ++b) {
-                if (!is_far(b) || root[b] != b) continue;
-                const mesh_view mesh = operands_[k]->view();
-                roots.push_back(b);
-                asked.push_back(mesh.points[mesh.faces[faces_[k]->ids()[8 * b]][0]]);
-            }
-            const auto found =
-                intersect::point_locator(operands_[1 - k]->view(), *faces_[1 - k]).locate(asked);
-            for (std::size_t i = 0; i < roots.size(); ++i)
-                if (found[i].where == location::inside) place_[k][roots[i]] = face_place::inside;
-            for (std::uint32_t b = 0; b < place_[k].size(); ++b)
-                if (is_far(b)) place_[k][b] = place_[k][root[b]];
-        }
-    }
-
-    /// Of faces, counted through.
-    [[nodiscard]] buffer<face_place> of_faces() const {
-        buffer<face_place> result(faces_[0]->size() + faces_[1]->size());
-        for (std::size_t k = 0, first = 0; k < 2; first += faces_[k++]->size()) {
-            const std::span<const std::uint32_t> face_at = faces_[k]->ids();
-            for_chunks(face_at.size(), light_grain,
-                       [&](std::size_t begin, std::size_t end, std::size_t) {
-                           for (std::size_t i = begin; i < end; ++i)
-                               result[first + face_at[i]] = place_[k][i / 8];
-                       });
+    /// A point of each set, by its root.
+    [[nodiscard]] std::pair<ids, std::vector<point3>> sets() const {
+        marks is_root(root_.size());
+        for_chunks(face_at_.size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t i = begin; i < end; ++i)
+                           if (near_[i] == 0 && !is_marked(is_root[root_[element(i)]]))
+                               mark(is_root[root_[element(i)]]);
+                   });
+        std::pair<ids, std::vector<point3>> result;
+        for (std::uint32_t e = 0; e < is_root.size(); ++e) {
+            if (is_root[e] == 0) continue;
+            result.first.push_back(e);
+            result.second.push_back(
+                mesh_.points[e < reached_.size() ? mesh_.faces[face_at_[8 * e]][0]
+                                                 : e - reached_.size()]);
         }
         return result;
     }
 
+    /// Writes the place of each face. \param inside  [elements] of the roots
+    void write(const marks& inside, face_place* place_of_face) const {
+        for_chunks(face_at_.size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t i = begin; i < end; ++i)
+                           place_of_face[face_at_[i]] = near_[i] != 0 ? face_place::near
+                                                        : inside[root_[element(i)]] != 0
+                                                            ? face_place::inside
+                                                            : face_place::outside;
+                   });
+    }
+
   private:
-    prepared_pair operands_;
-    std::array<const tree<3>*, 2> faces_{};
-    std::array<const leaf_blocks*, 2> blocks_{};
-    std::array<std::vector<face_place>, 2> place_{};
+    /// Of the face at a place that is not near: its block, or in a reached one its first corner.
+    [[nodiscard]] std::uint32_t element(std::size_t place) const {
+        return reached_[place / 8] == 0 ? static_cast<std::uint32_t>(place / 8)
+                                        : of_point(mesh_.faces[face_at_[place]][0]);
+    }
+    [[nodiscard]] std::uint32_t of_point(std::uint32_t p) const {
+        return static_cast<std::uint32_t>(reached_.size() + p);
+    }
+
+    void join(const leaf_blocks& blocks) {
+        for_chunks(blocks.overlaps.size(), 1, [&](std::size_t part, std::size_t, std::size_t) {
+            for (const auto& [x, y] : blocks.overlaps[part])
+                if (reached_[x] == 0 && reached_[y] == 0) alike_.join(x, y);
+        });
+        marks is_met(mesh_.points.size());  // points of faces in blocks that are reached
+        const auto for_faces = [&](bool in_reached, const auto& visit) {
+            for_chunks(face_at_.size(), light_grain,
+                       [&](std::size_t begin, std::size_t end, std::size_t) {
+                           for (std::size_t i = begin; i < end; ++i)
+                               if (near_[i] == 0 && (reached_[i / 8] != 0) == in_reached)
+                                   for (const std::uint32_t p : mesh_.faces[face_at_[i]])
+                                       visit(i, p);
+                       });
+        };
+        for_faces(true, [&](std::size_t i, std::uint32_t p) {
+            mark(is_met[p]);
+            alike_.join(element(i), of_point(p));
+        });
+        for_faces(false, [&](std::size_t i, std::uint32_t p) {
+            if (is_met[p] != 0) alike_.join(element(i), of_point(p));
+        });
+    }
+
+    mesh_view mesh_;
+    std::span<const std::uint32_t> face_at_;
+    const marks& reached_;
+    const marks& near_;
+    base::union_find alike_;  ///< of blocks, then points
+    buffer<std::uint32_t> root_;
 };
+
+/// Of faces of both operands, counted through.
+buffer<face_place> find_places(const prepared_pair& operands, const std::vector<face_pair>& pairs) {
+    const std::array trees{&build_face_tree(*operands[0]), &build_face_tree(*operands[1])};
+    const std::array blocks{&leaf_blocks_of(*operands[0]), &leaf_blocks_of(*operands[1])};
+    const auto reached = find_reached(blocks);
+    const auto near = find_near(operands, trees, pairs);
+    buffer<face_place> result(trees[0]->size() + trees[1]->size());
+    for (std::size_t k = 0, first = 0; k < 2; first += trees[k++]->size()) {
+        const far_places places(operands[k]->view(), *trees[k], *blocks[k], reached[k], near[k]);
+        const auto [sets, points] = places.sets();
+        const auto found =
+            intersect::point_locator(operands[1 - k]->view(), *trees[1 - k]).locate(points);
+        marks inside(reached[k].size() + operands[k]->view().points.size());
+        for (std::size_t i = 0; i < sets.size(); ++i)
+            inside[sets[i]] = found[i].where == location::inside ? 1 : 0;
+        places.write(inside, result.data() + first);
+    }
+    return result;
+}
 
 /// Appends the points of `faces`, ascending, and the faces in their numbers.
 void append(mesh_view mesh, const ids& faces, std::uint32_t points_before,
@@ -178,7 +254,7 @@ void keep_pairs(std::vector<face_pair>&& pairs, std::size_t faces_of_a, near_fac
 
 }  // namespace
 
-near_faces find_near_faces(const prepared_pair& operands) {
+near_faces find_near_faces(const prepared_pair& operands, bool once) {
     near_faces result;
     const std::size_t faces_of_a = operands[0]->view().faces.size();
     const std::size_t faces_of_b = operands[1]->view().faces.size();
@@ -187,11 +263,13 @@ near_faces find_near_faces(const prepared_pair& operands) {
         std::fill_n(result.place.data(), result.place.size(), face_place::outside);
         return result;
     }
-    block_places blocks(operands);
-    std::vector<face_pair> pairs = mesh_intersections(*operands[0], *operands[1]).pairs;
-    blocks.keep_around(pairs);
-    blocks.settle();
-    result.place = blocks.of_faces();
+    const prepared_mesh &a = *operands[0], &b = *operands[1];
+    std::vector<face_pair> pairs = once
+                                       ? intersect::mesh_intersections(a.view(), build_face_tree(a),
+                                                                       b.view(), build_face_tree(b))
+                                             .pairs
+                                       : treeform::mesh_intersections(a, b).pairs;
+    result.place = find_places(operands, pairs);
     std::size_t first_face = 0, first_point = 0;
     for (const prepared_mesh* operand : operands) {
         const mesh_view mesh = operand->view();

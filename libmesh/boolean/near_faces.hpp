@@ -35,16 +35,19 @@ struct near_faces {
     }
 };
 
-/// Near are the faces of leaf blocks whose boxes overlap those of the other operand's, and of those
-/// whose boxes overlap the box of a block with a face that meets another one's. So whatever lies
-/// in the box of a face that is cut has nothing in common with the box of a face that is not near.
+/// Near are the faces whose boxes overlap that of a face that meets the other operand. So whatever
+/// lies in the box of a face that is cut has nothing in common with the box of a face that is not
+/// near.
 ///
-/// All other blocks are in a box which the other surface does not reach into; where such boxes
-/// overlap, all of them are inside or all are outside the other operand: one point tells.
+/// Of the others, those at a common point are all inside or all outside the other operand. So are
+/// those of leaf blocks whose boxes none of the other's overlap, and of such blocks that overlap.
+/// Of each set that this makes, one point is asked.
+///
+/// What only later operations gain by is not prepared where there is just one, `once`.
 ///
 /// \pre    both operands are sound (`is_sound`)
 /// \cost   that of the faces that meet, O(F / 8) besides, and 1 byte a face
 /// \same   on any number of threads
-[[nodiscard]] near_faces find_near_faces(const prepared_pair& operands);
+[[nodiscard]] near_faces find_near_faces(const prepared_pair& operands, bool once);
 
 }  // namespace treeform::detail::boolean

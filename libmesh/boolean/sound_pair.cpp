@@ -4,6 +4,7 @@
 #include <libmesh/boolean/propagate_inside.hpp>
 #include <libmesh/boolean/sound_pair.hpp>
 #include <libmesh/round/round_surface.hpp>
+#include <libmesh/topology/is_manifold.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -100,8 +101,8 @@ class assembly {
           number_(points_[2]) {}
 
     /// `source` are faces of operands, ascending, one for each face of `rounded`, whose points are
-    /// those of `near_` and others.
-    void write(const rounded_surface& rounded, const ids& source, boolean_result& result) {
+    /// those of `near_` and others. Returns the vertices of these in the result.
+    ids write(const rounded_surface& rounded, const ids& source, boolean_result& result) {
         number_points(rounded, result);
         ids corner(rounded.point_of.size());
         const auto first_made = static_cast<std::uint32_t>(given_);
@@ -110,6 +111,7 @@ class assembly {
                             ? first_made + static_cast<std::uint32_t>(made++)
                             : number_[near_.point_of[rounded.point_of[p]]];
         write_faces(rounded, corner, source, result);
+        return corner;
     }
 
   private:
@@ -241,27 +243,28 @@ bool can_be_counted_through(std::span<const mesh_view, 2> operands) {
 
 }  // namespace
 
-std::optional<boolean_result> boolean_of_sound_pair(const prepared_pair& pair,
-                                                    const boolean_expression& expression,
-                                                    const boolean_options& options) {
+std::optional<pair_result> boolean_of_sound_pair(const prepared_pair& pair, bool once,
+                                                 const boolean_expression& expression,
+                                                 const boolean_options& options) {
     const std::array operands{pair[0]->view(), pair[1]->view()};
     if (options.precision == precision::float32 || !can_be_counted_through(operands))
         return std::nullopt;
-    boolean_result result;
+    pair_result made;
+    boolean_result& result = made.result;
     const auto goes_on = [&](double done) {
         if (!options.progress || options.progress(done)) return true;
         result.certificate.status = status::cancelled;
         return false;
     };
-    if (!goes_on(0.1)) return result;
-    near_faces near = find_near_faces(pair);
-    if (!goes_on(0.4)) return result;
+    if (!goes_on(0.1)) return made;
+    near_faces near = find_near_faces(pair, once);
+    if (!goes_on(0.4)) return made;
     arrange_faces_result arranged = arrange::arrange_pairs(near.local, near.pairs, {}, {});
     mesh_arrangement& cut = arranged.cut;
     auto inside = find_insides(pair, near, cut);
     if (!inside) return std::nullopt;
     near.local = {};  // as large as the operands, perhaps
-    if (!goes_on(0.6)) return result;
+    if (!goes_on(0.6)) return made;
 
     const choice choice(expression);
     chosen_faces chosen = choose(near, cut, *inside, choice);
@@ -284,19 +287,21 @@ std::optional<boolean_result> boolean_of_sound_pair(const prepared_pair& pair,
     // rounding to nearest takes no coordinate out of a box of doubles.
     rounded_surface rounded = round_surface(std::move(exact), {.steps = 0});
     if (!rounded.certificate || rounded.vanished_components > 0) return std::nullopt;
-    if (!goes_on(0.8)) return result;
+    if (!goes_on(0.8)) return made;
     ids source(rounded.face_of.size());
     for_chunks(source.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) source[i] = chosen.face_of[rounded.face_of[i]];
     });
-    assembly(operands, near, choice).write(rounded, source, result);
+    const ids near_vertices = assembly(operands, near, choice).write(rounded, source, result);
+    // Far faces are as they were in their operand, all of those at a vertex or none.
+    made.is_manifold = topology::is_manifold_at(near_vertices, result.mesh);
     result.certificate = std::move(rounded.certificate);
     result.statistics.pairs = arranged.pairs;
     result.statistics.cut_faces = arranged.cut_faces;
     result.statistics.exact_faces =
         result.mesh.faces.size() + (chosen.face_of.size() - source.size());
     goes_on(1.0);
-    return result;
+    return made;
 }
 
 }  // namespace treeform::detail::boolean

@@ -9,13 +9,19 @@
 
 namespace treeform::detail::boolean {
 
+struct pair_result {
+    boolean_result result{};
+    bool is_manifold = false;  ///< the faces at every vertex are certainly one closed fan
+};
+
 /// What `boolean` gives for two operands that are sound (`is_sound`), except for the count of
 /// cells, which nobody needs: only faces near the other operand are arranged, the rest is copied.
 ///
-/// None where only the general way will do: float32 is asked for, rounding has broken something, or
+/// `once` is as in `find_near_faces`. None where only the general way will do: float32 is asked for, rounding has broken something, or
 /// the operands turn out not to be sound.
-[[nodiscard]] std::optional<boolean_result> boolean_of_sound_pair(
-    const prepared_pair& operands, const boolean_expression& expression,
-    const boolean_options& options);
+[[nodiscard]] std::optional<pair_result> boolean_of_sound_pair(const prepared_pair& operands,
+                                                               bool once,
+                                                               const boolean_expression& expression,
+                                                               const boolean_options& options);
 
 }  // namespace treeform::detail::boolean

@@ -1,7 +1,11 @@
+#include <libmesh/base/compact.hpp>
+#include <libmesh/base/fill_stars.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/topology/is_manifold.hpp>
+#include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -36,21 +40,61 @@ bool is_one_fan(std::span<const face> faces, std::span<const std::uint32_t> arou
     return links.empty() || links.back()[1] == links.front()[0];
 }
 
-}  // namespace
-
-bool is_manifold(mesh_view mesh) {
+/// Whether all points are in one fan each: `point_of(i)` with the faces `star_of(i)`.
+template <class StarOf, class PointOf>
+bool are_all_one_fan(std::span<const face> faces, std::size_t count, const StarOf& star_of,
+                     const PointOf& point_of) {
     constexpr std::size_t many = 64;
-    const base::stars stars(mesh.points.size(), mesh.faces);
-    if (stars.face_count() != mesh.faces.size()) return false;
     std::atomic<bool> manifold{true};
-    for_chunks(stars.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::vector<std::array<std::uint32_t, 2>> links;
-        for (std::size_t v = begin; v < end && manifold.load(std::memory_order_relaxed); ++v)
-            if (stars[v].size() > many ||
-                !is_one_fan(mesh.faces, stars[v], static_cast<std::uint32_t>(v), links))
+        for (std::size_t i = begin; i < end && manifold.load(std::memory_order_relaxed); ++i)
+            if (star_of(i).size() > many || !is_one_fan(faces, star_of(i), point_of(i), links))
                 manifold = false;
     });
     return manifold;
+}
+
+}  // namespace
+
+bool is_manifold(mesh_view mesh) {
+    const base::stars stars(mesh.points.size(), mesh.faces);
+    return stars.face_count() == mesh.faces.size() &&
+           are_all_one_fan(
+               mesh.faces, stars.size(), [&](std::size_t v) { return stars[v]; },
+               [](std::size_t v) { return static_cast<std::uint32_t>(v); });
+}
+
+bool is_manifold_at(std::span<const std::uint32_t> points, mesh_view mesh) {
+    constexpr std::uint32_t none = 0xFFFFFFFF;
+    buffer<std::uint32_t> number(mesh.points.size());
+    for_chunks(number.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        std::fill(number.data() + begin, number.data() + end, none);
+    });
+    std::vector<std::uint32_t> asked;
+    for (const std::uint32_t p : points) {
+        if (number[p] != none) continue;
+        number[p] = static_cast<std::uint32_t>(asked.size());
+        asked.push_back(p);
+    }
+    const auto is_there = [&](std::size_t f) {
+        const auto& [a, b, c] = mesh.faces[f];
+        return number[a] != none || number[b] != none || number[c] != none;
+    };
+    std::vector<face> there;
+    base::compact(
+        mesh.faces.size(), is_there, [&](std::size_t count) { there.resize(count); },
+        [&](std::size_t f, std::size_t place) { there[place] = mesh.faces[f]; });
+    if (!std::all_of(there.begin(), there.end(), base::has_three_corners)) return false;
+    const auto stars = base::fill_stars<std::size_t>(asked.size(), there.size(),
+                                                     [&](std::size_t f, const auto& visit) {
+                                                         for (const std::uint32_t corner : there[f])
+                                                             if (number[corner] != none)
+                                                                 visit(number[corner]);
+                                                     });
+    return are_all_one_fan(
+        there, asked.size(), [&](std::size_t i) { return stars[i]; },
+        [&](std::size_t i) { return asked[i]; });
 }
 
 }  // namespace treeform::detail::topology

@@ -4,6 +4,9 @@
 
 #include <treeform/mesh/mesh.hpp>
 
+#include <cstdint>
+#include <span>
+
 namespace treeform::detail::topology {
 
 /// Whether faces run along every edge once each way, and the faces at every point are one fan. False
@@ -14,5 +17,8 @@ namespace treeform::detail::topology {
 /// \cost O(V + F)
 /// \same on any number of threads
 [[nodiscard]] bool is_manifold(mesh_view mesh);
+
+/// The same of the faces at some points only, and of the edges there. Points may be named twice.
+[[nodiscard]] bool is_manifold_at(std::span<const std::uint32_t> points, mesh_view mesh);
 
 }  // namespace treeform::detail::topology

@@ -57,12 +57,13 @@ TEST_CASE("truth: every boolean of every pair of files has the volume of the exa
         CAPTURE(row.text("pair"));
         const tf::mesh a = read(folder / row.text("file_a"), row.map("matrix_a"));
         const tf::mesh b = read(folder / row.text("file_b"), row.map("matrix_b"));
-        const std::vector<tf::mesh_view> operands{a, b};
+        const tf::mesh nothing;  // a third operand, for the general way
+        const std::vector<tf::mesh_view> operands{a, b, nothing};
         const bool are_sound = is_sound(a) && is_sound(b);
         const std::array prepared{tf::prepared_mesh::borrow(a), tf::prepared_mesh::borrow(b)};
         for (const question& q : questions) {
             CAPTURE(q.formula);
-            const tf::boolean_result result = tf::boolean(operands, {q.formula, 2});
+            const tf::boolean_result result = tf::boolean(operands, {q.formula, 3});
             if (are_sound) {
                 const tf::boolean_result quick = tf::boolean(
                     {tf::mesh_operand(prepared[0]), tf::mesh_operand(prepared[1])}, {q.formula, 2});

@@ -23,13 +23,14 @@ using test::moved;
 using test::together;
 using operands = std::array<tf::mesh, 2>;
 
+/// The general way: of three operands, the last one empty.
 tf::boolean_result evaluate(const operands& pair, const std::string& text,
                             const tf::boolean_options& options) {
-    const std::array<tf::mesh_view, 2> views{pair[0], pair[1]};
-    return tf::boolean(views, {text, 2}, options);
+    const tf::mesh nothing;
+    const std::array<tf::mesh_view, 3> views{pair[0], pair[1], nothing};
+    return tf::boolean(views, {text, 3}, options);
 }
 
-/// Prepared meshes are known to be sound once they have been looked at.
 tf::boolean_result evaluate_prepared(const operands& pair, const std::string& text,
                                      const tf::boolean_options& options) {
     const auto a = tf::prepared_mesh::borrow(pair[0]), b = tf::prepared_mesh::borrow(pair[1]);
