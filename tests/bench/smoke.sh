@@ -23,7 +23,7 @@ awk -F, '
     $5 ~ /^treeform( integers only)?$/ && $9 != "" && $9 != 0 { bad("treeform is wrong") }
     { ids[$1] = 1 }
     END {
-        split("B1 B2 B3 B4 B5 B8 B9 C1 C2 C3 C4 E1 E2 E3 E4 E5 E6 E7 E8 E9 F2 F5 F6 F7 F8 S1 T1 W1 W2", wanted, " ")
+        split("B1 B2 B3 B4 B5 B8 B9 C1 C2 C3 C4 E1 E2 E3 E4 E5 E6 E7 E8 E9 F2 F5 F6 F7 F8 S1 S2 T1 W1 W2", wanted, " ")
         for (i in wanted) if (!(wanted[i] in ids)) { print "no row of " wanted[i]; failed = 1 }
         exit failed
     }' "$scratch/out/bench.csv"

@@ -36,6 +36,7 @@ TREEFORM_WORKLOAD(strategies);                 // f6
 TREEFORM_WORKLOAD(near_pairs_given_trees);     // f7
 TREEFORM_WORKLOAD(arities);                    // f8
 TREEFORM_WORKLOAD(clean_scans);                // s1
+TREEFORM_WORKLOAD(memory_bound);               // s2
 TREEFORM_WORKLOAD(poses);                      // t1
 TREEFORM_WORKLOAD(weld);                       // w1
 TREEFORM_WORKLOAD(weld_quality_by_tolerance);  // w2
@@ -65,6 +66,7 @@ TREEFORM_DRAWING(draw_strategies);
 TREEFORM_DRAWING(draw_near_pairs);
 TREEFORM_DRAWING(draw_arities);
 TREEFORM_DRAWING(draw_clean_scans);
+TREEFORM_DRAWING(draw_memory_bound);
 TREEFORM_DRAWING(draw_poses);
 TREEFORM_DRAWING(draw_weld_quality);
 #undef TREEFORM_DRAWING
@@ -114,6 +116,8 @@ std::span<const workload> workloads() {
         workload{"F8", "sorted stack against heap, by arity and leaf size", arities, draw_arities},
         workload{"S1", "self-intersections of clean scans, beside the tree alone", clean_scans,
                  draw_clean_scans},
+        workload{"S2", "steps beside a copy of the bytes they move", memory_bound,
+                 draw_memory_bound},
         workload{"T1", "two models in random positions, beside the paper, trees given", poses,
                  draw_poses},
         workload{"W1", "welding: points within a tolerance become one, from arrays", weld},

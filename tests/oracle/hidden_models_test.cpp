@@ -3,7 +3,8 @@
 /// neither do threads or preparation a byte. Surfaces are compared before rounding, as rational
 /// numbers. Without TREEFORM_MODELS_DIR nothing is checked.
 ///
-/// Each closed model of TRUTH.csv begins TREEFORM_STRESS_TIMES chains (default 1) of 3 to 5.
+/// Each closed model of TRUTH.csv with at most TREEFORM_STRESS_FACES faces (default 5000) begins
+/// TREEFORM_STRESS_TIMES chains (default 1) of 3 to 5.
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
@@ -31,9 +32,6 @@
 
 namespace {
 
-/// Larger models take a while as rational numbers.
-constexpr std::int64_t most_triangles = 5'000;
-
 struct named_mesh {
     std::string name;
     tf::mesh mesh;
@@ -52,6 +50,9 @@ tf::mesh centered(tf::mesh mesh) {
 }
 
 std::vector<named_mesh> closed_models(const std::filesystem::path& folder) {
+    // Larger ones take a while as rational numbers.
+    const auto most_triangles =
+        static_cast<std::int64_t>(test::setting("TREEFORM_STRESS_FACES", 5'000));
     std::vector<named_mesh> models;
     for (const test::truth_row& row : test::read_truth(folder / "TRUTH.csv")) {
         if (row.text("precision") == "f32" || row.text("status") != "ok" ||

@@ -19,6 +19,7 @@ namespace {
 
 std::vector<const tf::mesh_file*> files_of(const std::vector<solid>& solids) {
     std::vector<const tf::mesh_file*> files;
+    files.reserve(solids.size());
     for (const solid& s : solids) files.push_back(&s.file);
     return files;
 }
@@ -110,6 +111,7 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
         warn_of_ambiguous_materials(work, files_of(solids));
     if (holds_sources(form.format)) {
         std::vector<std::string> inputs;
+        inputs.reserve(solids.size());
         for (const solid& s : solids) inputs.push_back(s.part.empty() ? s.path : name_of(s));
         for (tf::operand_element& e : result.face_source)
             e.index = solids[e.operand].stored_face(e.index);
