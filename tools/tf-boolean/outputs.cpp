@@ -18,9 +18,8 @@ namespace tools {
 namespace {
 
 std::vector<const tf::mesh_file*> files_of(const std::vector<solid>& solids) {
-    std::vector<const tf::mesh_file*> files;
-    files.reserve(solids.size());
-    for (const solid& s : solids) files.push_back(&s.file);
+    std::vector<const tf::mesh_file*> files(solids.size());
+    std::ranges::transform(solids, files.begin(), [](const solid& s) { return &s.file; });
     return files;
 }
 
@@ -110,9 +109,9 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     if (!settings.no_attributes && form.format == "obj")
         warn_of_ambiguous_materials(work, files_of(solids));
     if (holds_sources(form.format)) {
-        std::vector<std::string> inputs;
-        inputs.reserve(solids.size());
-        for (const solid& s : solids) inputs.push_back(s.part.empty() ? s.path : name_of(s));
+        std::vector<std::string> inputs(solids.size());
+        std::ranges::transform(solids, inputs.begin(),
+                               [](const solid& s) { return s.part.empty() ? s.path : name_of(s); });
         for (tf::operand_element& e : result.face_source)
             e.index = solids[e.operand].stored_face(e.index);
         tf::add_source_columns(file, settings.source, result.face_source, inputs);
