@@ -46,9 +46,9 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
 }
 
 tf::precision written_precision(const job& work, const std::vector<solid>& solids) {
-    const common_options& o = work.options;
-    return written_precision(o, o.output.empty() ? std::nullopt : std::optional(form_of(o)),
-                             files_of(solids));
+    std::optional<written_form> form;
+    if (!work.options.output.empty()) form = form_of(work.options);
+    return written_precision(work.options, form, files_of(solids));
 }
 
 void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid) {
@@ -103,11 +103,11 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     const auto timing = work.time("write");
     tf::mesh_file file = file_of(std::move(result.mesh), result.certificate);
     const written_form form = form_of(o);
-    if (!settings.no_attributes)
+    if (!settings.no_attributes) {
         tf::carry(file, sources_of(solids),
                   {result.face_source, result.vertex_source, result.face_of_cut_vertex});
-    if (!settings.no_attributes && form.format == "obj")
-        warn_of_ambiguous_materials(work, files_of(solids));
+        if (form.format == "obj") warn_of_ambiguous_materials(work, files_of(solids));
+    }
     if (holds_sources(form.format)) {
         std::vector<std::string> inputs(solids.size());
         std::ranges::transform(solids, inputs.begin(),
