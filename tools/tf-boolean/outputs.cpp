@@ -34,15 +34,14 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
     entry["inside"] = name_of(settings.inside);
     entry["check"] = settings.check;
     entry["inputs"] = json::array();
-    for (const char* key : {"pairs", "cut_faces", "cells", "volumes", "separated_points"})
+    for (const char* key : {"pairs", "cut_faces", "cells", "volumes", "separated_points", "output"})
         entry[key] = nullptr;
-    entry["skipped"] = {
-        {"degenerate", nullptr}, {"faces_not_cut", nullptr}, {"faces_not_looked_at", nullptr}};
+    for (const char* key : {"degenerate", "faces_not_cut", "faces_not_looked_at"})
+        entry["skipped"][key] = nullptr;
     entry["max_move"] = {{"given", settings.rails.max_move.given},
                          {"used", nullptr},
                          {"largest", nullptr},
                          {"step", nullptr}};
-    entry["output"] = nullptr;
 }
 
 tf::precision written_precision(const job& work, const std::vector<solid>& solids) {
@@ -101,8 +100,8 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     const common_options& o = work.options;
     if (o.output.empty() || o.dry_run) return;
     const auto timing = work.time("write");
-    tf::mesh_file file = file_of(std::move(result.mesh), result.certificate);
     const written_form form = form_of(o);
+    tf::mesh_file file = file_of(std::move(result.mesh), result.certificate);
     if (!settings.no_attributes) {
         tf::carry(file, sources_of(solids),
                   {result.face_source, result.vertex_source, result.face_of_cut_vertex});
