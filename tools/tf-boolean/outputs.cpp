@@ -34,7 +34,7 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
     entry["inside"] = name_of(settings.inside);
     entry["check"] = settings.check;
     entry["inputs"] = json::array();
-    for (const char* key : {"pairs", "cut_faces", "cells", "volumes", "separated_points", "output"})
+    for (const char* key : {"pairs", "cut_faces", "cells", "volumes", "separated_points"})
         entry[key] = nullptr;
     for (const char* key : {"degenerate", "faces_not_cut", "faces_not_looked_at"})
         entry["skipped"][key] = nullptr;
@@ -42,6 +42,7 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
                          {"used", nullptr},
                          {"largest", nullptr},
                          {"step", nullptr}};
+    entry["output"] = nullptr;
 }
 
 tf::precision written_precision(const job& work, const std::vector<solid>& solids) {
@@ -71,18 +72,17 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
     entry["skipped"] = {{"degenerate", did.degenerate},
                         {"faces_not_cut", triangles - std::min(triangles, did.cut_faces)},
                         {"faces_not_looked_at", did.skipped_faces}};
-    const tf::mesh& surface = result.mesh;
-    const auto topology = tf::count_topology(surface.points.size(), surface.faces);
+    const auto topology = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
     entry["output"] = {
         {"file", nullptr},
         {"format", nullptr},
         {"precision_out", name_of(known.precision)},
-        {"vertices", surface.points.size()},
+        {"vertices", result.mesh.points.size()},
         {"cut_vertices", std::ranges::count(result.vertex_source, tf::operand_element{})},
-        {"faces", surface.faces.size()},
+        {"faces", result.mesh.faces.size()},
         {"components", topology.components_by_point},
         {"nonmanifold_edges", topology.nonmanifold_edges},
-        {"volume", or_null(bounds_solid, bounds_solid ? tf::signed_volume(surface) : 0.0)},
+        {"volume", or_null(bounds_solid, bounds_solid ? tf::signed_volume(result.mesh) : 0.0)},
         {"closed", bounds_solid || topology.boundary_edges == 0},
         {"oriented", or_null(bounds_solid, true)},
         {"self_intersections", known.meeting_count},
@@ -91,7 +91,7 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
         {"lost_parts", {{"count", result.vanished_components}, {"list", result.vanished_at}}},
         {"certified", static_cast<bool>(known)},
         {"max_move", known.max_displacement},
-        {"step", tf::coordinate_step(surface.points, known.precision)},
+        {"step", tf::coordinate_step(result.mesh.points, known.precision)},
         {"rounding_steps", did.rounding_steps}};
 }
 
