@@ -5,6 +5,7 @@
 #include <libmesh/boolean/active_space.hpp>
 #include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
+#include <libmesh/boolean/sample_faces.hpp>
 #include <libmesh/boolean/surface_components.hpp>
 #include <libmesh/round/solid_faces.hpp>
 
@@ -21,13 +22,14 @@ namespace {
 
 /// Two components hide little of each other that is not cut anyway.
 constexpr std::size_t fewest_components = 3;
-/// The least share of faces that a first look, and then the whole effort, have to leave out; else it
-/// is better to cut them all.
-constexpr double first_effort = 0.125, first_share = 0.1, least_share = 0.3;
+/// The least share of faces that has to be hidden, and then be left out; else it is better to cut
+/// them all.
+constexpr double least_hidden = 0.25, least_left_out = 0.3;
+/// Cutting costs in proportion to the faces near each other, and so may finding out what is hidden.
+constexpr double neighbors_of_effort = 8.0;
 
-/// The active faces; none where less than a share of all is not active.
-std::optional<std::vector<std::uint32_t>> active_faces(const active_space& space,
-                                                       double least_left_out) {
+/// The active faces; none where too few others are left out.
+std::optional<std::vector<std::uint32_t>> active_faces(const active_space& space) {
     const auto is_active = space.is_active_face();
     std::vector<std::uint32_t> faces;
     for (std::size_t f = 0; f < is_active.size(); ++f)
@@ -56,10 +58,12 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
     const auto stops = [&](double done) { return options.progress && !options.progress(done); };
     if (stops(0.1)) return unmended_result{with_counts({}), {}};
     const partial_expression at_nowhere(expression, options.inside);
-    if (!active_faces(active_space(components, at_nowhere, {.effort = first_effort}), first_share))
-        return std::nullopt;
-    const active_space space(components, at_nowhere);
-    auto number = active_faces(space, least_share);
+    const face_samples samples = sample_faces(components, at_nowhere);
+    if (samples.hidden < least_hidden) return std::nullopt;
+    const active_space space(
+        components, at_nowhere,
+        {.effort = std::clamp(samples.neighbors / neighbors_of_effort, 0.125, 4.0)});
+    auto number = active_faces(space);
     if (!number) return std::nullopt;
     if (stops(0.2)) return unmended_result{with_counts({}), {}};
     const std::size_t all = joined.all.faces.size();

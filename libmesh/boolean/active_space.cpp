@@ -1,6 +1,7 @@
 #include <libmesh/base/face_boxes.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/active_space.hpp>
+#include <libmesh/boolean/rough_corners.hpp>
 #include <treeform/tree/detail/box_in_space.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -240,11 +241,22 @@ class divider {
             visit(item{i.component, i.level + 1, first + k});
     }
 
+    /// Whether an item, which is in `own`, may reach into a box. Of a large face not all that its box
+    /// does.
+    [[nodiscard]] bool reaches(const item& i, const box3& own, const box3& box) const {
+        if (!overlaps(own, box)) return false;
+        if (!is_face(i) || !is_larger(own, box)) return true;
+        std::array<box3, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k)
+            corners[k].include(components_.mesh().points[components_.mesh().faces[face_of(i)][k]]);
+        return !rough_corners(corners).is_apart_from(box);
+    }
+
     /// Puts an item into the halves that it reaches into, opened where it is larger than they are.
     void sort_in(const item& i, halves& result) const {
         const box3 box = box_of(i);
-        const bool in_lower = overlaps(box, result.lower.box);
-        const bool in_upper = overlaps(box, result.upper.box);
+        const bool in_lower = reaches(i, box, result.lower.box);
+        const bool in_upper = reaches(i, box, result.upper.box);
         if (!in_lower && !in_upper) return;
         if (is_face(i) || !is_larger(box, result.lower.box)) {
             if (in_lower) result.lower.inside.push_back(i);
@@ -255,7 +267,7 @@ class divider {
     }
 
     void mark_faces(const item& i, const box3& box) const {
-        if (!overlaps(box_of(i), box)) return;
+        if (!reaches(i, box_of(i), box)) return;
         if (is_face(i)) {
             std::atomic_ref(is_active_face_[face_of(i)]).store(1, std::memory_order_relaxed);
             return;

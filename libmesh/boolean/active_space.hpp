@@ -16,7 +16,7 @@ namespace treeform::detail::boolean {
 
 /// How far boxes are halved. The result is the same whatever these are.
 struct division_limits {
-    double effort = 1.0;  ///< less for a first look
+    double effort = 1.0;  ///< how much may be spent on it
     /// Boxes with that few faces are not halved: to arrange those costs less.
     std::size_t faces_not_halved = 24;
     /// Nor are boxes that few components reach into, none of which can settle them alone, as in an

@@ -251,7 +251,7 @@ std::int64_t surface_components::winding_of_others(std::size_t c, const point3& 
     box3 at;
     at.include(q);
     std::int64_t winding = 0;
-    search(boxes_, at, [&](std::uint32_t other) {
+    visit_overlapping(at, [&](std::uint32_t other) {
         if (other != c) winding += winding_around(other, q);
     });
     return winding;

@@ -8,6 +8,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/aabb.hpp>
+#include <treeform/tree/search.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <cstddef>
@@ -74,6 +75,11 @@ class surface_components {
         return components_[c].windings.unusual;
     }
 
+    /// Calls `visit(c)` for the components whose boxes overlap another one.
+    template <class Visit>
+    void visit_overlapping(const aabb<double, 3>& box, const Visit& visit) const {
+        search(boxes_, box, visit);
+    }
     /// How often component c winds around q, exactly. \pre q is not on it
     [[nodiscard]] std::int64_t winding_around(std::size_t c, const point3& q) const;
     /// The same of all components but c together.

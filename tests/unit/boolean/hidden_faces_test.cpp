@@ -212,3 +212,23 @@ TEST_CASE("hidden faces: the same bytes on any number of threads") {
     CHECK(alone.mesh.faces == many.mesh.faces);
     CHECK(alone.statistics.skipped_faces == many.statistics.skipped_faces);
 }
+
+TEST_CASE("hidden faces: long ones, too, whose boxes reach far beyond them") {
+    test::random source(5);
+    tf::mesh rod = ball(3, 1.0);
+    for (tf::point3& p : rod.points) p.z *= 2.5;
+    std::vector<tf::mesh> rods;
+    for (int i = 0; i < 40; ++i)
+        rods.push_back(
+            test::turned(rod, {source.in(-1, 1), source.in(-1, 1), source.in(-1, 1)}, 3.0));
+    const std::vector<tf::mesh_view> views(rods.begin(), rods.end());
+    const tf::boolean_result all =
+        tf::boolean(views, tf::boolean_expression::union_of(rods.size()));
+    REQUIRE(all.certificate);
+    const std::size_t faces = rods.size() * rod.faces.size();
+    CHECK(all.statistics.skipped_faces > faces / 3);
+    tf::mesh one_by_one;
+    for (const tf::mesh& next : rods) one_by_one = tf::unite(one_by_one, next).mesh;
+    CHECK(tf::signed_volume(all.mesh) ==
+          doctest::Approx(tf::signed_volume(one_by_one)).epsilon(1e-12));
+}
