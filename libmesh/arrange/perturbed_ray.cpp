@@ -48,12 +48,6 @@ std::optional<crossing> perturbed_ray::meet(const triangle3& t) const {
     return cross_of(t, faces);
 }
 
-std::optional<crossing> perturbed_ray::cross(const triangle3& t) const {
-    const int faces = passes(t[0], t[1], t[2]);
-    if (faces == 0) return std::nullopt;
-    return cross_of(t, faces);
-}
-
 double perturbed_ray::distance(const crossing& c) const {
     return cut_parameter(from_, direction[static_cast<std::size_t>(along_)], c.cut);
 }

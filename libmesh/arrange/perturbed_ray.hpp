@@ -26,15 +26,9 @@ class perturbed_ray {
     /// \pre a coordinate of another axis than `along` of `toward` differs from that of `from`
     perturbed_ray(const point3& from, const point3& toward, int along = 0);
 
-    [[nodiscard]] const point3& from() const { return from_; }
-    [[nodiscard]] int along() const { return along_; }
-
     /// How it passes through the triangle, if it does, ahead of where it starts. Triangles that the
     /// edge runs in are not ahead.
     [[nodiscard]] std::optional<crossing> meet(const triangle3& t) const;
-
-    /// How the line of the ray passes through the triangle, if it does, ahead or not.
-    [[nodiscard]] std::optional<crossing> cross(const triangle3& t) const;
 
     /// The parameter of a crossing, 2^-40 of itself wrong at most: how far it is from v.
     [[nodiscard]] double distance(const crossing& c) const;

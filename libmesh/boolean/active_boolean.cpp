@@ -86,13 +86,9 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
     if (arranged.cancelled) return made;
     // The points stay where they are in memory.
     arranged.cut.given_points = std::move(joined.all.points);
-    const auto cells =
+    const active_cells cells =
         find_active_cells(active, arranged.cut, operands, components, space, at_nowhere);
-    if (!cells) {
-        joined.all.points = std::move(arranged.cut.given_points);
-        return std::nullopt;
-    }
-    round::solid_faces chosen = round::faces_around(arranged.cut, cells->cells, cells->inside);
+    round::solid_faces chosen = round::faces_around(arranged.cut, cells.cells, cells.inside);
     joined.all.faces = std::move(faces);
     joined.number_of_face = std::move(*number);
     finish_surface(made, arranged.cut, std::move(chosen), joined, true, options);

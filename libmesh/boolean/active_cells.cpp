@@ -1,6 +1,6 @@
+#include <libmesh/arrange/corner_line.hpp>
 #include <libmesh/arrange/patch_regions.hpp>
 #include <libmesh/arrange/patches.hpp>
-#include <libmesh/arrange/perturbed_ray.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/active_cells.hpp>
 #include <libmesh/boolean/region_graph.hpp>
@@ -25,18 +25,10 @@ constexpr std::size_t seeds_a_chunk = 64;
 
 /// A box around point p of an arrangement.
 box3 box_of(const mesh_arrangement& cut, std::uint32_t p) {
+    if (p >= cut.given_points.size())
+        return arrange::box_around(cut.constructed[p - cut.given_points.size()]);
     box3 box;
-    if (p < cut.given_points.size()) {
-        box.include(cut.given_points[p]);
-        return box;
-    }
-    const implicit_point& point = cut.constructed[p - cut.given_points.size()];
-    for (std::size_t k = 0; k < 3; ++k) {  // rounded outward
-        const double at = point.center()[k];
-        const double off = point.radius() + 0x1p-51 * (std::abs(at) + point.radius());
-        box.min[k] = at - off;
-        box.max[k] = at + off;
-    }
+    box.include(cut.given_points[p]);
     return box;
 }
 
@@ -84,17 +76,15 @@ surface_patches find_active_patches(const mesh_arrangement& cut,
     return patches;
 }
 
-/// Where a line meets a face of an arrangement within.
-struct pierced_face {
-    arrange::perturbed_ray line;
-    arrange::crossing at;
-    bool ahead;  ///< where less of `box` is, along the line
+/// A line through a face of an arrangement, and which way along it less of a box is.
+struct way_out {
+    arrange::corner_line line;
+    bool ahead;
 };
 
-/// A line through a face of the arrangement, along the axis on which it is the least way out of a box,
-/// of those that the face is not too steep to, if that will do.
-std::optional<pierced_face> find_line(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
-                                      const box3& box) {
+/// Along the axis on which it is the least way out of the box, of those that the face is not too
+/// steep to, if there is one.
+way_out find_way_out(mesh_view mesh, const mesh_arrangement& cut, std::size_t f, const box3& box) {
     const triangle3 whole = base::triangle_of(mesh, cut.covers_of(f).front().face);
     const point3 normal =
         base::cross(base::minus(whole[1], whole[0]), base::minus(whole[2], whole[0]));
@@ -109,23 +99,12 @@ std::optional<pierced_face> find_line(mesh_view mesh, const mesh_arrangement& cu
     std::array<int, 3> axes = {0, 1, 2};
     std::ranges::stable_sort(axes, [&](int i, int j) { return cost(i) < cost(j); });
     const auto& [a, b, c] = cut.faces[f];
-    const implicit_point p = cut.point(a), q = cut.point(b), r = cut.point(c);
-    constexpr std::array<std::array<double, 3>, 4> shares = {
-        {{1 / 3.0, 1 / 3.0, 1 / 3.0}, {0.5, 0.25, 0.25}, {0.25, 0.5, 0.25}, {0.25, 0.25, 0.5}}};
-    for (const int axis : axes)
-        for (const auto& share : shares) {
-            point3 from;
-            for (std::size_t k = 0; k < 3; ++k)
-                from[k] =
-                    share[0] * p.center()[k] + share[1] * q.center()[k] + share[2] * r.center()[k];
-            if (!base::is_finite(from)) continue;
-            const arrange::perturbed_ray ray = arrange::ray_beside(from, axis);
-            if (ray.passes(p, q, r) == 0) continue;
-            const auto at = ray.cross(whole);
-            const auto k = static_cast<std::size_t>(axis);
-            if (at) return pierced_face{ray, *at, ahead(k) < back(k)};
-        }
-    return std::nullopt;
+    const std::array<implicit_point, 3> corners = {cut.point(a), cut.point(b), cut.point(c)};
+    // Along one of them it is not seen edge on.
+    const int axis = *std::ranges::find_if(
+        axes, [&](int k) { return orient2d(k, corners[0], corners[1], corners[2]) != 0; });
+    const auto k = static_cast<std::size_t>(axis);
+    return {{corners, axis}, ahead(k) < back(k)};
 }
 
 arrange::numbered_sets find_regions(mesh_view mesh, const mesh_arrangement& cut,
@@ -155,15 +134,14 @@ class cell_finder {
             if (places_.is_hidden[f] != 0) is_hidden_[patches_.patch[f]] = 1;
     }
 
-    std::optional<active_cells> run() {
-        const auto seeds = find_seeds();
-        if (!seeds) return std::nullopt;
+    active_cells run() {
+        const std::vector<region_seed> seeds = find_seeds();
         active_cells result{{}, std::vector<std::uint8_t>(regions_.size(), 0)};
-        for_chunks(seeds->size(), seeds_a_chunk,
+        for_chunks(seeds.size(), seeds_a_chunk,
                    [&](std::size_t begin, std::size_t end, std::size_t) {
                        partial_expression state = at_nowhere_;
                        for (std::size_t i = begin; i < end; ++i)
-                           regions_.spread((*seeds)[i], state, result.inside);
+                           regions_.spread(seeds[i], state, result.inside);
                    });
         result.cells.cell_of_side.resize(cut_.faces.size(), {0, 0});
         for (std::size_t f = 0; f < cut_.faces.size(); ++f)
@@ -175,7 +153,7 @@ class cell_finder {
 
   private:
     /// One for each group of regions with a patch that is not hidden.
-    [[nodiscard]] std::optional<std::vector<region_seed>> find_seeds() const {
+    [[nodiscard]] std::vector<region_seed> find_seeds() const {
         const buffer<std::uint32_t> group = regions_.groups();
         std::vector<std::uint32_t> asked;  // the first face of each group
         std::vector<std::uint8_t> is_asked(regions_.size(), 0);
@@ -185,40 +163,20 @@ class cell_finder {
             is_asked[group[regions_.patches().front(p)]] = 1;
             asked.push_back(f);
         }
-        std::vector<std::optional<region_seed>> found(asked.size());
+        std::vector<region_seed> seeds(asked.size());
         for_chunks(asked.size(), seeds_a_chunk,
                    [&](std::size_t begin, std::size_t end, std::size_t) {
-                       for (std::size_t i = begin; i < end; ++i) {
-                           found[i] = ask(asked[i]);
-                           if (!found[i]) found[i] = ask_another(group, asked[i]);
-                       }
+                       for (std::size_t i = begin; i < end; ++i) seeds[i] = ask(asked[i]);
                    });
-        std::vector<region_seed> seeds;
-        for (std::optional<region_seed>& s : found) {
-            if (!s) return std::nullopt;
-            seeds.push_back(std::move(*s));
-        }
         return seeds;
     }
 
-    [[nodiscard]] std::optional<region_seed> ask(std::uint32_t f) const {
-        const auto line = find_line(mesh_, cut_, f, components_.box());
-        if (!line) return std::nullopt;
+    [[nodiscard]] region_seed ask(std::uint32_t f) const {
+        const way_out out = find_way_out(mesh_, cut_, f, components_.box());
         const std::uint32_t p = patches_.patch[f];
-        const bool in_front = (line->at.faces > 0) == line->ahead;
-        return region_seed{in_front ? regions_.patches().front(p) : regions_.patches().behind(p),
-                           components_.windings_beside(line->line, line->at, line->ahead)};
-    }
-
-    /// Asks of the faces behind f in its group.
-    [[nodiscard]] std::optional<region_seed> ask_another(const buffer<std::uint32_t>& group,
-                                                         std::uint32_t f) const {
-        const std::uint32_t own = group[regions_.patches().front(patches_.patch[f])];
-        for (std::uint32_t g = f + 1; g < cut_.faces.size(); ++g)
-            if (const std::uint32_t p = patches_.patch[g];
-                is_hidden_[p] == 0 && group[regions_.patches().front(p)] == own)
-                if (auto found = ask(g)) return found;
-        return std::nullopt;
+        const bool in_front = (out.line.faces() > 0) == out.ahead;
+        return {in_front ? regions_.patches().front(p) : regions_.patches().behind(p),
+                components_.windings_beside(out.line, out.ahead)};
     }
 
     mesh_view mesh_;
@@ -233,11 +191,10 @@ class cell_finder {
 
 }  // namespace
 
-std::optional<active_cells> find_active_cells(mesh_view mesh, const mesh_arrangement& cut,
-                                              std::span<const std::uint32_t> operand_of_face,
-                                              const surface_components& components,
-                                              const active_space& space,
-                                              const partial_expression& at_nowhere) {
+active_cells find_active_cells(mesh_view mesh, const mesh_arrangement& cut,
+                               std::span<const std::uint32_t> operand_of_face,
+                               const surface_components& components, const active_space& space,
+                               const partial_expression& at_nowhere) {
     return cell_finder(mesh, cut, operand_of_face, components, space, at_nowhere).run();
 }
 

@@ -10,7 +10,6 @@
 #include <treeform/mesh/mesh.hpp>
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,15 +26,14 @@ struct active_cells {
 /// does not reach, one line tells, which is followed through all components. Other faces may have
 /// been left uncut somewhere out of active space: each is told by a line of its own.
 ///
-/// None where no line can be put through a face, all being too thin for that.
-///
 /// \param mesh the active faces, with the points of all; `cut` is their arrangement, in which pairs
 ///             may be missing that meet outside of active space
 /// \param operand_of_face [F] of `mesh`
 /// \same  on any number of threads
-[[nodiscard]] std::optional<active_cells> find_active_cells(
-    mesh_view mesh, const mesh_arrangement& cut, std::span<const std::uint32_t> operand_of_face,
-    const surface_components& components, const active_space& space,
-    const partial_expression& at_nowhere);
+[[nodiscard]] active_cells find_active_cells(mesh_view mesh, const mesh_arrangement& cut,
+                                             std::span<const std::uint32_t> operand_of_face,
+                                             const surface_components& components,
+                                             const active_space& space,
+                                             const partial_expression& at_nowhere);
 
 }  // namespace treeform::detail::boolean

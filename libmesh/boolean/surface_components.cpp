@@ -1,5 +1,6 @@
 #include <libmesh/arrange/cells_of.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/arrange/perturbed_ray.hpp>
 #include <libmesh/base/face_boxes.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/surface_components.hpp>
@@ -30,9 +31,9 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 using box3 = aabb<double, 3>;
 
-ray<double, 3> ray_from(const point3& p, int along, bool ahead = true) {
+ray<double, 3> ray_from(const point3& p, int along) {
     ray<double, 3> result{{p.x, p.y, p.z}, {}};
-    result.direction[static_cast<std::size_t>(along)] = ahead ? 1.0 : -1.0;
+    result.direction[static_cast<std::size_t>(along)] = 1.0;
     return result;
 }
 
@@ -267,29 +268,23 @@ int surface_components::sign_of_volume(std::size_t c) const {
     return sign_of(faces(c).size(), [&](std::size_t i) { return corners(faces(c)[i]); });
 }
 
-std::vector<operand_winding> surface_components::windings_beside(const arrange::perturbed_ray& line,
-                                                                 const arrange::crossing& at,
+std::vector<operand_winding> surface_components::windings_beside(const arrange::corner_line& line,
                                                                  bool ahead) const {
-    // Where the line meets the face is not known but to lie in its box.
-    point3 start = line.from();
     const auto along = static_cast<std::size_t>(line.along());
-    const auto [low, high] = std::minmax({at.plane.a[along], at.plane.b[along], at.plane.c[along]});
-    start[along] = ahead ? low : high;
-    const ray<double, 3> way = ray_from(start, line.along(), ahead);
+    box3 way = line.start();
+    (ahead ? way.max : way.min)[along] = ahead ? infinite : -infinite;
     const int sign = ahead ? 1 : -1;
     std::vector<operand_winding> found;
-    visit_along(boxes_, way, [&](std::uint32_t c) {
+    search(boxes_, way, [&](std::uint32_t c) {
         const component& of = components_[c];
         const std::uint32_t* const own = faces_.data() + of.begin;
         std::int64_t winding = 0;
-        visit_along(of.index, way, [&](std::uint32_t i) {
-            const auto met = line.cross(corners(own[i]));
-            if (met && sign * line.compare(at, *met) < 0)
-                winding += ahead ? met->faces : -met->faces;
-            return infinite;
+        search(of.index, way, [&](std::uint32_t i) {
+            const triangle3 t = corners(own[i]);
+            if (const int facing = line.passes(t); facing != 0 && line.place(t, facing) == sign)
+                winding += sign * facing;
         });
         if (winding != 0) found.push_back({of.operand, winding});
-        return infinite;
     });
     std::ranges::sort(found, {}, &operand_winding::operand);
     std::size_t left = 0;

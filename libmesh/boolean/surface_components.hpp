@@ -2,7 +2,7 @@
 /// \file
 /// The closed pieces of operands, and how often each winds around points.
 
-#include <libmesh/arrange/perturbed_ray.hpp>
+#include <libmesh/arrange/corner_line.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -91,15 +91,12 @@ class surface_components {
     /// The box around all of them.
     [[nodiscard]] const aabb<double, 3>& box() const { return box_; }
 
-    /// How often operands wind around a place on a line, right beside a face that it meets, exactly;
-    /// those that wind around it, ascending.
+    /// How often operands wind around all that is right beside a face of an arrangement, on one of
+    /// its sides, where a line passes through it, exactly; those that wind around it, ascending.
     ///
-    /// \param line  the line of the ray
-    /// \param at    what it has in common with the face
-    /// \param ahead whether the place is ahead of the face, or behind it; the line is followed that
-    ///              way
-    [[nodiscard]] std::vector<operand_winding> windings_beside(const arrange::perturbed_ray& line,
-                                                               const arrange::crossing& at,
+    /// \param line  through the face
+    /// \param ahead whether that is ahead of the face, or behind it; the line is followed that way
+    [[nodiscard]] std::vector<operand_winding> windings_beside(const arrange::corner_line& line,
                                                                bool ahead) const;
 
   private:

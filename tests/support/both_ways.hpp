@@ -19,7 +19,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,13 +52,13 @@ struct surface_of_some {
     std::size_t uncut = 0;     ///< pairs of the other faces that were not looked at
 };
 
-/// As `boolean` does where it pays, but always, and in boxes as small as `limits` says. None where
-/// `boolean` would cut all, because no line could be put through a face.
+/// As `boolean` does where it pays, but always, and in boxes as small as `limits` says.
 /// \pre each operand bounds a solid
-inline std::optional<surface_of_some> surface_of_active(
-    std::span<const tf::mesh> operands, const tf::boolean_expression& expression,
-    tf::fill_rule rule, const tf::detail::boolean::division_limits& limits,
-    exact_numbers& numbers) {
+inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
+                                         const tf::boolean_expression& expression,
+                                         tf::fill_rule rule,
+                                         const tf::detail::boolean::division_limits& limits,
+                                         exact_numbers& numbers) {
     namespace detail = tf::detail::boolean;
     const std::vector<tf::mesh_view> views(operands.begin(), operands.end());
     const detail::joined_operands joined = detail::join_operands(views);
@@ -100,8 +99,7 @@ inline std::optional<surface_of_some> surface_of_active(
     arranged.cut.given_points = joined.all.points;
     const auto cells =
         find_active_cells(active, arranged.cut, operand, components, space, at_nowhere);
-    if (!cells) return std::nullopt;
-    const auto chosen = tf::detail::round::faces_around(arranged.cut, cells->cells, cells->inside);
+    const auto chosen = tf::detail::round::faces_around(arranged.cut, cells.cells, cells.inside);
     for (std::size_t f = 0; f < chosen.faces.size(); ++f) {
         const auto& [a, b, c] = chosen.faces[f];
         add(result.chain, numbers,
