@@ -65,10 +65,10 @@ std::optional<height_field_test::view> height_field_test::find_view(
         normal = base::plus(normal, base::cross(base::minus(points_[b], points_[a]),
                                                 base::minus(points_[c], points_[a])));
     }
-    view seen;
-    for (int axis = 1; axis < 3; ++axis)
-        if (std::abs(normal[axis]) > std::abs(normal[seen.axis])) seen.axis = axis;
-    seen.turn = normal[seen.axis] < 0 ? -1 : 1;
+    std::size_t most = 0;
+    for (const std::size_t k : {std::size_t{1}, std::size_t{2}})
+        if (std::abs(normal[k]) > std::abs(normal[most])) most = k;
+    const view seen{static_cast<int>(most), normal[most] < 0 ? -1 : 1};
     for (const auto& [a, b, c, number] : patch)
         if (orient2d_filter(seen.axis, points_[a], points_[b], points_[c]) != seen.turn)
             return std::nullopt;

@@ -27,8 +27,6 @@ using test::is_manifold_in_coordinates;
 using test::require_solid;
 using test::turn;
 
-constexpr std::uint32_t none = tf::repair_result::none;
-
 }  // namespace
 
 TEST_CASE("repair: a solid comes back bit for bit") {
