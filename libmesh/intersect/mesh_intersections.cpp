@@ -1,14 +1,12 @@
 #include <libmesh/base/build_face_tree.hpp>
-#include <libmesh/base/check_faces.hpp>
-#include <libmesh/base/face_boxes.hpp>
 #include <libmesh/intersect/block_candidates.hpp>
 #include <libmesh/intersect/face_candidates.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/intersect/narrow_phase.hpp>
+#include <libmesh/intersect/overlap_trees.hpp>
 #include <libmesh/nearness/face_blocks.hpp>
 #include <treeform/mesh/intersections.hpp>
-#include <treeform/tree/build_within.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search_pair.hpp>
 #include <treeform/tree/tree.hpp>
@@ -43,24 +41,6 @@ void check_faces_met(const char* function, const detail::intersect::bad_faces& b
 void add(const detail::intersect::bad_faces& more, detail::intersect::bad_faces& bad) {
     bad.in_a = std::min(bad.in_a, more.in_a);
     bad.in_b = std::min(bad.in_b, more.in_b);
-}
-
-/// What `search` finds with trees over the faces that reach into the boxes of both meshes.
-/// `function` is what the caller called.
-template <class Search>
-auto in_overlap(const std::string& function, mesh_view a, mesh_view b, const Search& search) {
-    const std::string name_a = function + ": a", name_b = function + ": b";
-    detail::base::check_faces(name_a.c_str(), a.points.size(), a.faces);
-    detail::base::check_faces(name_b.c_str(), b.points.size(), b.faces);
-    try {
-        const auto [tree_a, tree_b] = build_overlap(a.faces, detail::base::face_boxes(a.points),
-                                                    b.faces, detail::base::face_boxes(b.points));
-        return search(tree_a.boxes, tree_b.boxes);
-    } catch (const std::invalid_argument&) {  // a box, and so a face, that is not finite
-        detail::base::check_finite_faces(name_a.c_str(), a);
-        detail::base::check_finite_faces(name_b.c_str(), b);
-        throw;
-    }
 }
 
 /// What the chunks of a search give, in a narrow phase each.
@@ -101,58 +81,27 @@ mesh_intersection_result classified(const pair_search<3>& search,
     return result;
 }
 
+/// \param moves what is still to be done to the trees
 mesh_intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                              const tree<3>& tree_b,
-                                             const mesh_intersection_options& options) {
-    const pair_search<3> search(transformed(tree_a, options.move_a),
-                                transformed(tree_b, options.move_b), turned_boxes::both_ways);
+                                             const mesh_intersection_options& options,
+                                             const mesh_positions& moves) {
+    const pair_search<3> search(transformed(tree_a, moves.move_a),
+                                transformed(tree_b, moves.move_b), turned_boxes::both_ways);
     return classified<detail::intersect::face_candidates>(
         search, {{a, tree_a, options.move_a}, {b, tree_b, options.move_b}}, options);
 }
 
-}  // namespace
-
-mesh_intersection_result detail::intersect::mesh_intersections(
-    mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
-    const mesh_intersection_options& options) {
-    check_tree("treeform::mesh_intersections", "first", a, tree_a);
-    check_tree("treeform::mesh_intersections", "second", b, tree_b);
-    return classified_by_faces(a, tree_a, b, tree_b, options);
-}
-
-mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepared_mesh& b,
-                                            const mesh_intersection_options& options) {
-    const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: a");
-    const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: b");
-    const pair_search<3> search(transformed(tree_a, options.move_a),
-                                transformed(tree_b, options.move_b), turned_boxes::both_ways);
-    return classified<detail::intersect::block_candidates>(
-        search,
-        {{detail::nearness::face_blocks_of(a).triangles, tree_a, options.move_a},
-         {detail::nearness::face_blocks_of(b).triangles, tree_b, options.move_b}},
-        options);
-}
-
-mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
-                                            const mesh_intersection_options& options) {
-    if (options.move_a == transform<3>{} && options.move_b == transform<3>{})
-        return in_overlap("mesh_intersections", a, b, [&](const auto& tree_a, const auto& tree_b) {
-            return classified_by_faces(a, tree_a, b, tree_b, options);
-        });
-    return detail::intersect::mesh_intersections(a, build_face_tree(a, "mesh_intersections: a"), b,
-                                                 build_face_tree(b, "mesh_intersections: b"),
-                                                 options);
-}
-
-bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                   const tree<3>& tree_b, const mesh_positions& positions) {
+/// \param moves what is still to be done to the trees
+bool any_meet(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
+              const mesh_positions& positions, const mesh_positions& moves) {
     mesh_intersection_options all;
     const detail::intersect::face_candidates::input meshes{{a, tree_a, positions.move_a},
                                                            {b, tree_b, positions.move_b}};
     std::mutex mutex;  // taken for a bad face only
     detail::intersect::bad_faces bad;
     const bool found = search_any_broad(
-        transformed(tree_a, positions.move_a), transformed(tree_b, positions.move_b),
+        transformed(tree_a, moves.move_a), transformed(tree_b, moves.move_b),
         [&](const candidate_block& block) {
             detail::intersect::narrow_phase_output output;
             detail::intersect::bad_faces met;
@@ -170,18 +119,49 @@ bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view
     return found;
 }
 
+}  // namespace
+
+mesh_intersection_result detail::intersect::mesh_intersections(
+    mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
+    const mesh_intersection_options& options) {
+    check_tree("treeform::mesh_intersections", "first", a, tree_a);
+    check_tree("treeform::mesh_intersections", "second", b, tree_b);
+    return classified_by_faces(a, tree_a, b, tree_b, options, {options.move_a, options.move_b});
+}
+
+mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepared_mesh& b,
+                                            const mesh_intersection_options& options) {
+    const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: a");
+    const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: b");
+    const pair_search<3> search(transformed(tree_a, options.move_a),
+                                transformed(tree_b, options.move_b), turned_boxes::both_ways);
+    return classified<detail::intersect::block_candidates>(
+        search,
+        {{detail::nearness::face_blocks_of(a).triangles, tree_a, options.move_a},
+         {detail::nearness::face_blocks_of(b).triangles, tree_b, options.move_b}},
+        options);
+}
+
+mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
+                                            const mesh_intersection_options& options) {
+    const auto [tree_a, tree_b] = detail::intersect::overlap_trees(
+        "mesh_intersections", a, b, {options.move_a, options.move_b});
+    return classified_by_faces(a, tree_a.boxes, b, tree_b.boxes, options, {});
+}
+
+bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                   const tree<3>& tree_b, const mesh_positions& positions) {
+    return any_meet(a, tree_a, b, tree_b, positions, positions);
+}
+
 bool intersects(const prepared_mesh& a, const prepared_mesh& b, const mesh_positions& positions) {
     return detail::intersect::intersects(a.view(), build_face_tree(a, "intersects: a"), b.view(),
                                          build_face_tree(b, "intersects: b"), positions);
 }
 
 bool intersects(mesh_view a, mesh_view b, const mesh_positions& positions) {
-    if (positions.move_a != transform<3>{} || positions.move_b != transform<3>{})
-        return detail::intersect::intersects(a, build_face_tree(a, "intersects: a"), b,
-                                             build_face_tree(b, "intersects: b"), positions);
-    return in_overlap("intersects", a, b, [&](const auto& tree_a, const auto& tree_b) {
-        return detail::intersect::intersects(a, tree_a, b, tree_b);
-    });
+    const auto [tree_a, tree_b] = detail::intersect::overlap_trees("intersects", a, b, positions);
+    return any_meet(a, tree_a.boxes, b, tree_b.boxes, positions, {});
 }
 
 }  // namespace treeform

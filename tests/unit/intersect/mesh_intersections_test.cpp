@@ -56,7 +56,8 @@ pairs found_in(const tf::mesh& a, const tf::mesh& b,
         tf::mesh_intersections(tf::prepared_mesh::borrow(a), tf::prepared_mesh::borrow(b), options);
     CHECK(of_prepared.pairs == result.pairs);
     CHECK(of_prepared.counts == result.counts);
-    CHECK(of_prepared.box_pairs >= result.box_pairs);
+    if (options.move_a == tf::transform<3>{} && options.move_b == tf::transform<3>{})
+        CHECK(of_prepared.box_pairs >= result.box_pairs);
     return result.pairs;
 }
 

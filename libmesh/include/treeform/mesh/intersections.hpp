@@ -36,8 +36,9 @@ struct mesh_intersection_options {
 struct mesh_intersection_result {
     std::vector<face_pair> pairs;  ///< face `a` of the first mesh, `b` of the second; ascending
     std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
-    std::uint64_t box_pairs = 0;    ///< pairs of faces whose boxes overlap, under a move both ways
-    std::uint64_t exact_pairs = 0;  ///< of these, undecided by the filter
+    /// Pairs of faces whose boxes overlap, as moved; of prepared meshes, under a move both ways.
+    std::uint64_t box_pairs = 0;
+    std::uint64_t exact_pairs = 0;    ///< of these, undecided by the filter
     predicate_counters predicates{};  ///< what the undecided pairs cost
     search_statistics searched{};     ///< what was looked at; the rest of both meshes was skipped
     bool cancelled = false;           ///< `progress` asked to stop
@@ -48,8 +49,8 @@ struct mesh_intersection_result {
 /// Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
 /// degenerate: two meshes share no corners, so faces that meet in equal corners are `touching`, and
 /// equal faces `overlap`. Surfaces count, not solids: a mesh inside the other that does not touch
-/// it gives no pair. `a` and `b` may be the same mesh. Of meshes that are neither prepared nor
-/// moved, only faces that reach into the intersection of both bounding boxes are indexed.
+/// it gives no pair. `a` and `b` may be the same mesh. Of meshes that are not prepared, only faces
+/// that reach, as moved, into the intersection of both bounding boxes are indexed.
 ///
 /// \throws std::invalid_argument when a transform is not finite, or naming the mesh and its face
 ///         with a corner out of range or, as moved, not finite
@@ -69,8 +70,8 @@ struct mesh_positions {
 };
 
 /// Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns as
-/// soon as one pair is found. Of meshes that are not prepared, only faces that reach into the
-/// intersection of both bounding boxes are indexed.
+/// soon as one pair is found. Of meshes that are not prepared, only faces that reach, as moved, into
+/// the intersection of both bounding boxes are indexed.
 ///
 /// \throws std::invalid_argument as `mesh_intersections`
 /// \same   in its answer, on any number of threads
