@@ -12,8 +12,8 @@
 namespace treeform::detail::intersect {
 
 /// Over the boxes of moved faces: of those that reach into the box around the other mesh, moved, as
-/// `build_overlap` says. Corners are moved as anywhere else, so that boxes hold what faces become,
-/// all roundings included; the trees are not to be moved any more.
+/// `build_overlap` says, or of all where most seem to. Corners are moved as anywhere else, so that
+/// boxes hold what faces become, all roundings included; the trees are not to be moved any more.
 ///
 /// \param function what the caller called
 /// \throws std::invalid_argument when a transform is not finite, or naming the mesh and its lowest

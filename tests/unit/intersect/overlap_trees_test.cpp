@@ -23,10 +23,10 @@ namespace {
 
 using tf::detail::intersect::overlap_trees;
 
-/// A turn about two axes, not a rigid one at times, then a move.
-tf::transform<3> random_move(test::random& source, double reach) {
+/// Stretched at times, turned about two axes, then moved.
+tf::transform<3> random_move(test::random& source, double reach, double most_stretch = 2.0) {
     const double a = source.in(0, 7), b = source.in(0, 7);
-    const double stretch = source.below(3) == 0 ? source.in(0.5, 2) : 1.0;
+    const double stretch = source.below(3) == 0 ? source.in(1 / most_stretch, most_stretch) : 1.0;
     tf::transform<3> first, second;
     first.rows = {{{stretch * std::cos(a), -std::sin(a), 0, 0},
                    {stretch * std::sin(a), std::cos(a), 0, 0},
@@ -151,6 +151,20 @@ TEST_CASE("overlap_trees: faces far from the other mesh are left out") {
         CHECK(tree_b.skipped() > b.faces.size() * 9 / 10);
         check_as_whole(a, b, positions);
     }
+}
+
+TEST_CASE("overlap_trees: where most faces are near the other mesh, all are in the trees") {
+    const tf::mesh a = test::ball(5, 1.0), b = test::ball(4, 1.0);
+    test::random source(4);
+    for (int i = 0; i < 10; ++i) {
+        const tf::mesh_positions positions{random_move(source, 0.1, 1.1),
+                                           random_move(source, 0.1, 1.1)};
+        const auto [tree_a, tree_b] = overlap_trees("test", a, b, positions);
+        CHECK(tree_a.skipped() == 0);
+        CHECK(tree_b.skipped() == 0);
+        check_as_whole(a, b, positions);
+    }
+    check_as_whole(a, b, {});
 }
 
 TEST_CASE("overlap_trees: refuses what is not finite once it is moved, and names the face") {
