@@ -4,6 +4,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/active_cells.hpp>
 #include <libmesh/boolean/region_graph.hpp>
+#include <libmesh/boolean/way_out.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -74,37 +75,6 @@ surface_patches find_active_patches(const mesh_arrangement& cut,
                                std::to_string(patches.open[0].points[0]) + " and " +
                                std::to_string(patches.open[0].points[1]));
     return patches;
-}
-
-/// A line through a face of an arrangement, and which way along it less of a box is.
-struct way_out {
-    arrange::corner_line line;
-    bool ahead;
-};
-
-/// Along the axis on which it is the least way out of the box, of those that the face is not too
-/// steep to, if there is one.
-way_out find_way_out(mesh_view mesh, const mesh_arrangement& cut, std::size_t f, const box3& box) {
-    const triangle3 whole = base::triangle_of(mesh, cut.covers_of(f).front().face);
-    const point3 normal =
-        base::cross(base::minus(whole[1], whole[0]), base::minus(whole[2], whole[0]));
-    const point3 size = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
-    const double steep = 0.25 * std::max({size.x, size.y, size.z});
-    const auto ahead = [&](std::size_t k) { return box.max[k] - whole[0][k]; };
-    const auto back = [&](std::size_t k) { return whole[0][k] - box.min[k]; };
-    const auto cost = [&](int axis) {
-        const auto k = static_cast<std::size_t>(axis);
-        return std::pair(size[k] < steep, std::min(ahead(k), back(k)));
-    };
-    std::array<int, 3> axes = {0, 1, 2};
-    std::ranges::stable_sort(axes, [&](int i, int j) { return cost(i) < cost(j); });
-    const auto& [a, b, c] = cut.faces[f];
-    const std::array<implicit_point, 3> corners = {cut.point(a), cut.point(b), cut.point(c)};
-    // Along one of them it is not seen edge on.
-    const int axis = *std::ranges::find_if(
-        axes, [&](int k) { return orient2d(k, corners[0], corners[1], corners[2]) != 0; });
-    const auto k = static_cast<std::size_t>(axis);
-    return {{corners, axis}, ahead(k) < back(k)};
 }
 
 arrange::numbered_sets find_regions(mesh_view mesh, const mesh_arrangement& cut,

@@ -9,6 +9,7 @@
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/active_boolean.hpp>
+#include <libmesh/boolean/clip_sheet.hpp>
 #include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/inside_of_cells.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
@@ -19,7 +20,6 @@
 #include <libmesh/boolean/partial_expression.hpp>
 #include <libmesh/boolean/region_graph.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
-#include <libmesh/boolean/sheet_faces.hpp>
 #include <libmesh/boolean/sound_operand.hpp>
 #include <libmesh/boolean/sound_pair.hpp>
 #include <libmesh/boolean/split_nonmanifold.hpp>
@@ -205,28 +205,12 @@ unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet
         throw std::invalid_argument("treeform::clip: the sheet is no operand");
     if (!expression.needs(sheet))
         throw std::invalid_argument("treeform::clip: the expression holds more than of the sheet");
-    arranged_operands input{join_usable(operands), {}};
-    auto& [joined, arranged] = input;
-    if (const auto open = open_edges_of(
-            joined, detail::boolean::find_operand_edges(joined.all, joined.operand_of_face()),
-            sheet);
-        open.count > 0)
+    joined_operands joined = join_usable(operands);
+    const operand_edges edges =
+        detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
+    if (const auto open = open_edges_of(joined, edges, sheet); open.count > 0)
         return open_result(open_input(open, joined));
-    arrange_joined(input, part_of(options.progress, 0.0, 0.5));
-    unmended_result made{with_counts(arranged), {}};
-    boolean_result& result = made.result;
-    if (arranged.cancelled) return made;
-    mesh_arrangement& cut = arranged.cut;
-    const std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
-    const std::vector<std::uint8_t> way = detail::boolean::sheet_faces(cut, operand_of_face, sheet);
-    detail::boolean::cover_from_both_sides(cut, operand_of_face, sheet);
-    const arrangement_cells cells =
-        detail::arrange::cells_of(input_of(cut, joined), cut, operand_of_face, operands.size());
-    result.statistics.cells = cells.winding.size() / operands.size();
-    detail::round::solid_faces chosen = detail::boolean::kept_of_sheet(
-        cut, cells, operand_of_face, way, sheet, expression, options.inside);
-    finish_surface(made, cut, std::move(chosen), joined, false, options);
-    return made;
+    return detail::boolean::clip_sheet(joined, edges, sheet, expression, options);
 }
 
 unmended_result split_of(std::span<const mesh_view> operands, const rounding_try& options) {

@@ -1,9 +1,7 @@
-#include <libmesh/boolean/inside_of_cells.hpp>
 #include <libmesh/boolean/sheet_faces.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <utility>
 
 namespace treeform::detail::boolean {
@@ -21,36 +19,13 @@ std::vector<std::uint8_t> sheet_faces(const mesh_arrangement& cut,
     return way;
 }
 
-void cover_from_both_sides(mesh_arrangement& cut, const std::vector<std::uint32_t>& operand_of_face,
-                           std::uint32_t sheet) {
-    std::vector<covering_face> covers;
-    covers.reserve(2 * cut.covers.size());
-    for (std::size_t f = 0; f < cut.faces.size(); ++f) {
-        const auto before = cut.covers_of(f);
-        cut.cover_begin[f] = covers.size();
-        for (const covering_face& cover : before) {
-            covers.push_back(cover);
-            if (operand_of_face[cover.face] == sheet)
-                covers.push_back({cover.face, !cover.opposite});
-        }
-    }
-    cut.cover_begin.back() = covers.size();
-    cut.covers = std::move(covers);
-}
-
-round::solid_faces kept_of_sheet(mesh_arrangement& cut, const arrangement_cells& cells,
+round::solid_faces kept_of_sheet(mesh_arrangement& cut,
                                  const std::vector<std::uint32_t>& operand_of_face,
-                                 const std::vector<std::uint8_t>& way, std::uint32_t sheet,
-                                 const boolean_expression& expression, fill_rule rule) {
+                                 const std::vector<std::uint8_t>& way,
+                                 const std::vector<std::uint8_t>& keep, std::uint32_t sheet) {
     round::solid_faces kept;
-    const auto in = std::make_unique<bool[]>(cells.operands);
     for (std::size_t f = 0; f < way.size(); ++f) {
-        if (way[f] == 0) continue;
-        const auto [front, behind] = cells.cell_of_side[f];
-        for (std::size_t k = 0; k < cells.operands; ++k)
-            in[k] = k == sheet || is_inside(rule, cells.winding_of(front)[k]) ||
-                    is_inside(rule, cells.winding_of(behind)[k]);
-        if (!expression({in.get(), cells.operands})) continue;
+        if (way[f] == 0 || keep[f] == 0) continue;
         auto first = cut.covers.begin() + static_cast<std::ptrdiff_t>(cut.cover_begin[f]);
         for (auto at = first; operand_of_face[first->face] != sheet; ++at)
             if (operand_of_face[at->face] == sheet) std::iter_swap(first, at);

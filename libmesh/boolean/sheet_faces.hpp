@@ -2,10 +2,8 @@
 /// \file
 /// The faces of a sheet among solids: which they are, and which of them a set operation keeps.
 
-#include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/round/solid_faces.hpp>
-#include <treeform/mesh/boolean.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -18,18 +16,14 @@ namespace treeform::detail::boolean {
     const mesh_arrangement& cut, const std::vector<std::uint32_t>& operand_of_face,
     std::uint32_t sheet);
 
-/// Faces of the sheet become covers both ways: then it is closed and bounds nothing, and cells are
-/// those of the others.
-void cover_from_both_sides(mesh_arrangement& cut, const std::vector<std::uint32_t>& operand_of_face,
-                           std::uint32_t sheet);
-
-/// The faces that the expression keeps, now first covered by the sheet. A piece is in a solid when
-/// one of its sides is.
+/// Those of the sheet that are kept, now first covered by the sheet.
 ///
-/// \param way as `sheet_faces` says
-[[nodiscard]] round::solid_faces kept_of_sheet(
-    mesh_arrangement& cut, const arrangement_cells& cells,
-    const std::vector<std::uint32_t>& operand_of_face, const std::vector<std::uint8_t>& way,
-    std::uint32_t sheet, const boolean_expression& expression, fill_rule rule);
+/// \param way  as `sheet_faces` says
+/// \param keep [F'] not 0 for faces to keep
+[[nodiscard]] round::solid_faces kept_of_sheet(mesh_arrangement& cut,
+                                               const std::vector<std::uint32_t>& operand_of_face,
+                                               const std::vector<std::uint8_t>& way,
+                                               const std::vector<std::uint8_t>& keep,
+                                               std::uint32_t sheet);
 
 }  // namespace treeform::detail::boolean

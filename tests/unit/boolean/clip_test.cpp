@@ -128,6 +128,24 @@ TEST_CASE("clip: a sheet may overlap itself, and be closed") {
           doctest::Approx(area + 4));
 }
 
+TEST_CASE("clip: faces of solids that the sheet does not reach are not looked at") {
+    const tf::mesh ball = test::ball(5, 1.0);
+    const tf::mesh small =
+        test::scaled(sheet(2, -1, -1, 0), 0.25);  // half a side, about the middle
+    const std::vector<tf::mesh> meshes{moved(small, {0.9, 0, 0}), ball, moved(ball, {0, 0, 1.0}),
+                                       moved(ball, {0, 0.1, -1.0})};
+    for (const std::string text : {"a*(b+c+d)", "a-b-c-d", "a*(c^d)-b"}) {
+        CAPTURE(text);
+        const tf::boolean_result result = clipped(meshes, text);
+        CHECK(result.statistics.skipped_faces > 3 * ball.faces.size() * 9 / 10);
+        CHECK(result.statistics.pairs < 500);  // the balls meet in many more
+    }
+    const double inside = area_of(clipped(meshes, "a*(b+c+d)").mesh);
+    CHECK(inside + area_of(clipped(meshes, "a-b-c-d").mesh) == doctest::Approx(0.25));
+    CHECK(inside > 0.05);
+    CHECK(inside < 0.2);
+}
+
 TEST_CASE("clip: simplified, what is left of a square has few faces") {
     const auto result =
         clipped({sheet(4, 0, 0, 1), moved(box(2, 2, 2), {1, 1, 0})}, "a-b", 0, {.simplify = true});

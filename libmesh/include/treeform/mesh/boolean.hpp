@@ -215,13 +215,13 @@ struct TREEFORM_API boolean_result {
 /// piece that lies on the surface of a solid is inside that solid. So the sheet minus a solid, and
 /// the sheet inside it, together are the sheet.
 ///
-/// The sheet may end anywhere, overlap itself, and even be closed. A piece is oriented as the
-/// lowest face of the sheet that it lies in. The certificate does not check edges, since the result
-/// is open. Where another operand is open, the certificate says so as in `boolean`, and the mesh is
-/// empty.
+/// The sheet may end anywhere, overlap itself, and even be closed. A piece is oriented as the lowest
+/// face of the sheet that it lies in. The certificate does not check edges, since the result is open.
+/// Where another operand is open, it says so as in `boolean`, and the mesh is empty.
 ///
 /// \throws std::invalid_argument as `boolean`, when `sheet` is not an operand, or when the
 ///         expression may be true outside of it (`boolean_expression::needs`), as in a union
+/// \cost   faces of solids that do not reach into the box of a face of the sheet are not looked at
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result clip(std::span<const mesh_view> operands,
                                                std::uint32_t sheet,

@@ -1,0 +1,37 @@
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/boolean/way_out.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/triangle.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace treeform::detail::boolean {
+
+way_out find_way_out(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
+                     const aabb<double, 3>& box) {
+    const triangle3 whole = base::triangle_of(mesh, cut.covers_of(f).front().face);
+    const point3 normal =
+        base::cross(base::minus(whole[1], whole[0]), base::minus(whole[2], whole[0]));
+    const point3 size = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+    const double steep = 0.25 * std::max({size.x, size.y, size.z});
+    const auto ahead = [&](std::size_t k) { return box.max[k] - whole[0][k]; };
+    const auto back = [&](std::size_t k) { return whole[0][k] - box.min[k]; };
+    const auto cost = [&](int axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        return std::pair(size[k] < steep, std::min(ahead(k), back(k)));
+    };
+    std::array<int, 3> axes = {0, 1, 2};
+    std::ranges::stable_sort(axes, [&](int i, int j) { return cost(i) < cost(j); });
+    const auto& [a, b, c] = cut.faces[f];
+    const std::array<implicit_point, 3> corners = {cut.point(a), cut.point(b), cut.point(c)};
+    // Along one of them it is not seen edge on.
+    const int axis = *std::ranges::find_if(
+        axes, [&](int k) { return orient2d(k, corners[0], corners[1], corners[2]) != 0; });
+    const auto k = static_cast<std::size_t>(axis);
+    return {{corners, axis}, ahead(k) < back(k)};
+}
+
+}  // namespace treeform::detail::boolean

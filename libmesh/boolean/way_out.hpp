@@ -1,0 +1,26 @@
+#pragma once
+/// \file
+/// Lines from faces of an arrangement to where nothing is.
+
+#include <libmesh/arrange/corner_line.hpp>
+#include <libmesh/arrange/mesh_arrangement.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/aabb.hpp>
+
+#include <cstddef>
+
+namespace treeform::detail::boolean {
+
+/// A line through a face of an arrangement, and which way along it less of a box is.
+struct way_out {
+    arrange::corner_line line;
+    bool ahead;
+};
+
+/// Along the axis on which it is the least way out of the box, of those that the face is not too
+/// steep to, if there is one.
+/// \param mesh what `cut` is the arrangement of
+[[nodiscard]] way_out find_way_out(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
+                                   const aabb<double, 3>& box);
+
+}  // namespace treeform::detail::boolean
