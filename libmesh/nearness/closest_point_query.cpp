@@ -255,33 +255,49 @@ std::optional<closest_point_result> closest_point_query::nearest(const point3& q
     return closest_searcher({&tree_, triangles_.data()}, unit_)(query, radius);
 }
 
-std::vector<std::optional<closest_point_result>> closest_point_query::nearest(
-    std::span<const point3> queries, double radius) const {
-    check_radius("treeform::closest_point", radius);
+template <class NumberOf, class RadiusOf>
+std::vector<std::optional<closest_point_result>> closest_point_query::answers(
+    std::span<const point3> queries, const NumberOf& number_of, const RadiusOf& radius_of) const {
     for (std::size_t i = 0; i < queries.size(); ++i)
-        check_query(queries[i], "query " + std::to_string(i));
-    const std::vector<std::uint32_t> order = morton_order<3>(queries.size(), [&](std::size_t i) {
-        return std::array<double, 3>{queries[i].x, queries[i].y, queries[i].z};
-    });
+        if (!detail::base::is_finite(queries[i]))
+            check_query(queries[i], "query " + std::to_string(i));
     std::vector<std::optional<closest_point_result>> found(queries.size());
     const closest_searcher search({&tree_, triangles_.data()}, unit_);
     for_chunks(
-        order.size(), queries_per_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+        queries.size(), queries_per_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
             // What was nearest to the query before is not far from this one. It was
             // rounded, and distances are: by some 2^-50 of the largest coordinate.
             const double slack = 0x1p-44 * largest_;
             std::optional<point3> near;
             for (std::size_t i = begin; i < end; ++i) {
-                const point3& query = queries[order[i]];
-                double limit = radius;
+                const std::size_t number = number_of(i);
+                const point3& query = queries[number];
+                double limit = radius_of(number);
                 if (near)
                     limit =
                         std::min(limit, distance_between(*near, query) * (1.0 + 0x1p-40) + slack);
-                found[order[i]] = search(query, limit);
-                if (found[order[i]]) near = found[order[i]]->point;
+                found[number] = search(query, limit);
+                if (found[number]) near = found[number]->point;
             }
         });
     return found;
+}
+
+std::vector<std::optional<closest_point_result>> closest_point_query::nearest(
+    std::span<const point3> queries, double radius) const {
+    check_radius("treeform::closest_point", radius);
+    const std::vector<std::uint32_t> order = morton_order<3>(queries.size(), [&](std::size_t i) {
+        return std::array<double, 3>{queries[i].x, queries[i].y, queries[i].z};
+    });
+    return answers(
+        queries, [&](std::size_t i) { return std::size_t{order[i]}; },
+        [&](std::size_t) { return radius; });
+}
+
+std::vector<std::optional<closest_point_result>> closest_point_query::nearest_in_order(
+    std::span<const point3> queries, std::span<const double> radii) const {
+    return answers(
+        queries, [](std::size_t i) { return i; }, [&](std::size_t i) { return radii[i]; });
 }
 
 const closest_point_query& closest_point_query_of(const prepared_mesh& mesh) {

@@ -53,7 +53,20 @@ class TREEFORM_API closest_point_query {
     [[nodiscard]] std::vector<std::optional<closest_point_result>> nearest(
         std::span<const point3> queries, double radius = any_distance) const;
 
+    /// [Q] The same for queries that are given in an order of space, each with a radius of its own:
+    /// the smaller, the faster.
+    /// \pre  as many radii as queries, not negative
+    /// \throws std::invalid_argument naming the query
+    /// \same   on any number of threads: as the single queries
+    [[nodiscard]] std::vector<std::optional<closest_point_result>> nearest_in_order(
+        std::span<const point3> queries, std::span<const double> radii) const;
+
   private:
+    template <class NumberOf, class RadiusOf>
+    [[nodiscard]] std::vector<std::optional<closest_point_result>> answers(
+        std::span<const point3> queries, const NumberOf& number_of,
+        const RadiusOf& radius_of) const;
+
     tree<3> tree_;
     buffer<double> triangles_;  ///< [blocks][12][8] in leaf order, times `unit_`
     double unit_ = 1.0;         ///< a power of two that keeps squares in range

@@ -1,18 +1,19 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/nearest_float.hpp>
-#include <libmesh/base/point_faces.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
-#include <libmesh/nearness/closest_point_query.hpp>
-#include <libmesh/place/align_steps.hpp>
+#include <libmesh/place/align_judge.hpp>
+#include <libmesh/place/align_search.hpp>
+#include <libmesh/place/align_starts.hpp>
+#include <libmesh/place/align_target.hpp>
 #include <treeform/mesh/align.hpp>
-#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/detail/morton_order.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -21,14 +22,18 @@
 namespace treeform {
 namespace {
 
-using detail::place::block;
+using detail::place::align_target;
+using detail::place::endless;
+using detail::place::freedom;
+using detail::place::matching;
+using detail::place::Matrix3d;
 using detail::place::partner;
-using detail::place::share_of;
+using detail::place::quality;
+using detail::place::residuals;
+using detail::place::search_result;
+using detail::place::search_task;
 using detail::place::similarity;
-using detail::place::sum_over;
-using detail::place::trim;
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
+using detail::place::Vector3d;
 
 void refuse(const std::string& what) { throw std::invalid_argument("treeform::align: " + what); }
 
@@ -46,6 +51,7 @@ void check(points_view moving, mesh_view fixed, const align_options& o) {
     if (!(o.overlap > 0.0 && o.overlap <= 1.0)) refuse("the overlap is not in (0, 1]");
     if (!(o.max_distance >= 0.0)) refuse("the largest distance is negative or NaN");
     if (!(o.tolerance >= 0.0)) refuse("the tolerance is negative or NaN");
+    if (o.starts == 0) refuse("there are no starts");
     if (!o.start.finite()) refuse("an entry of the start is not finite");
 }
 
@@ -57,8 +63,9 @@ point3 to_point(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 /// to the moving points; what remains of the start is `offset`.
 struct frame {
     double by = 1.0;
-    point3 center{};  ///< of the fixed box
-    point3 pivot{};   ///< of the moving box
+    double diagonal = 0.0;  ///< of the fixed box, in these lengths
+    point3 center{};        ///< of the fixed box
+    point3 pivot{};         ///< of the moving box
     Matrix3d linear = Matrix3d::Identity();
     Vector3d offset = Vector3d::Zero();
 
@@ -71,8 +78,9 @@ struct frame {
         center = middle(box);
         pivot = middle(*bounding_box(moving));
         int exponent = 0;
-        std::frexp(diagonal(box), &exponent);
+        std::frexp(treeform::diagonal(box), &exponent);
         by = std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
+        diagonal = treeform::diagonal(box) * by;
         for (int r = 0; r < 3; ++r)
             for (int c = 0; c < 3; ++c)
                 linear(r, c) = start.rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
@@ -87,120 +95,6 @@ struct frame {
     }
 };
 
-/// The fixed side, scaled; points are faces of no area when there are no others.
-class target {
-  public:
-    target(mesh_view fixed, const frame& f) : faces_(fixed.faces.begin(), fixed.faces.end()) {
-        points_.reserve(fixed.points.size());
-        for (const point3& p : fixed.points) points_.push_back(f.fixed(p));
-        if (faces_.empty()) faces_ = detail::base::point_faces(points_.size());
-        query_ = detail::nearness::closest_point_query({points_, faces_});
-    }
-
-    /// The partners of points, those that have one within `radius`.
-    [[nodiscard]] std::vector<partner> partners(const std::vector<Vector3d>& points,
-                                                const similarity& map, double radius) const {
-        std::vector<point3> moved(points.size());
-        for_chunks(points.size(), block, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t i = begin; i < end; ++i) moved[i] = to_point(map(points[i]));
-        });
-        if (!detail::base::all_finite(moved))
-            throw std::overflow_error("treeform::align: the moving points are too far away");
-        const auto found = query_.nearest(moved, radius);
-        std::vector<partner> result;
-        result.reserve(found.size());
-        for (std::size_t i = 0; i < found.size(); ++i)
-            if (found[i])
-                result.push_back(with_plane({to_eigen(moved[i]), to_eigen(found[i]->point),
-                                             normal(found[i]->face), found[i]->distance, i}));
-        return result;
-    }
-
-  private:
-    [[nodiscard]] Vector3d normal(std::uint32_t f) const {
-        const Vector3d a = to_eigen(points_[faces_[f][0]]);
-        const Vector3d n =
-            (to_eigen(points_[faces_[f][1]]) - a).cross(to_eigen(points_[faces_[f][2]]) - a);
-        const double length = n.norm();
-        return length > 0.0 ? Vector3d(n / length) : Vector3d(Vector3d::Zero());
-    }
-
-    /// In the plane of a face but beside it, a point would be left there by the normal of the face.
-    /// On the surface, except for rounding, directions say nothing.
-    static partner with_plane(partner p) {
-        const Vector3d off = p.from - p.to;
-        if (p.distance > 1e-9 && std::abs(off.dot(p.normal)) < 0.999 * p.distance)
-            p.normal = off / p.distance;
-        return p;
-    }
-
-    std::vector<point3> points_;
-    std::vector<face> faces_;
-    detail::nearness::closest_point_query query_;
-};
-
-/// How good a place is: the mean of the squared distances that count, each no more than the
-/// largest allowed, and what the result says of it.
-struct quality {
-    double cost = 0.0;
-    double rms = 0.0;
-    double overlap = 0.0;
-};
-
-quality quality_of(std::vector<partner> partners, std::size_t count, const align_options& o,
-                   double radius) {
-    quality q;
-    q.overlap = static_cast<double>(partners.size()) / static_cast<double>(count);
-    const std::size_t wanted = share_of(o.overlap, count);
-    trim(partners, wanted);
-    const double sum =
-        sum_over(partners, 0.0, [](const partner& p) { return p.distance * p.distance; });
-    if (!partners.empty()) q.rms = std::sqrt(sum / static_cast<double>(partners.size()));
-    const auto missing = static_cast<double>(wanted - partners.size());
-    q.cost =
-        (sum + (missing > 0.0 ? missing * radius * radius : 0.0)) / static_cast<double>(wanted);
-    return q;
-}
-
-/// How far a step moves the points of a ball of radius 1, at most.
-double displacement(const similarity& step) {
-    return (step.scale * step.rotation - Matrix3d::Identity()).norm() + step.shift.norm();
-}
-
-struct search_result {
-    similarity map;
-    bool converged = false;
-    unsigned iterations = 0;
-};
-
-/// Steps from `map` on, and of the places on the way the best.
-search_result search(const target& fixed, const std::vector<Vector3d>& samples,
-                     const similarity& start, const align_options& o, double radius, bool planes,
-                     detail::base::work_progress& work) {
-    search_result best{start};
-    similarity map = start;
-    double least = std::numeric_limits<double>::infinity();
-    for (unsigned i = 0;; ++i) {
-        std::vector<partner> partners = fixed.partners(samples, map, radius);
-        const double cost = quality_of(partners, samples.size(), o, radius).cost;
-        // Close to the end costs differ by their rounding alone, and the last place is the best.
-        if (cost <= least * (1.0 + 1e-12) + 1e-28) {
-            least = std::min(least, cost);
-            best.map = map;
-        }
-        best.iterations = i;
-        if (best.converged || i == o.max_iterations) return best;
-        if (!work.step(0.2, 0.8, i, 10.0)) return best;
-        trim(partners, share_of(o.overlap, samples.size()));
-        if (partners.empty()) return best;
-        const similarity step = planes ? detail::place::plane_step(partners, o.scale)
-                                       : detail::place::point_step(partners, o.scale);
-        if (!step.shift.allFinite() || !step.rotation.allFinite()) return best;
-        map = detail::place::after(step, map);
-        best.converged = displacement(step) <= o.tolerance;
-    }
-}
-
 transform<3> matrix_of(const frame& f, const similarity& map, const point3& pivot_moved) {
     const Matrix3d linear = map.scale * map.rotation * f.linear;
     const Vector3d shift = to_eigen(pivot_moved) - linear * to_eigen(f.pivot);
@@ -208,6 +102,18 @@ transform<3> matrix_of(const frame& f, const similarity& map, const point3& pivo
     for (int r = 0; r < 3; ++r)
         m.rows[static_cast<std::size_t>(r)] = {linear(r, 0), linear(r, 1), linear(r, 2), shift(r)};
     return m;
+}
+
+/// All moving points in an order of space.
+std::vector<Vector3d> in_order(const frame& f, points_view moving) {
+    std::vector<Vector3d> all(moving.size());
+    const auto at = [&](std::size_t i) { return f.moving(moving[i]); };
+    const auto order = detail::morton_order<3>(moving.size(), [&](std::size_t i) {
+        const Vector3d p = at(i);
+        return std::array<double, 3>{p.x(), p.y(), p.z()};
+    });
+    for (std::size_t i = 0; i < order.size(); ++i) all[i] = at(order[i]);
+    return all;
 }
 
 std::vector<Vector3d> some_of(const std::vector<Vector3d>& all, std::size_t most) {
@@ -219,51 +125,215 @@ std::vector<Vector3d> some_of(const std::vector<Vector3d>& all, std::size_t most
     return some;
 }
 
-align_result found_by_steps(points_view moving, mesh_view fixed, const align_options& options) {
-    align_result result;
-    result.matrix = options.start;
-    if (moving.empty() || fixed.points.empty()) return result;
+align_target target_in(const frame& f, mesh_view fixed) {
+    std::vector<point3> points;
+    points.reserve(fixed.points.size());
+    for (const point3& p : fixed.points) points.push_back(f.fixed(p));
+    return {std::move(points), {fixed.faces.begin(), fixed.faces.end()}};
+}
 
-    const frame f(moving, fixed.points, options.start);
-    const target scaled(fixed, f);
-    std::vector<Vector3d> all;
-    all.reserve(moving.size());
-    for (const point3& p : moving) all.push_back(f.moving(p));
-    similarity start;
-    start.shift = f.offset;
-    const double radius = options.max_distance * f.by;
+/// Where the fixed side is and how it lies: by area, of a cloud by points.
+detail::place::inertia inertia_in(const frame& f, mesh_view fixed) {
+    std::vector<Vector3d> points;
+    for (const point3& p : fixed.points) points.push_back(to_eigen(f.fixed(p)));
+    return fixed.faces.empty() ? detail::place::inertia_of(points)
+                               : detail::place::inertia_of(points, fixed.faces);
+}
 
-    detail::base::work_progress work(options.progress);
-    const auto judge = [&](const similarity& map) {
-        return quality_of(scaled.partners(all, map, radius), all.size(), options, radius);
-    };
-    const bool planes = options.method == align_method::point_to_plane && !fixed.faces.empty();
-    if (!work.reach(0.1)) return {.status = status::cancelled};
-    const quality before = judge(start);
-    if (!std::isfinite(before.cost))
-        throw std::overflow_error("treeform::align: the distances are too large to be squared");
-    if (!work.reach(0.2)) return {.status = status::cancelled};
-    const search_result found =
-        search(scaled, some_of(all, options.samples), start, options, radius, planes, work);
-    if (work.cancelled()) return {.status = status::cancelled};
-    const quality after_all = judge(found.map);
-    if (!work.reach(1.0)) return {.status = status::cancelled};
-    const bool better = after_all.cost < before.cost;
-    const similarity& map = better ? found.map : start;
-    const quality& end = better ? after_all : before;
-    result.pivot = f.pivot;
+/// One alignment, in its frame.
+class alignment {
+  public:
+    alignment(points_view moving, mesh_view fixed, const align_options& options)
+        : options_(options),
+          fixed_(fixed),
+          frame_(moving, fixed.points, options.start),
+          target_(target_in(frame_, fixed)),
+          all_(in_order(frame_, moving)),
+          samples_(some_of(all_, options.samples)),
+          few_(some_of(samples_, few_samples)),
+          task_{.fixed = target_,
+                .max_distance = options.max_distance * frame_.by,
+                .overlap = options.overlap,
+                .planes = options.method == align_method::point_to_plane ||
+                          (options.method == align_method::automatic && !target_.is_cloud()),
+                .welsch = options.weights == align_weights::welsch,
+                .scale = options.scale,
+                .accelerate = options.accelerate,
+                .max_iterations = options.max_iterations,
+                .tolerance = options.tolerance},
+          work_(options.progress) {
+        if (task_.planes) target_.find_normals();
+    }
+
+    [[nodiscard]] align_result found() {
+        if (!work_.reach(0.1)) return {.status = status::cancelled};
+        similarity present;
+        present.shift = frame_.offset;
+        const quality before = quality_at(task_, all_, present, endless, of_all_);
+        if (!std::isfinite(before.cost))
+            throw std::overflow_error("treeform::align: the distances are too large to be squared");
+        if (!work_.reach(0.2)) return {.status = status::cancelled};
+        best_ = search_from(present, 0.2, 0.6);
+        const auto tried = options_.starts > 1 ? others_than(present, options_.starts, 0.6, 0.7)
+                                               : std::vector<detail::place::tried_start>{};
+        for (std::size_t i = 0; i < std::min(tried.size(), refined) && !work_.cancelled(); ++i)
+            take_if_better(tried[i], 0.7, 0.8);
+        if (work_.cancelled()) return {.status = status::cancelled};
+        align_result result = judged(present, before);
+        if (work_.cancelled() || !work_.reach(1.0)) return {.status = status::cancelled};
+        return result;
+    }
+
+  private:
+    static constexpr std::size_t few_samples = 1000;
+    static constexpr std::size_t refined = 3;   ///< of other starts, the best
+    static constexpr std::size_t doubts = 40;   ///< starts to try in doubt
+    static constexpr double better = 0.9;       ///< by what factor another place has to be
+    static constexpr double exact = 1e-9;       ///< distances that are none
+    static constexpr double like_noise = 0.15;  ///< correlation of neighbors
+    static constexpr double bearable = 2e-3;    ///< share of the diagonal that regions may be off
+
+    [[nodiscard]] search_result search_from(const similarity& start, double from, double to) {
+        matching last;
+        return search(task_, samples_, start, last,
+                      [&](unsigned i) { return work_.step(from, to, i, 10.0); });
+    }
+
+    /// Other places than the present one, as few samples find them, the best first.
+    [[nodiscard]] std::vector<detail::place::tried_start> others_than(const similarity& present,
+                                                                      std::size_t count,
+                                                                      double from, double to) {
+        const auto starts = detail::place::starts_of(detail::place::inertia_of(samples_),
+                                                     inertia_in(frame_, fixed_), present, count);
+        return try_starts(task_, few_, starts,
+                          [&](std::size_t i) { return work_.step(from, to, i, 20.0); });
+    }
+
+    void take_if_better(const detail::place::tried_start& tried, double from, double to) {
+        search_result other = search_from(tried.end.map, from, to);
+        matching last;
+        const double cost = quality_at(task_, samples_, other.map, best_.width, last).cost;
+        if (!(cost < best_.at.cost * (1.0 - 1e-6) - 1e-20)) return;
+        other.width = best_.width;
+        other.at.cost = cost;
+        best_ = other;
+        best_start_ = static_cast<unsigned>(tried.number);
+    }
+
+    /// Whether what remains is noise, or too little for a doubt.
+    [[nodiscard]] bool is_noise(const residuals& left) const {
+        if (left.rms <= exact) return true;
+        if (left.common() <= 0.5 * target_.spacing()) return true;
+        const double by_chance = 4.0 / std::sqrt(static_cast<double>(left.pairs + 1));
+        return left.pairs >= 400 && left.correlation <= std::max(like_noise, by_chance);
+    }
+
+    /// Whether some other start ends at a better place than the best.
+    [[nodiscard]] bool other_is_better(const similarity& present) {
+        matching last;
+        search_task task = task_;
+        task.welsch = false;
+        const double here = quality_at(task, few_, best_.map, endless, last).cost;
+        const auto tried = others_than(present, doubts, 0.85, 0.98);
+        for (std::size_t i = 0; i < std::min(tried.size(), refined); ++i) {
+            matching of_few;
+            const auto end = search(task, few_, tried[i].end.map, of_few,
+                                    [&](unsigned) { return !work_.cancelled(); });
+            if (end.at.cost < better * here) return true;
+        }
+        return false;
+    }
+
+    [[nodiscard]] align_end end_of(const similarity& present, const residuals& left) {
+        if (!best_.converged) return align_end::out_of_iterations;
+        if (is_noise(left)) return align_end::converged;
+        if (left.common() > bearable * frame_.diagonal || other_is_better(present))
+            return align_end::doubtful;
+        return align_end::converged;
+    }
+
+    [[nodiscard]] align_result judged(const similarity& present, const quality& before);
+    /// Of all points where they were looked for last, by no weights but those of trimming.
+    [[nodiscard]] quality plain_quality() const {
+        auto partners = of_all_.partners;
+        const std::size_t count = detail::place::share_of(task_.overlap, partners.size());
+        weigh(partners, count, endless);
+        return quality_of(partners, count, endless, task_.max_distance);
+    }
+    void enter_matrix(align_result& result, const similarity& map, bool moved) const;
+    [[nodiscard]] std::uint64_t inliers() const;
+
+    const align_options& options_;
+    mesh_view fixed_;
+    frame frame_;
+    align_target target_;
+    std::vector<Vector3d> all_, samples_, few_;
+    search_task task_;
+    detail::base::work_progress work_;
+    matching of_all_;
+    search_result best_;
+    unsigned best_start_ = 0;
+};
+
+std::uint64_t alignment::inliers() const {
+    const double most = 4.5 * detail::place::median_distance(of_all_.partners) + exact;
+    return static_cast<std::uint64_t>(
+        std::count_if(of_all_.partners.begin(), of_all_.partners.end(),
+                      [most](const partner& p) { return p.distance <= most; }));
+}
+
+void alignment::enter_matrix(align_result& result, const similarity& map, bool moved) const {
+    result.pivot = frame_.pivot;
     for (std::size_t k = 0; k < 3; ++k)
-        result.pivot_moved[k] = f.center[k] + map.shift(static_cast<int>(k)) / f.by;
-    if (better) result.matrix = matrix_of(f, map, result.pivot_moved);
+        result.pivot_moved[k] = frame_.center[k] + map.shift(static_cast<int>(k)) / frame_.by;
+    if (moved) result.matrix = matrix_of(frame_, map, result.pivot_moved);
     if (!result.matrix.finite())
         throw std::overflow_error("treeform::align: the coordinates are too large for a matrix");
     result.scale = map.scale;
-    result.rms = end.rms / f.by;
-    result.rms_at_start = before.rms / f.by;
+}
+
+align_result alignment::judged(const similarity& present, const quality& before) {
+    const auto at = [&](const similarity& map) {
+        return quality_at(task_, all_, map, best_.width, of_all_);
+    };
+    const quality at_start = best_.width < endless ? at(present) : before;
+    quality end = at(best_.map);
+    const bool moved = end.cost < at_start.cost;
+    const bool as_good = end.cost <= at_start.cost * (1.0 + 1e-12) + 1e-28;
+    if (!moved) {
+        best_.map = present;
+        best_start_ = 0;
+        end = at(present);
+    }
+    if (!work_.reach(0.85)) return {};
+    if (!task_.planes && target_.is_cloud()) {
+        target_.find_normals();
+        end = at(best_.map);
+    }
+    align_result result{.matrix = options_.start};
+    enter_matrix(result, best_.map, moved);
+    result.rms = (task_.welsch ? end : plain_quality()).rms / frame_.by;
+    result.rms_at_start = (task_.welsch ? at_start : before).rms / frame_.by;
     result.overlap = end.overlap;
-    result.converged = found.converged && after_all.cost <= before.cost * (1.0 + 1e-12) + 1e-28;
-    result.iterations = found.iterations;
+    result.inliers = inliers();
+    const residuals left = detail::place::residuals_of(of_all_.partners);
+    result.correlation = left.correlation;
+    for (const freedom& one : detail::place::freedoms_of(of_all_.partners, best_.map.shift))
+        result.freedoms.push_back(
+            {to_point(frame_.by * one.turn), to_point(one.shift), one.stiffness});
+    if (!result.freedoms.empty()) {
+        result.end = end_of(present, left);
+        if (!as_good) result.end = align_end::out_of_iterations;
+    }
+    result.converged = result.end == align_end::converged;
+    result.iterations = best_.iterations;
+    result.start = best_start_;
     return result;
+}
+
+align_result found_by_steps(points_view moving, mesh_view fixed, const align_options& options) {
+    if (moving.empty() || fixed.points.empty()) return {.matrix = options.start};
+    return alignment(moving, fixed, options).found();
 }
 
 }  // namespace

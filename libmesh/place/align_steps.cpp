@@ -8,10 +8,21 @@
 namespace treeform::detail::place {
 namespace {
 
+double total_weight(const std::vector<partner>& partners) {
+    return sum_over(partners, 0.0, [](const partner& p) { return p.weight; });
+}
+
 Vector3d mean(const std::vector<partner>& partners, Vector3d partner::*of) {
-    const Vector3d sum =
-        sum_over(partners, Vector3d(Vector3d::Zero()), [of](const partner& p) { return p.*of; });
-    return sum / static_cast<double>(partners.size());
+    const Vector3d sum = sum_over(partners, Vector3d(Vector3d::Zero()),
+                                  [of](const partner& p) { return Vector3d(p.weight * p.*of); });
+    return sum / total_weight(partners);
+}
+
+/// Of a squared distance. \source Zhang, Yao and Deng (2022), equation 5, times 2 width^2
+double loss(double squared, double width) {
+    if (!(width < endless)) return squared;
+    const double twice = 2.0 * width * width;
+    return -twice * std::expm1(-squared / twice);
 }
 
 /// A step about a center: y' = center + scale rotation (y - center) + shift.
@@ -30,15 +41,54 @@ std::size_t share_of(double overlap, std::size_t count) {
         static_cast<std::size_t>(std::ceil(overlap * static_cast<double>(count) - 1e-9)), 1);
 }
 
-void trim(std::vector<partner>& partners, std::size_t count) {
-    if (partners.size() <= count) return;
-    std::nth_element(partners.begin(), partners.begin() + static_cast<std::ptrdiff_t>(count),
-                     partners.end(), [](const partner& a, const partner& b) {
-                         return std::pair(a.distance, a.number) < std::pair(b.distance, b.number);
-                     });
-    partners.resize(count);
-    std::sort(partners.begin(), partners.end(),
-              [](const partner& a, const partner& b) { return a.number < b.number; });
+void weigh(std::vector<partner>& partners, std::size_t count, double width) {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < partners.size(); ++i)
+        if (partners[i].distance < endless) order.emplace_back(partners[i].distance, i);
+    std::pair<double, std::size_t> last(endless, 0);
+    if (count < order.size()) {
+        const auto end = order.begin() + static_cast<std::ptrdiff_t>(count);
+        std::nth_element(order.begin(), end, order.end());
+        last = *end;
+    }
+    const double per = width < endless ? -0.5 / (width * width) : 0.0;
+    for_chunks(partners.size(), block, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            partner& p = partners[i];
+            const bool counts = p.distance < endless && std::pair(p.distance, i) < last;
+            p.weight = counts ? std::exp(per * p.distance * p.distance) : 0.0;
+        }
+    });
+}
+
+double median_distance(const std::vector<partner>& partners) {
+    std::vector<double> distances;
+    for (const partner& p : partners)
+        if (p.weight > 0.0) distances.push_back(p.distance);
+    if (distances.empty()) return 0.0;
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    return *middle;
+}
+
+quality quality_of(const std::vector<partner>& weighed, std::size_t count, double width,
+                   double max_distance) {
+    using Eigen::Vector4d;
+    const Vector4d sums = sum_over(weighed, Vector4d(Vector4d::Zero()), [&](const partner& p) {
+        const double squared = p.distance * p.distance;
+        return Vector4d(loss(squared, width), p.weight * squared, p.weight, 1.0);
+    });
+    const auto found = std::count_if(weighed.begin(), weighed.end(),
+                                     [](const partner& p) { return p.distance < endless; });
+    quality q;
+    q.overlap = static_cast<double>(found) / static_cast<double>(weighed.size());
+    if (sums(2) > 0.0) q.rms = std::sqrt(sums(1) / sums(2));
+    // What is so far away that its weight is 0 counts like what has no partner.
+    const double missing = static_cast<double>(count) - sums(3);
+    const double most =
+        width < endless ? loss(max_distance * max_distance, width) : max_distance * max_distance;
+    q.cost = (sums(0) + (missing > 0.0 ? missing * most : 0.0)) / static_cast<double>(count);
+    return q;
 }
 
 similarity point_step(const std::vector<partner>& partners, bool scale) {
@@ -46,8 +96,8 @@ similarity point_step(const std::vector<partner>& partners, bool scale) {
     Eigen::Matrix<double, 3, 4> sums = Eigen::Matrix<double, 3, 4>::Zero();
     sums = sum_over(partners, sums, [&](const partner& p) {
         Eigen::Matrix<double, 3, 4> one = Eigen::Matrix<double, 3, 4>::Zero();
-        one.leftCols<3>() = (p.to - to) * (p.from - from).transpose();
-        one(0, 3) = (p.from - from).squaredNorm();
+        one.leftCols<3>() = p.weight * (p.to - to) * (p.from - from).transpose();
+        one(0, 3) = p.weight * (p.from - from).squaredNorm();
         return one;
     });
     const Eigen::JacobiSVD<Matrix3d> svd(sums.leftCols<3>(),
@@ -68,8 +118,8 @@ similarity plane_step(const std::vector<partner>& partners, bool scale) {
         row7 row;
         row << arm.cross(p.normal), p.normal, scale ? arm.dot(p.normal) : 0.0;
         system7 one;
-        one.leftCols<7>() = row * row.transpose();
-        one.col(7) = row * (p.to - p.from).dot(p.normal);
+        one.leftCols<7>() = p.weight * row * row.transpose();
+        one.col(7) = p.weight * row * (p.to - p.from).dot(p.normal);
         return one;
     });
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 7, 7>> solver(sums.leftCols<7>());
@@ -94,6 +144,10 @@ similarity after(const similarity& step, const similarity& map) {
         Eigen::Quaterniond(step.rotation * map.rotation).normalized().toRotationMatrix();
     both.shift = step(map.shift);
     return both;
+}
+
+double displacement(const similarity& step) {
+    return (step.scale * step.rotation - Matrix3d::Identity()).norm() + step.shift.norm();
 }
 
 }  // namespace treeform::detail::place

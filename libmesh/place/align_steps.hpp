@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace treeform::detail::place {
@@ -18,6 +19,8 @@ using Eigen::Vector3d;
 /// Sums are of blocks of this many points, added up in order: the same on any number of threads.
 constexpr std::size_t block = 4096;
 
+constexpr double endless = std::numeric_limits<double>::infinity();
+
 /// What is looked for: y = scale rotation x + shift.
 struct similarity {
     double scale = 1.0;
@@ -27,22 +30,25 @@ struct similarity {
     [[nodiscard]] Vector3d operator()(const Vector3d& x) const {
         return scale * (rotation * x) + shift;
     }
+    [[nodiscard]] bool finite() const { return shift.allFinite() && rotation.allFinite(); }
 };
 
 /// A moved point, its nearest fixed point, and the normal of the plane it is to come to: of the
-/// face there, or from an edge or corner that is nearest the direction to the moved point.
+/// face there, or from an edge or corner that is nearest the direction between the two, on the side
+/// of the face's normal.
 struct partner {
-    Vector3d from, to, normal;
-    double distance;
-    std::size_t number;
+    Vector3d from = Vector3d::Zero(), to = Vector3d::Zero(), normal = Vector3d::Zero();
+    double distance = endless;  ///< of none
+    double weight = 0.0;        ///< 0: does not count
 };
 
-/// The sum of `of(partner)` over all.
+/// The sum of `of(partner)` over all that count.
 template <class Sum, class Of>
 [[nodiscard]] Sum sum_over(const std::vector<partner>& partners, Sum zero, const Of& of) {
     std::vector<Sum> sums(chunk_count(partners.size(), block), zero);
     for_chunks(partners.size(), block, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        for (std::size_t i = begin; i < end; ++i) sums[chunk] += of(partners[i]);
+        for (std::size_t i = begin; i < end; ++i)
+            if (partners[i].weight > 0.0) sums[chunk] += of(partners[i]);
     });
     for (const Sum& s : sums) zero += s;
     return zero;
@@ -51,8 +57,23 @@ template <class Sum, class Of>
 /// How many of `count` the share `overlap` is; at least 1.
 [[nodiscard]] std::size_t share_of(double overlap, std::size_t count);
 
-/// Leaves the nearest `count` partners, in the order of their points; of equals the first.
-void trim(std::vector<partner>& partners, std::size_t count);
+/// Sets the weights: of the nearest `count` partners, of equals the first, 1, or by Welsch's
+/// function of this width, if it is finite; of all others 0.
+void weigh(std::vector<partner>& partners, std::size_t count, double width);
+
+/// The middle one of the distances that count; 0 if none do.
+[[nodiscard]] double median_distance(const std::vector<partner>& partners);
+
+/// How good a place is.
+struct quality {
+    /// Mean of the losses of the `count` nearest; those without a partner are at the largest
+    /// distance allowed. The loss is the square of a distance, or Welsch's, about as much near 0.
+    double cost = 0.0;
+    double rms = 0.0;      ///< of the distances that count, by weight
+    double overlap = 0.0;  ///< share of all that have a partner
+};
+[[nodiscard]] quality quality_of(const std::vector<partner>& weighed, std::size_t count,
+                                 double width, double max_distance);
 
 /// Least squares of the distances between partners. \source Umeyama (1991), equations 40 to 43
 [[nodiscard]] similarity point_step(const std::vector<partner>& partners, bool scale);
@@ -63,5 +84,8 @@ void trim(std::vector<partner>& partners, std::size_t count);
 
 /// First `map`, then `step`; the rotation is made one again, since roundings add up.
 [[nodiscard]] similarity after(const similarity& step, const similarity& map);
+
+/// How far a step moves the points of a ball of radius 1, at most.
+[[nodiscard]] double displacement(const similarity& step);
 
 }  // namespace treeform::detail::place

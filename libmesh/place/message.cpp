@@ -3,6 +3,7 @@
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/placement.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -93,6 +94,18 @@ std::string placement::message(std::span<const std::string> names) const {
         default:
             return certificate ? "" : "there is no such place";
     }
+}
+
+const char* name_of(align_end end) {
+    constexpr std::array<const char*, 4> names{"converged", "out-of-iterations", "doubtful",
+                                               "nothing-to-align"};
+    return names[static_cast<std::size_t>(end)];
+}
+
+std::size_t align_result::undetermined() const {
+    return static_cast<std::size_t>(
+        std::count_if(freedoms.begin(), freedoms.end(),
+                      [](const align_freedom& one) { return one.stiffness < 1e-4; }));
 }
 
 std::string align_result::message() const {

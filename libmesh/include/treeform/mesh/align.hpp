@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Aligns a mesh or cloud to another one, from its present position: iterative closest point (ICP).
+/// Aligns a mesh or cloud to another one, from its present position or from several: iterative
+/// closest point (ICP).
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -10,6 +11,7 @@
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -21,33 +23,73 @@ namespace treeform {
 /// What each step of ICP makes small.
 enum class align_method : std::uint8_t {
     /// Distances to the planes of the nearest faces, in least squares. Where an edge or a corner is
-    /// nearest, the plane through it perpendicular to the way to it. Takes few iterations on
-    /// surfaces.
+    /// nearest, the plane through it perpendicular to the way to it. Of a fixed cloud, the plane
+    /// fitted to the 12 points around the nearest one. Takes few iterations on surfaces.
     point_to_plane,
     /// Distances to the nearest points, in least squares: for clouds, or where planes say little.
     point_to_point,
+    automatic,  ///< planes of a fixed mesh, points of a fixed cloud
+};
+
+/// How much a pair of points counts.
+enum class align_weights : std::uint8_t {
+    equal,
+    /// Less the further apart: exp(-d^2 / 2 v^2). From 3 medians of the distances at the start, v is
+    /// halved down to where a third of the points is within 2 v; at the end it is 4.5 medians of
+    /// what is near. Up to half of the points may have no partner, and nobody needs to say how many.
+    welsch,
 };
 
 /// How to align.
 struct align_options {
-    /// A fixed cloud has no planes: the method is then always `point_to_point`.
-    align_method method = align_method::point_to_plane;
+    align_method method = align_method::automatic;
     /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share, the
     /// nearest ones, and ignores the rest.
     double overlap = 1.0;
+    align_weights weights = align_weights::equal;
     /// Ignore partners further apart. Not squared, not negative.
     double max_distance = std::numeric_limits<double>::infinity();
-    bool scale = false;  ///< find a uniform scale, too
-    unsigned max_iterations = 100;
-    /// Converged when a step moves no point near the fixed mesh by more than about this share of
-    /// the diagonal of that mesh's box.
-    double tolerance = 1e-9;
-    /// Use at most this many moving points in the steps, evenly by number; 0 is all.
+    bool scale = false;             ///< find a uniform scale, too
+    unsigned max_iterations = 100;  ///< from each start
+    /// Converged when in 5 steps in a row the cost falls by less than this share of itself, or when
+    /// a step moves no point near the fixed mesh by more than 1e-11 of the diagonal of its box.
+    double tolerance = 1e-6;
+    /// Places to start from, at least 1. The first is the present position; then the principal axes
+    /// of both sides on each other, in their 4 ways; then turns spread evenly over all turns, small
+    /// ones first, with the centers on each other. The best end wins; of equals the first.
+    unsigned starts = 1;
+    /// Anderson acceleration: steps learn from the 5 before them.
+    bool accelerate = true;
+    /// Use at most this many moving points in the steps, spread evenly over space; 0 is all.
     std::size_t samples = 100'000;
     /// Applied to the moving points first: any affine map.
     transform<3> start{};
     treeform::precision precision = treeform::precision::float64;  ///< of the points returned
     progress_callback progress{};
+};
+
+/// How the search ended.
+enum class align_end : std::uint8_t {
+    converged,          ///< at a place that nothing speaks against
+    out_of_iterations,  ///< `max_iterations` steps were not enough
+    /// Converged, but what remains is not noise: points that are neighbors are off to the same
+    /// side, by more than can be told from the right place. Often a wrong local optimum, or parts
+    /// without a partner.
+    doubtful,
+    nothing_to_align,  ///< no points, or none has a partner
+};
+/// "converged", "out-of-iterations", "doubtful", "nothing-to-align"
+[[nodiscard]] TREEFORM_API const char* name_of(align_end end);
+
+/// A small motion of the moving points, and how much the distances tell of it: a turn by `turn`
+/// (axis times angle) about `align_result::pivot_moved` and a shift, together by 1 in the root mean
+/// square over the points.
+struct align_freedom {
+    point3 turn{};
+    point3 shift{};
+    /// Share of the motion (of its squares) that is along the normals: near 0 where points slide on
+    /// the surface and nothing holds them, as a plane on a plane; 1 at most.
+    double stiffness = 0.0;
 };
 
 /// The motion found.
@@ -60,14 +102,27 @@ struct align_result {
     point3 pivot{};        ///< center of the box of the moving points
     point3 pivot_moved{};  ///< where it goes
     double scale = 1.0;    ///< found in addition to that of `start`
-    double rms = 0.0;      ///< root mean square of the distances that count, after; 0 for none
+    /// Root mean square of the distances that count, by their weights, after; 0 for none.
+    double rms = 0.0;
     double rms_at_start = 0.0;
     /// Share of all moving points whose nearest fixed point is within `max_distance`, after.
     double overlap = 0.0;
-    bool converged = false;
-    unsigned iterations = 0;
+    /// How many of the moving points are within 4.5 medians of the distances that count.
+    std::uint64_t inliers = 0;
+    /// Correlation of the signed distances of neighbors, in [-1, 1]: near 0 where they are noise,
+    /// near 1 where whole regions are off to one side.
+    double correlation = 0.0;
+    /// The independent motions, least held first; none without partners. \see undetermined
+    std::vector<align_freedom> freedoms{};
+    align_end end = align_end::nothing_to_align;
+    bool converged = false;                          ///< `end` is `converged`
+    unsigned iterations = 0;                         ///< from the start that was best
+    unsigned start = 0;                              ///< which that was: 0 is the present position
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
 
+    /// How many of `freedoms`, the first ones, are so little held that their part of the motion
+    /// means nothing: a stiffness below 1e-4.
+    [[nodiscard]] TREEFORM_API std::size_t undetermined() const;
     /// For people: "after 12 steps; rms 0.01, from 0.3; overlap 1".
     [[nodiscard]] TREEFORM_API std::string message() const;
     /// The same in the terms of all placements; faces were not looked at.
@@ -77,12 +132,19 @@ struct align_result {
 /// The rigid motion, with a uniform scale if asked for, that brings the moving points near the
 /// fixed mesh, or near its points when it has no faces.
 ///
-/// It is a local optimum, found from the present position. It is the right one when the motion is
-/// small compared with the features of the shape. The result is never worse than the start; when
-/// nothing better is found, it is `start`. To compare, the squared distances of all moving points
-/// to the nearest fixed points are cut off at `max_distance` squared, and the mean is taken over
-/// the `overlap` share that is nearest. Directions in which the points may slide freely (a plane on
-/// a plane) are left alone. With `scale`, a bad start may shrink the moving points to nothing.
+/// From each start it is a local optimum: the right one when the motion is small compared with the
+/// features of the shape. The result is never worse than the present position; when nothing better
+/// is found, it is `start`. To compare, the squared distances of all moving points to the nearest
+/// fixed points are cut off at `max_distance` squared, and the mean is taken over the `overlap`
+/// share that is nearest. With weights, and with an overlap below 1, it is Welsch's function of the
+/// distances, by the v of the end: a share that is somewhat too large does no harm. Directions in
+/// which the points may slide freely (a plane on a plane) are left alone. With `scale`, a bad start
+/// may shrink the moving points to nothing.
+///
+/// Whether it is the right place, distances alone do not tell. At the right place they are noise;
+/// at a wrong one, regions are off to one side. Where they are, by more than noise and more than
+/// the spacing of a fixed cloud, other starts are tried with few points: `converged` then needs
+/// that none of them ends better, and that what is off is below 0.2% of the diagonal.
 ///
 /// Without moving or without fixed points, the result is `start`, not converged.
 ///
@@ -91,11 +153,14 @@ struct align_result {
 /// \throws std::overflow_error when the matrix, a point as written, or the square of a distance,
 ///         in about the diagonals of the fixed mesh, is beyond the range of double
 /// \cost   the index of `closest_point` over the fixed mesh, a search for all moving points at the
-///         start and at the end, and for the samples in each step
+///         start and at the end, and for the samples in each step; of a fixed cloud, only for those
+///         whose nearest point may have changed. Each further start: some 20 steps of 1000 points
 /// \same   on any number of threads
 /// \source Chen and Medioni, Object Modeling by Registration of Multiple Range Images, IVC 10
 ///         (1992); Umeyama, Least-Squares Estimation of Transformation Parameters Between Two Point
-///         Patterns, PAMI 13 (1991); trimming: Chetverikov, Stepanov and Krsek, IVC 23 (2005)
+///         Patterns, PAMI 13 (1991); trimming: Chetverikov, Stepanov and Krsek, IVC 23 (2005);
+///         weights and acceleration: Zhang, Yao and Deng, Fast and Robust Iterative Closest Point,
+///         PAMI 44 (2022); turns: Alexa, Super-Fibonacci Spirals, CVPR (2022)
 [[nodiscard]] TREEFORM_API align_result align(points_view moving, mesh_view fixed,
                                               const align_options& options = {});
 

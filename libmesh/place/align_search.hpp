@@ -1,0 +1,45 @@
+#pragma once
+/// \file
+/// The steps of an alignment from one start, and where they end.
+
+#include <libmesh/place/align_steps.hpp>
+#include <libmesh/place/align_target.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace treeform::detail::place {
+
+/// What a search is for, in the frame of the alignment.
+struct search_task {
+    const align_target& fixed;
+    double max_distance = endless;
+    double overlap = 1.0;
+    bool planes = true;
+    bool welsch = false;
+    bool scale = false;
+    bool accelerate = true;
+    unsigned max_iterations = 100;
+    double tolerance = 1e-6;
+};
+
+struct search_result {
+    similarity map;
+    bool converged = false;
+    unsigned iterations = 0;
+    double width = endless;  ///< of Welsch's function at the end
+    quality at{};            ///< of `map`, by that width
+};
+
+/// Steps from `start` on, and of the places on the way the best. `samples` are in an order of
+/// space; `go_on` is asked before each step. `last` holds nothing, or partners of the same samples.
+[[nodiscard]] search_result search(const search_task& task, std::span<const Vector3d> samples,
+                                   const similarity& start, matching& last,
+                                   function_ref<bool(unsigned)> go_on);
+
+/// The partners of the samples at `map`, with their weights, and how good they are.
+[[nodiscard]] quality quality_at(const search_task& task, std::span<const Vector3d> samples,
+                                 const similarity& map, double width, matching& last);
+
+}  // namespace treeform::detail::place

@@ -1,0 +1,105 @@
+#include <libmesh/place/align_starts.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace treeform::detail::place {
+namespace {
+
+constexpr unsigned steps_of_try = 20;
+
+/// `count` turns, spread evenly over all of them.
+std::vector<Matrix3d> spread_turns(std::size_t count) {
+    constexpr double phi = std::numbers::sqrt2, psi = 1.533751168755204288118041;
+    std::vector<Matrix3d> turns;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double s = static_cast<double>(i) + 0.5, t = s / static_cast<double>(count);
+        const double r = std::sqrt(t), q = std::sqrt(1.0 - t);
+        const double a = 2.0 * std::numbers::pi * s / phi, b = 2.0 * std::numbers::pi * s / psi;
+        turns.push_back(
+            Eigen::Quaterniond(q * std::cos(b), r * std::sin(a), r * std::cos(a), q * std::sin(b))
+                .normalized()
+                .toRotationMatrix());
+    }
+    std::stable_sort(turns.begin(), turns.end(),
+                     [](const Matrix3d& x, const Matrix3d& y) { return x.trace() > y.trace(); });
+    return turns;
+}
+
+/// The place where `center` goes to `to`, turned by `turn`.
+similarity turned(const Matrix3d& turn, double scale, const Vector3d& center, const Vector3d& to) {
+    return {scale, turn, to - scale * (turn * center)};
+}
+
+template <class At, class Weight>
+inertia inertia_by(std::size_t count, const At& at, const Weight& weight) {
+    inertia of;
+    double weights = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        of.center += weight(i) * at(i);
+        weights += weight(i);
+    }
+    if (weights > 0.0) of.center /= weights;
+    Matrix3d sums = Matrix3d::Zero();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vector3d arm = at(i) - of.center;
+        sums += weight(i) * arm * arm.transpose();
+    }
+    of.axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(sums).eigenvectors();
+    if (of.axes.determinant() < 0.0) of.axes.col(0) *= -1.0;
+    return of;
+}
+
+}  // namespace
+
+inertia inertia_of(std::span<const Vector3d> points) {
+    return inertia_by(
+        points.size(), [&](std::size_t i) { return points[i]; }, [](std::size_t) { return 1.0; });
+}
+
+inertia inertia_of(std::span<const Vector3d> points, std::span<const face> faces) {
+    const auto corner = [&](std::size_t f, std::size_t k) { return points[faces[f][k]]; };
+    return inertia_by(
+        faces.size(),
+        [&](std::size_t f) { return Vector3d((corner(f, 0) + corner(f, 1) + corner(f, 2)) / 3.0); },
+        [&](std::size_t f) {
+            return (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0)).norm();
+        });
+}
+
+std::vector<similarity> starts_of(const inertia& moving, const inertia& fixed,
+                                  const similarity& present, std::size_t count) {
+    std::vector<similarity> starts{present};
+    const Vector3d flips[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    for (const Vector3d& flip : flips)
+        starts.push_back(turned(fixed.axes * flip.asDiagonal() * moving.axes.transpose(),
+                                present.scale, moving.center, fixed.center));
+    const std::size_t more = count > starts.size() ? count - starts.size() : 0;
+    for (const Matrix3d& turn : spread_turns(more))
+        starts.push_back(
+            turned(turn * present.rotation, present.scale, moving.center, fixed.center));
+    starts.resize(std::max<std::size_t>(std::min(count, starts.size()), 1));
+    return starts;
+}
+
+std::vector<tried_start> try_starts(const search_task& task, std::span<const Vector3d> few,
+                                    std::span<const similarity> starts,
+                                    function_ref<bool(std::size_t)> go_on) {
+    search_task quick = task;
+    quick.max_iterations = std::min(task.max_iterations, steps_of_try);
+    quick.tolerance = std::max(task.tolerance, 1e-3);
+    quick.welsch = false;
+    quick.scale = false;
+    std::vector<tried_start> tried;
+    for (std::size_t i = 1; i < starts.size() && go_on(i); ++i) {
+        matching last;
+        tried.push_back({i, search(quick, few, starts[i], last, [](unsigned) { return true; })});
+    }
+    std::stable_sort(tried.begin(), tried.end(), [](const tried_start& a, const tried_start& b) {
+        return a.end.at.cost < b.end.at.cost;
+    });
+    return tried;
+}
+
+}  // namespace treeform::detail::place

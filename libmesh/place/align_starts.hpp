@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// Places that an alignment may start from, and which of them are worth it.
+
+#include <libmesh/place/align_search.hpp>
+#include <libmesh/place/align_steps.hpp>
+#include <treeform/mesh/mesh.hpp>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::place {
+
+/// Where a set of points is, and how it lies.
+struct inertia {
+    Vector3d center = Vector3d::Zero();
+    Matrix3d axes = Matrix3d::Identity();  ///< columns, right-handed, along the longest last
+};
+[[nodiscard]] inertia inertia_of(std::span<const Vector3d> points);
+/// By area: each face as if in its center.
+[[nodiscard]] inertia inertia_of(std::span<const Vector3d> points, std::span<const face> faces);
+
+/// `count` places for points that lie as `moving` does: the present one, the axes on those of
+/// `fixed` in 4 ways, then turns from where they are at `present`, spread evenly, small ones first.
+/// \source Alexa, Super-Fibonacci Spirals: Fast, Low-Discrepancy Sampling of SO(3), CVPR (2022)
+[[nodiscard]] std::vector<similarity> starts_of(const inertia& moving, const inertia& fixed,
+                                                const similarity& present, std::size_t count);
+
+/// A start, and what a search with few points and steps makes of it.
+struct tried_start {
+    std::size_t number = 0;
+    search_result end{};
+};
+
+/// All starts but the first tried with `few` samples, the best end first, of equals the first.
+/// Stops early, with what there is, when `go_on` says so.
+[[nodiscard]] std::vector<tried_start> try_starts(const search_task& task,
+                                                  std::span<const Vector3d> few,
+                                                  std::span<const similarity> starts,
+                                                  function_ref<bool(std::size_t)> go_on);
+
+}  // namespace treeform::detail::place
