@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -174,7 +175,7 @@ class alignment {
             throw std::overflow_error("treeform::align: the distances are too large to be squared");
         if (!work_.reach(0.2)) return {.status = status::cancelled};
         best_ = search_from(present, 0.2, 0.6);
-        const auto tried = options_.starts > 1 ? others_than(present, options_.starts, 0.6, 0.7)
+        const auto tried = options_.starts > 1 ? others_than(present, task_, few_, options_.starts, 0.6, 0.7)
                                                : std::vector<detail::place::tried_start>{};
         for (std::size_t i = 0; i < std::min(tried.size(), refined) && !work_.cancelled(); ++i)
             take_if_better(tried[i], 0.7, 0.8);
@@ -186,26 +187,46 @@ class alignment {
 
   private:
     static constexpr std::size_t few_samples = 1000;
+    static constexpr std::size_t coarse_samples = 5000;
+    static constexpr std::size_t doubt_samples = 500;
     static constexpr std::size_t refined = 3;   ///< of other starts, the best
-    static constexpr std::size_t doubts = 40;   ///< starts to try in doubt
+    static constexpr std::size_t doubts = 24;   ///< starts to try in doubt
     static constexpr double better = 0.9;       ///< by what factor another place has to be
     static constexpr double exact = 1e-9;       ///< distances that are none
     static constexpr double like_noise = 0.15;  ///< correlation of neighbors
     static constexpr double bearable = 2e-3;    ///< share of the diagonal that regions may be off
 
-    [[nodiscard]] search_result search_from(const similarity& start, double from, double to) {
-        matching last;
-        return search(task_, samples_, start, last,
-                      [&](unsigned i) { return work_.step(from, to, i, 10.0); });
+    /// With a part of the samples first, if they are many: that gets near the end.
+    [[nodiscard]] search_result search_from(similarity start, double from, double to) {
+        const auto go_on = [&](unsigned i) { return work_.step(from, to, i, 20.0); };
+        search_task fine = task_;
+        unsigned before = 0;
+        if (samples_.size() >= 4 * coarse_samples) {
+            search_task coarse = task_;
+            coarse.tolerance = std::max(task_.tolerance, 1e-4);
+            coarse.max_iterations /= 2;
+            matching last;
+            const search_result near =
+                search(coarse, some_of(samples_, coarse_samples), start, last, go_on);
+            start = near.map;
+            before = near.iterations;
+            fine.max_iterations -= before;
+        }
+        matching of_samples;
+        matching& last = samples_.size() == all_.size() ? of_all_ : of_samples;
+        search_result end = search(fine, samples_, start, last,
+                                   [&](unsigned i) { return go_on(before + i); });
+        end.iterations += before;
+        return end;
     }
 
     /// Other places than the present one, as few samples find them, the best first.
-    [[nodiscard]] std::vector<detail::place::tried_start> others_than(const similarity& present,
-                                                                      std::size_t count,
-                                                                      double from, double to) {
+    [[nodiscard]] std::vector<detail::place::tried_start> others_than(
+        const similarity& present, const search_task& task, std::span<const Vector3d> few,
+        std::size_t count, double from, double to) {
         const auto starts = detail::place::starts_of(detail::place::inertia_of(samples_),
                                                      inertia_in(frame_, fixed_), present, count);
-        return try_starts(task_, few_, starts,
+        return try_starts(task, few, starts,
                           [&](std::size_t i) { return work_.step(from, to, i, 20.0); });
     }
 
@@ -230,16 +251,17 @@ class alignment {
 
     /// Whether some other start ends at a better place than the best.
     [[nodiscard]] bool other_is_better(const similarity& present) {
+        const std::vector<Vector3d> few = some_of(few_, doubt_samples);
         matching last;
         search_task task = task_;
         task.welsch = false;
-        const double here = quality_at(task, few_, best_.map, endless, last).cost;
-        const auto tried = others_than(present, doubts, 0.85, 0.98);
+        const double here = quality_at(task, few, best_.map, endless, last).cost;
+        const auto tried = others_than(present, task, few, doubts, 0.85, 0.98);
         for (std::size_t i = 0; i < std::min(tried.size(), refined); ++i) {
             matching of_few;
-            const auto end = search(task, few_, tried[i].end.map, of_few,
+            const auto end = search(task, few, tried[i].end.map, of_few,
                                     [&](unsigned) { return !work_.cancelled(); });
-            if (end.at.cost < better * here) return true;
+            if (quality_at(task, few, end.map, endless, of_few).cost < better * here) return true;
         }
         return false;
     }

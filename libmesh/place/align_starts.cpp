@@ -7,7 +7,7 @@
 namespace treeform::detail::place {
 namespace {
 
-constexpr unsigned steps_of_try = 20;
+constexpr unsigned steps_of_try = 15;
 
 /// `count` turns, spread evenly over all of them.
 std::vector<Matrix3d> spread_turns(std::size_t count) {
