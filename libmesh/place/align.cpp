@@ -175,8 +175,9 @@ class alignment {
             throw std::overflow_error("treeform::align: the distances are too large to be squared");
         if (!work_.reach(0.2)) return {.status = status::cancelled};
         best_ = search_from(present, 0.2, 0.6);
-        const auto tried = options_.starts > 1 ? others_than(present, task_, few_, options_.starts, 0.6, 0.7)
-                                               : std::vector<detail::place::tried_start>{};
+        const auto tried = options_.starts > 1
+                               ? others_than(present, task_, few_, options_.starts, 0.6, 0.7)
+                               : std::vector<detail::place::tried_start>{};
         for (std::size_t i = 0; i < std::min(tried.size(), refined) && !work_.cancelled(); ++i)
             take_if_better(tried[i], 0.7, 0.8);
         if (work_.cancelled()) return {.status = status::cancelled};
@@ -214,16 +215,18 @@ class alignment {
         }
         matching of_samples;
         matching& last = samples_.size() == all_.size() ? of_all_ : of_samples;
-        search_result end = search(fine, samples_, start, last,
-                                   [&](unsigned i) { return go_on(before + i); });
+        search_result end =
+            search(fine, samples_, start, last, [&](unsigned i) { return go_on(before + i); });
         end.iterations += before;
         return end;
     }
 
     /// Other places than the present one, as few samples find them, the best first.
-    [[nodiscard]] std::vector<detail::place::tried_start> others_than(
-        const similarity& present, const search_task& task, std::span<const Vector3d> few,
-        std::size_t count, double from, double to) {
+    [[nodiscard]] std::vector<detail::place::tried_start> others_than(const similarity& present,
+                                                                      const search_task& task,
+                                                                      std::span<const Vector3d> few,
+                                                                      std::size_t count,
+                                                                      double from, double to) {
         const auto starts = detail::place::starts_of(detail::place::inertia_of(samples_),
                                                      inertia_in(frame_, fixed_), present, count);
         return try_starts(task, few, starts,

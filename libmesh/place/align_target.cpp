@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace treeform::detail::place {
@@ -24,6 +25,16 @@ Vector3d normal_between(const Vector3d& from, const Vector3d& to, double distanc
     const double above = off.dot(of_face);
     if (distance <= 1e-9 || std::abs(above) >= 0.999 * distance) return of_face;
     return off / (above < 0.0 ? -distance : distance);
+}
+
+/// Scanners put what they do not see at the origin, thousands of times: a search would look at all
+/// of them, since all are as near.
+void leave_out_equal(std::vector<point3>& points) {
+    const auto key = [](const point3& p) { return std::tuple(p.x, p.y, p.z); };
+    std::sort(points.begin(), points.end(),
+              [&](const point3& a, const point3& b) { return key(a) < key(b); });
+    const auto equal = [&](const point3& a, const point3& b) { return key(a) == key(b); };
+    points.erase(std::unique(points.begin(), points.end(), equal), points.end());
 }
 
 Vector3d plane_normal(const std::vector<point3>& points, std::span<const near_point> of) {
@@ -49,6 +60,7 @@ align_target::align_target(std::vector<point3> points, std::vector<face> faces)
         on_faces_ = nearness::closest_point_query({points_, faces_});
         return;
     }
+    leave_out_equal(points_);
     among_points_ = point_search<3>(points_, array_of);
     normals_.assign(points_.size(), Vector3d::Zero());
 }
@@ -120,47 +132,65 @@ void align_target::match_mesh(double radius, matching& last) const {
     });
 }
 
+/// Finds the partner among what was near when the point was looked for last; false where it may be
+/// another one, since the point has moved too far from there.
+bool align_target::is_still_near(const matching::last_search& before, partner& p) const {
+    std::uint32_t nearest = 0;
+    double least = endless;
+    for (std::uint32_t k = 0; k < before.count; ++k) {
+        const std::uint32_t id = before.near[k];
+        const double squared = (p.from - vector_of(points_[id])).squaredNorm();
+        if (squared < least || (squared == least && id < nearest)) {
+            least = squared;
+            nearest = id;
+        }
+    }
+    const double distance = std::sqrt(least);
+    if (!(distance < (before.others - (p.from - before.at).norm()) * (1.0 - 1e-12) - 1e-14))
+        return false;
+    p.to = vector_of(points_[nearest]);
+    p.distance = distance;
+    p.normal = normals_[nearest];
+    return true;
+}
+
 void align_target::match_cloud(double radius, matching& last) const {
     const std::size_t count = last.moved.size();
     last.last.resize(count);
-    // What was nearest by far when a point was looked for still is when it has moved less than that.
-    const auto still_nearest = [&](std::size_t i) {
-        const auto& before = last.last[i];
-        if (before.others < 0.0) return false;
-        const Vector3d at = vector_of(last.moved[i]);
-        const double now = (at - vector_of(points_[before.nearest])).norm();
-        return now < (before.others - (at - before.at).norm()) * (1.0 - 1e-12) - 1e-14;
-    };
-    last.searched.clear();
-    for (std::size_t i = 0; i < count; ++i)
-        if (!still_nearest(i)) last.searched.push_back(static_cast<std::uint32_t>(i));
-    std::vector<std::array<double, 3>> queries;
-    for (const std::uint32_t i : last.searched) queries.push_back(array_of(last.moved[i]));
-    const auto found = among_points_.k_nearest(queries, 2, radius);
-    for_chunks(queries.size(), block, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t q = begin; q < end; ++q) {
-            auto& entry = last.last[last.searched[q]];
-            const auto near = found[q];
-            entry.others = -1.0;
-            if (near.empty()) continue;
-            entry = {vector_of(last.moved[last.searched[q]]), near[0].id,
-                     near.size() > 1 ? near[1].distance : radius};
-        }
-    });
     for_chunks(count, block, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             partner& p = last.partners[i];
             p = {};
             p.from = vector_of(last.moved[i]);
-            const auto& entry = last.last[i];
-            if (entry.others < 0.0) continue;
-            p.to = vector_of(points_[entry.nearest]);
-            const double distance = (p.from - p.to).norm();
-            if (distance > radius) continue;
-            p.distance = distance;
-            p.normal = normals_[entry.nearest];
+            static_cast<void>(is_still_near(last.last[i], p));
         }
     });
+    last.searched.clear();
+    for (std::size_t i = 0; i < count; ++i)
+        if (!(last.partners[i].distance < endless))
+            last.searched.push_back(static_cast<std::uint32_t>(i));
+    std::vector<std::array<double, 3>> queries;
+    queries.reserve(last.searched.size());
+    for (const std::uint32_t i : last.searched) queries.push_back(array_of(last.moved[i]));
+    constexpr std::size_t wanted = std::tuple_size_v<decltype(matching::last_search::near)>;
+    const auto found = among_points_.k_nearest(queries, wanted, radius);
+    for_chunks(queries.size(), block, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t q = begin; q < end; ++q) {
+            const auto near = found[q];
+            partner& p = last.partners[last.searched[q]];
+            auto& entry = last.last[last.searched[q]];
+            entry.at = p.from;
+            entry.count = static_cast<std::uint32_t>(near.size());
+            for (std::size_t k = 0; k < near.size(); ++k) entry.near[k] = near[k].id;
+            entry.others = near.size() == wanted ? near.back().distance : radius;
+            if (near.empty()) continue;
+            p.to = vector_of(points_[near[0].id]);
+            p.distance = near[0].distance;
+            p.normal = normals_[near[0].id];
+        }
+    });
+    for (partner& p : last.partners)
+        if (p.distance > radius) p.distance = endless;
 }
 
 }  // namespace treeform::detail::place

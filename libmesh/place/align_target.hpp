@@ -7,6 +7,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/point_search.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -18,14 +19,15 @@ namespace treeform::detail::place {
 struct matching {
     std::vector<partner> partners;        ///< [P]; their weights are not set
     std::vector<point3> moved;            ///< [P]
-    std::vector<double> radii;            ///< [Q] to search within: the last partner is no further
-    std::vector<std::uint32_t> searched;  ///< [Q] those looked for anew
+    std::vector<double> radii;            ///< [P] of a mesh: the last partner is no further
+    std::vector<std::uint32_t> searched;  ///< of a cloud, those looked for anew
     /// Of a cloud, where each point was when it was looked for last, what was nearest to it then,
     /// and how far away all others were, at least.
     struct last_search {
         Vector3d at;
-        std::uint32_t nearest;
-        double others = -1.0;  ///< never looked for, or there was nothing
+        std::array<std::uint32_t, 8> near;
+        std::uint32_t count = 0;  ///< of `near`; 0: never looked for, or there was nothing
+        double others = 0.0;
     };
     std::vector<last_search> last;
 };
@@ -52,6 +54,7 @@ class align_target {
   private:
     void match_mesh(double radius, matching& last) const;
     void match_cloud(double radius, matching& last) const;
+    [[nodiscard]] bool is_still_near(const matching::last_search& before, partner& p) const;
     [[nodiscard]] Vector3d normal_of_face(std::uint32_t f) const;
 
     std::vector<point3> points_;
