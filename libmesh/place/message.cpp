@@ -48,6 +48,12 @@ std::string meeting_in_words(const placement& at, const body_set& moving, const 
            std::to_string(fixed.stored_face(first.fixed, *first.fixed_face)) + ")";
 }
 
+std::string loose_in_words(std::size_t motions) {
+    if (motions == 0) return {};
+    return "; " + counted(motions, "motion is", "motions are") +
+           " free: it slides or turns on the surface";
+}
+
 }  // namespace
 
 const char* name_of(standing how) {
@@ -110,7 +116,7 @@ std::size_t align_result::undetermined() const {
 
 std::string align_result::message() const {
     return "after " + counted(iterations, "step", "steps") + "; rms " + brief(rms) + ", from " +
-           brief(rms_at_start) + "; overlap " + brief(overlap);
+           brief(rms_at_start) + "; overlap " + brief(overlap) + loose_in_words(undetermined());
 }
 
 std::string laid_flat::message() const {

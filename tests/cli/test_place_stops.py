@@ -26,7 +26,7 @@ class Stops(PlaceTest):
         self.mesh("fixed.obj", (points, faces))
         self.mesh("turned.obj", ([(0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z + 40)
                                   for x, y, z in points], faces))
-        yield ["fit", "turned.obj", "--fixed", "fixed.obj"]
+        yield ["fit", "turned.obj", "--fixed", "fixed.obj", "--starts", "100000"]
         # More parts than the plate holds, so that all orders are tried.
         parts = [self.mesh(f"part{i}.obj", hills(20 + i % 7, 0.0, i)) for i in range(300)]
         yield ["arrange", *parts, "--size", "230,230", "--rotate", "any"]

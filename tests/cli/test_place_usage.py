@@ -75,6 +75,12 @@ class Usage(PlaceTest):
         self.refused("drop", "a.obj", "--seed", "1")
         self.refused("drop", "a.obj", "--scale")
         self.refused("fit", "a.obj", *fixed, "--overlap", "2")
+        for bad in (("--overlap", "0.5", "--trim", "0.5"), ("--trim", "1"), ("--trim", "-1"), ("--starts", "0"),
+                    ("--iterations", "many"), ("--fit-tolerance", "-1"), ("--metric", "line"), ("--weights", "some")):
+            self.refused("fit", "a.obj", *fixed, *bad)
+        for fits in (("--trim", "0.5"), ("--starts", "9"), ("--iterations", "9"), ("--fit-tolerance", "1e-3"),
+                     ("--metric", "point"), ("--weights", "welsch")):
+            self.refused("measure", "a.obj", *fixed, *fits)
         self.refused("fit", "a.obj", *fixed, *fixed)
         self.refused("drop", "a.obj", "--html", "out.html")
 

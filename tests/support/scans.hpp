@@ -32,10 +32,10 @@ struct scan_settings {
 };
 
 struct scan {
-    tf::mesh whole;                  ///< the solid
-    tf::mesh fixed;                  ///< it, or a part of it
-    std::vector<tf::point3> home;    ///< where the points belong
-    std::vector<tf::point3> moving;  ///< where they are: with noise, moved by `away`
+    tf::mesh whole{};                  ///< the solid
+    tf::mesh fixed{};                  ///< it, or a part of it
+    std::vector<tf::point3> home{};    ///< where the points belong
+    std::vector<tf::point3> moving{};  ///< where they are: with noise, moved by `away`
     tf::transform<3> away{};
 };
 

@@ -33,9 +33,10 @@ const char* const epilogue =
     "  tf-place slide crown.stl --fixed jaw.stl -d 0,0,-1 --clearance 0.03 -o s.stl\n"
     "  tf-place clear a.obj --fixed b.obj --fixed c.obj --clearance 1 -o a_moved.obj\n"
     "  tf-place measure a.stl --fixed b.stl -r -\n"
+    "  tf-place fit scan.ply --fixed part.stl --trim 0.2 --starts 50 -o fitted.ply\n"
     "\n"
     "Exit status: 0 placed, or measured; 1 no such place (no contact, penetrating at\n"
-    "  the start, not all fit, not converged); 2 usage; 3 input; 4 output;\n"
+    "  the start, not all fit, not converged, in doubt); 2 usage; 3 input; 4 output;\n"
     "  5 stopped (memory, timeout, signal); 70 bug. Of several inputs, the highest.\n";
 
 }  // namespace

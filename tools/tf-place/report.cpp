@@ -1,3 +1,4 @@
+#include "tools/common/align_options.hpp"
 #include "tools/common/console.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
@@ -61,10 +62,7 @@ json contact_entry(const placing& p, const tf::placement_contact& c) {
 void enter_fit(json& entry, const tf::align_result& fit) {
     for (const char* key : {"status", "status_at_start", "contact_count", "travel", "backed_off"})
         entry[key] = nullptr;
-    entry["fit"] = {
-        {"rms", fit.rms},     {"rms_at_start", fit.rms_at_start}, {"overlap", fit.overlap},
-        {"scale", fit.scale}, {"converged", fit.converged},       {"iterations", fit.iterations},
-        {"pivot", fit.pivot}, {"pivot_moved", fit.pivot_moved}};
+    entry["fit"] = align_entry(fit);
 }
 
 void enter_lay(json& entry, const placing& p) {
@@ -112,8 +110,7 @@ std::string sentence(const placing& p) {
         return "not placed: " + p.reason + (why ? " (" + relation + ")" : "");
     }
     if (p.settings.mode == place_mode::measure) return relation;
-    if (p.aligned)
-        return (p.aligned->converged ? "fitted " : "not converged ") + p.aligned->message();
+    if (p.aligned) return align_sentence(*p.aligned);
     if (p.laid) return "laid " + p.laid->message() + "; " + relation;
     if (at.travel == 0.0) return "stays where it is; " + relation;
     const bool drops = p.settings.mode == place_mode::drop;

@@ -1,3 +1,4 @@
+#include "tools/common/align_options.hpp"
 #include "tools/common/exit_status.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
@@ -81,13 +82,7 @@ void add_options_of_modes(command_line& line, place_settings& s) {
     line.option(s.arrange.turns, {"--rotate", "SET", "arrange: none | 90 | 45 | any", "90"}, turns);
     line.option(s.arrange.seed, {"--seed", "N", "arrange: same N, same result", "0"});
     line.option(s.max_distance, {"--max-distance", "DIST", "fit: ignore pairs further apart"});
-    line.option({"--overlap", "F", "fit: share of MOVING that has a partner", "1"},
-                [&s](std::string_view text) {
-                    s.fit.overlap = parse_number("--overlap", text);
-                    if (!(s.fit.overlap > 0.0 && s.fit.overlap <= 1.0))
-                        refuse("--overlap " + std::string(text) + ": expected a share up to 1");
-                });
-    line.flag(s.fit.scale, {"--scale", "", "fit: allow uniform scale"});
+    add_align_options(line, s.fit);
 }
 
 }  // namespace
@@ -134,25 +129,26 @@ void check_settings(const command_line& line, place_settings& s, common_options&
     if (!s.start.empty()) o.also_read.push_back(s.start);
     const std::string& mode = s.mode_text;
     const auto is = [&](auto... any) { return ((s.mode == any) || ...); };
-    const auto given = [&](std::initializer_list<const char*> names) {
+    const auto given = [&](const auto& names) {
         return std::count_if(names.begin(), names.end(),
                              [&](const char* name) { return line.given(name); });
     };
-    const auto sides_chosen = given({"--largest-face", "--face-normal", "--face-point"});
+    const auto sides_chosen = given(std::array{"--largest-face", "--face-normal", "--face-point"});
     const bool clearance = s.clearance.value > 0.0, mesh = wants_mesh(o);
     const bool form = o.ascii || o.binary || o.precision != "keep" || !o.output_format.empty();
     const std::initializer_list<std::pair<bool, std::string>> refused{
-        {!is(lay) && sides_chosen + given({"--tolerance", "--keep-spin"}) > 0,
+        {!is(lay) && sides_chosen + given(std::array{"--tolerance", "--keep-spin"}) > 0,
          "--largest-face, --face-normal, --face-point, --tolerance and --keep-spin are for lay"},
         {is(lay) && sides_chosen > 1,
          "--largest-face, --face-normal and --face-point exclude each other"},
         {is(lay) && !s.fixed.empty(), "--fixed: lay puts MOVING on the bed alone"},
         {is(lay) && clearance, "--clearance: lay puts MOVING on the bed"},
         {is(lay) && s.max_travel, "--max-travel: lay goes to the bed"},
-        {!is(arrange) && given({"--size", "--spacing", "--rotate", "--seed"}) > 0,
+        {!is(arrange) && given(std::array{"--size", "--spacing", "--rotate", "--seed"}) > 0,
          "--size, --spacing, --rotate and --seed are for arrange"},
-        {!is(fit) && given({"--max-distance", "--overlap", "--scale"}) > 0,
-         "--max-distance, --overlap and --scale are for fit"},
+        {!is(fit) && (line.given("--max-distance") || given(align_option_names()) > 0),
+         "--max-distance, " + listed(align_option_names()) + " are for fit"},
+        {given(std::array{"--overlap", "--trim"}) > 1, "--overlap and --trim say the same"},
         {is(arrange) && !line.given("--size"), "arrange needs --size"},
         {is(arrange) && !s.fixed.empty(), "--fixed: arrange puts MOVING on an empty plate"},
         {is(fit) && s.fixed.size() > 1, "fit: one --fixed only"},

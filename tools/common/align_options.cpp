@@ -1,0 +1,122 @@
+#include "tools/common/align_options.hpp"
+
+#include "tools/common/console.hpp"
+#include "tools/common/exit_status.hpp"
+#include "tools/common/parse_value.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+namespace tools {
+namespace {
+
+/// By `align_method` and `align_weights`.
+constexpr std::array<const char*, 3> metrics{"plane", "point", "auto"};
+constexpr std::array<const char*, 2> weights{"equal", "welsch"};
+
+unsigned parse_number_of(std::string_view option, std::string_view text, std::uint64_t least) {
+    const std::uint64_t count = parse_count(option, text);
+    if (count < least || count > 1'000'000)
+        refuse(std::string(option) + " " + std::string(text) + ": expected " +
+               std::to_string(least) + " to 1000000");
+    return static_cast<unsigned>(count);
+}
+
+}  // namespace
+
+void add_align_options(command_line& line, tf::align_options& options) {
+    tf::align_options& o = options;
+    const auto overlap = [&o](std::string_view option, std::string_view text, double share) {
+        if (!(share > 0.0 && share <= 1.0))
+            refuse(std::string(option) + " " + std::string(text) + ": expected a share up to 1");
+        o.overlap = share;
+    };
+    line.option({"--overlap", "F",
+                 "fit: share of MOVING that has a partner; each step\n"
+                 "ignores the rest, the points furthest away",
+                 "1"},
+                [overlap](std::string_view text) {
+                    overlap("--overlap", text, parse_number("--overlap", text));
+                });
+    line.option({"--trim", "F", "fit: the same, said by what to ignore: 1 - overlap", "0"},
+                [overlap](std::string_view text) {
+                    overlap("--trim", text, 1.0 - parse_share("--trim", text));
+                });
+    line.option(o.weights,
+                {"--weights", "W",
+                 "fit: equal, or welsch: far pairs count less; finds out\n"
+                 "by itself what has no partner, up to half of MOVING",
+                 "equal"},
+                weights);
+    line.option(o.method,
+                {"--metric", "M",
+                 "fit: distances to a plane | point | auto: planes, but\n"
+                 "of a fixed cloud points",
+                 "auto"},
+                metrics);
+    line.option({"--starts", "N",
+                 "fit: try N starts: the present position, the\n"
+                 "principal axes (4), then turns all around",
+                 "1"},
+                [&o](std::string_view text) { o.starts = parse_number_of("--starts", text, 1); });
+    line.option({"--iterations", "N", "fit: at most, from each start", "100"},
+                [&o](std::string_view text) {
+                    o.max_iterations = parse_number_of("--iterations", text, 0);
+                });
+    line.option(
+        {"--fit-tolerance", "F",
+         "fit: converged when 5 steps in a row lower the cost\n"
+         "by less than this share of it",
+         "1e-6"},
+        [&o](std::string_view text) { o.tolerance = parse_share("--fit-tolerance", text); });
+    line.flag(o.scale, {"--scale", "", "fit: allow uniform scale"});
+}
+
+std::span<const char* const> align_option_names() {
+    static constexpr std::array<const char*, 8> names{"--overlap",       "--trim",   "--weights",
+                                                      "--metric",        "--starts", "--iterations",
+                                                      "--fit-tolerance", "--scale"};
+    return names;
+}
+
+json align_entry(const tf::align_result& r) {
+    json freedoms = json::array();
+    for (const tf::align_freedom& one : r.freedoms)
+        freedoms.push_back(
+            {{"turn", one.turn}, {"shift", one.shift}, {"stiffness", one.stiffness}});
+    return {{"rms", r.rms},
+            {"rms_at_start", r.rms_at_start},
+            {"overlap", r.overlap},
+            {"inliers", r.inliers},
+            {"correlation", r.correlation},
+            {"scale", r.scale},
+            {"converged", r.converged},
+            {"end", tf::name_of(r.end)},
+            {"iterations", r.iterations},
+            {"start", r.start},
+            {"pivot", r.pivot},
+            {"pivot_moved", r.pivot_moved},
+            {"freedoms", freedoms},
+            {"undetermined", r.undetermined()}};
+}
+
+std::string align_sentence(const tf::align_result& r) {
+    switch (r.end) {
+        case tf::align_end::converged:
+            return "fitted " + r.message();
+        case tf::align_end::doubtful:
+            return "in doubt " + r.message() +
+                   "; neighbors are off to the same side (correlation " + brief(r.correlation) +
+                   "): a wrong place, or parts without a partner; --starts 100, --weights welsch "
+                   "or --overlap may help";
+        case tf::align_end::out_of_iterations:
+            return "not converged " + r.message() + "; more --iterations may help";
+        default:
+            return "not converged: nothing to align";
+    }
+}
+
+}  // namespace tools
