@@ -1,9 +1,13 @@
 #include <treeform/mesh/align.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
+#include <support/models.hpp>
 #include <support/random.hpp>
+#include <support/scans.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
@@ -11,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -280,6 +285,7 @@ TEST_CASE("align: what cannot be meant is refused") {
     refused({.overlap = nan});
     refused({.max_distance = -1.0});
     refused({.tolerance = nan});
+    refused({.starts = 0});
     tf::align_options start;
     start.start.rows[0][0] = nan;
     refused(start);
@@ -289,4 +295,175 @@ TEST_CASE("align: what cannot be meant is refused") {
     there[4].x = nan;
     CHECK_THROWS_WITH_AS(static_cast<void>(tf::align(there, fixed)),
                          doctest::Contains("moving point 4"), std::invalid_argument);
+}
+
+TEST_CASE("align: a noisy scan converges, and again from its own answer") {
+    test::random source(9);
+    const tf::mesh solid = shape();
+    for (const double noise : {1e-5, 1e-4, 1e-3})
+        for (const auto method : {align_method::point_to_plane, align_method::point_to_point}) {
+            CAPTURE(noise);
+            const auto scan =
+                test::scan_of(solid, {.points = 4000, .noise = noise, .degrees = 8}, source);
+            const auto found = tf::align(scan.moving, scan.fixed, {.method = method});
+            CHECK(found.end == tf::align_end::converged);
+            CHECK(test::error_of(scan, found.matrix, false) < noise);
+            CHECK(found.inliers > 3900);
+            CHECK(std::abs(found.correlation) < 0.15);
+            const auto again =
+                tf::align(scan.moving, scan.fixed, {.method = method, .start = found.matrix});
+            CHECK(again.converged);
+            CHECK(again.rms == doctest::Approx(found.rms).epsilon(1e-6));
+        }
+}
+
+TEST_CASE("align: a tolerance of 0 asks for a pose that does not move, a large one for little") {
+    test::random source(10);
+    const auto scan = test::scan_of(shape(), {.noise = 1e-4, .degrees = 8}, source);
+    const auto usual = tf::align(scan.moving, scan.fixed);
+    const auto coarse = tf::align(scan.moving, scan.fixed, {.tolerance = 0.5});
+    CHECK(coarse.iterations <= usual.iterations);
+    const auto exact = tf::align(scan.moving, scan.fixed, {.tolerance = 0.0});
+    CHECK(exact.rms <= usual.rms * (1.0 + 1e-12));
+    const auto none = tf::align(scan.moving, scan.fixed, {.max_iterations = 0});
+    CHECK(none.end == tf::align_end::out_of_iterations);
+    CHECK(none.iterations == 0);
+    CHECK(none.matrix == tf::transform<3>{});
+}
+
+TEST_CASE("align: acceleration takes fewer steps from points to points, to the same place") {
+    test::random source(11);
+    unsigned with = 0, without = 0;
+    for (int round = 0; round < 5; ++round) {
+        const auto scan = test::scan_of(shape(), {.noise = 1e-4, .degrees = 6}, source);
+        tf::align_options options{.method = align_method::point_to_point, .max_iterations = 1000};
+        const auto fast = tf::align(scan.moving, scan.fixed, options);
+        options.accelerate = false;
+        const auto plain = tf::align(scan.moving, scan.fixed, options);
+        CHECK(fast.converged);
+        CHECK(largest_difference(moved(scan.moving, fast.matrix),
+                                 moved(scan.moving, plain.matrix)) < 1e-3);
+        with += fast.iterations;
+        without += plain.iterations;
+    }
+    CHECK(with < without);
+}
+
+TEST_CASE("align: what has no partner is found by weights, trimmed by its share, or a doubt") {
+    test::random source(12);
+    for (int round = 0; round < 3; ++round) {
+        const auto scan = test::scan_of(
+            shape(),
+            {.noise = 1e-5, .degrees = 8, .share = 0.6, .what = test::scanned::part_of_fixed},
+            source);
+        CHECK(tf::align(scan.moving, scan.fixed).end == tf::align_end::doubtful);
+        // a share that is too large does no harm, either
+        for (const double overlap : {0.5, 0.6, 0.62}) {
+            const auto trimmed = tf::align(scan.moving, scan.fixed, {.overlap = overlap});
+            if (trimmed.converged) CHECK(test::error_of(scan, trimmed.matrix, false) < 1e-5);
+            if (overlap <= 0.6) CHECK(trimmed.converged);
+        }
+    }
+}
+
+TEST_CASE("align: several starts find what is turned any way, the present one first of equals") {
+    test::random source(13);
+    for (const double degrees : {90.0, 135.0, 180.0}) {
+        CAPTURE(degrees);
+        const auto scan = test::scan_of(shape(), {.noise = 1e-5, .degrees = degrees}, source);
+        CHECK_FALSE(tf::align(scan.moving, scan.fixed).converged);
+        for (const unsigned starts : {5U, 60U}) {
+            const auto found = tf::align(scan.moving, scan.fixed, {.starts = starts});
+            CHECK(found.converged);
+            CHECK(found.start > 0);
+            CHECK(found.start < starts);
+            CHECK(test::error_of(scan, found.matrix, false) < 1e-5);
+        }
+    }
+    const auto near = test::scan_of(shape(), {.degrees = 2}, source);
+    CHECK(tf::align(near.moving, near.fixed, {.starts = 20}).start == 0);
+}
+
+TEST_CASE(
+    "align: the motions that nothing holds: of a plane three, of a ball three, of a prism one") {
+    test::random source(14);
+    const auto free_of = [&](const tf::mesh& fixed) {
+        const auto found = tf::align(test::spread_over(source, fixed, 2000), fixed);
+        CHECK(found.freedoms.size() == 6);
+        for (const tf::align_freedom& one : found.freedoms) {
+            CHECK(one.stiffness >= 0.0);
+            CHECK(one.stiffness <= 1.0);
+        }
+        return found;
+    };
+    const auto flat = free_of(test::grid(8));
+    CHECK(flat.undetermined() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(std::abs(flat.freedoms[i].shift.z) < 1e-12);
+        CHECK(std::abs(flat.freedoms[i].turn.x) + std::abs(flat.freedoms[i].turn.y) < 1e-12);
+    }
+    CHECK(flat.freedoms[5].stiffness == doctest::Approx(1.0));
+    CHECK(free_of(shape()).undetermined() == 0);
+    // without its ends, a bar slides along itself
+    tf::mesh bar = test::box(1, 2, 9);
+    std::erase_if(bar.faces, [&](const tf::face& f) {
+        return bar.points[f[0]].z == bar.points[f[1]].z && bar.points[f[0]].z == bar.points[f[2]].z;
+    });
+    const auto slides = free_of(bar);
+    REQUIRE(slides.undetermined() == 1);
+    CHECK(std::abs(slides.freedoms[0].shift.z) == doctest::Approx(1.0));
+    // points on a line show no turn about it
+    std::vector<point3> line;
+    for (int i = 0; i < 20; ++i) line.push_back({0.1 * i, 0, 0});
+    CHECK(tf::align(line, test::grid(8)).freedoms.size() == 5);
+}
+
+TEST_CASE("align: clouds to planes fitted to clouds, the same points thousands of times") {
+    test::random source(15);
+    const tf::mesh solid = shape();
+    std::vector<point3> fixed = points_on(source, solid, 20000);
+    const std::vector<point3> home = points_on(source, solid, 3000);
+    for (int i = 0; i < 3000; ++i) fixed.push_back({0, 0, 0});
+    const auto there = moved(home, motion(0.03, 1.0, {0.02, -0.03, 0.01}));
+    const auto planes =
+        tf::align(there, {fixed, {}}, {.method = align_method::point_to_plane, .overlap = 0.95});
+    CHECK(planes.converged);
+    CHECK(largest_difference(moved(there, planes.matrix), home) < 0.01);
+    const auto points = tf::align(there, {fixed, {}});
+    CHECK(points.converged);
+    CHECK(largest_difference(moved(there, points.matrix), home) < 0.02);
+    for (const unsigned threads : {1U, 2U, 8U}) {
+        const tf::thread_scope scope(threads);
+        CHECK(tf::align(there, {fixed, {}}).matrix == points.matrix);
+    }
+}
+
+TEST_CASE("align: of scans of real solids, right places converge and wrong ones never do") {
+    const std::filesystem::path folder = test::models_folder();
+    if (folder.empty()) return;
+    test::random source(16);
+    // A sample; all of it: tests/stress/align_stress.cpp.
+    for (const char* file : {"decimated_knight_1k.off", "fertility_9k.off", "fish_2k.obj"}) {
+        CAPTURE(file);
+        const tf::mesh solid = tf::as_mesh(tf::read(folder / "clean" / file)).mesh;
+        for (const double noise : {0.0, 1e-5, 1e-4, 1e-3})
+            for (const double degrees : {5.0, 30.0})
+                for (const bool whole : {true, false}) {
+                    CAPTURE(noise);
+                    CAPTURE(degrees);
+                    const auto scan = test::scan_of(
+                        solid,
+                        {.points = 1000,
+                         .noise = noise,
+                         .degrees = degrees,
+                         .share = whole ? 1.0 : 0.6,
+                         .what = whole ? test::scanned::all : test::scanned::part_of_fixed},
+                        source);
+                    const auto found =
+                        tf::align(scan.moving, scan.fixed, {.overlap = whole ? 1.0 : 0.6});
+                    const double error = test::error_of(scan, found.matrix, false);
+                    if (error <= std::max(noise, 1e-9)) CHECK(found.converged);
+                    if (error > 3.0 * std::max(noise, 1e-9)) CHECK_FALSE(found.converged);
+                }
+    }
 }
