@@ -179,7 +179,9 @@ class alignment {
                                ? others_than(present, task_, few_, options_.starts, 0.6, 0.7)
                                : std::vector<detail::place::tried_start>{};
         for (std::size_t i = 0; i < std::min(tried.size(), refined) && !work_.cancelled(); ++i)
-            take_if_better(tried[i], 0.7, 0.8);
+            if (take_if_better(tried[i].end.map, 0.7, 0.75))
+                best_start_ = static_cast<unsigned>(tried[i].number);
+        if (task_.planes && !work_.cancelled()) slide_if_better();
         if (work_.cancelled()) return {.status = status::cancelled};
         align_result result = judged(present, before);
         if (work_.cancelled() || !work_.reach(1.0)) return {.status = status::cancelled};
@@ -190,12 +192,13 @@ class alignment {
     static constexpr std::size_t few_samples = 1000;
     static constexpr std::size_t coarse_samples = 5000;
     static constexpr std::size_t doubt_samples = 500;
-    static constexpr std::size_t refined = 3;   ///< of other starts, the best
-    static constexpr std::size_t doubts = 24;   ///< starts to try in doubt
-    static constexpr double better = 0.9;       ///< by what factor another place has to be
-    static constexpr double exact = 1e-9;       ///< distances that are none
-    static constexpr double like_noise = 0.15;  ///< correlation of neighbors
-    static constexpr double bearable = 2e-3;    ///< share of the diagonal that regions may be off
+    static constexpr std::size_t refined = 3;    ///< of other starts, the best
+    static constexpr std::size_t doubts = 24;    ///< starts to try in doubt
+    static constexpr double better = 0.9;        ///< by what factor another place has to be
+    static constexpr double little_held = 0.02;  ///< stiffness of motions that are tried out
+    static constexpr double exact = 1e-9;        ///< distances that are none
+    static constexpr double like_noise = 0.15;   ///< correlation of neighbors
+    static constexpr double bearable = 2e-3;     ///< share of the diagonal that regions may be off
 
     /// With a part of the samples first, if they are many: that gets near the end.
     [[nodiscard]] search_result search_from(similarity start, double from, double to) {
@@ -233,15 +236,32 @@ class alignment {
                           [&](std::size_t i) { return work_.step(from, to, i, 20.0); });
     }
 
-    void take_if_better(const detail::place::tried_start& tried, double from, double to) {
-        search_result other = search_from(tried.end.map, from, to);
+    bool take_if_better(const similarity& start, double from, double to) {
+        search_result other = search_from(start, from, to);
         matching last;
         const double cost = quality_at(task_, samples_, other.map, best_.width, last).cost;
-        if (!(cost < best_.at.cost * (1.0 - 1e-6) - 1e-20)) return;
+        if (!(cost < best_.at.cost * (1.0 - 1e-6) - 1e-20)) return false;
         other.width = best_.width;
         other.at.cost = cost;
         best_ = other;
-        best_start_ = static_cast<unsigned>(tried.number);
+        return true;
+    }
+
+    /// Along motions that are little held, as of a cogwheel about its axis, the next local optimum
+    /// is near, and may be the right one.
+    void slide_if_better() {
+        matching last;
+        const quality here = quality_at(task_, few_, best_.map, best_.width, last);
+        if (here.rms <= exact) return;
+        const auto starts =
+            detail::place::starts_along(detail::place::freedoms_of(last.partners, best_.map.shift),
+                                        little_held, best_.map, frame_.diagonal);
+        const auto tried = try_starts(
+            task_, few_, starts, [&](std::size_t i) { return work_.step(0.75, 0.78, i, 10.0); });
+        if (tried.empty() || work_.cancelled()) return;
+        const similarity& there = tried[0].end.map;
+        if (quality_at(task_, few_, there, best_.width, last).cost < better * here.cost)
+            take_if_better(there, 0.78, 0.8);
     }
 
     /// Whether what remains is noise, or too little for a doubt.

@@ -83,6 +83,25 @@ std::vector<similarity> starts_of(const inertia& moving, const inertia& fixed,
     return starts;
 }
 
+std::vector<similarity> starts_along(std::span<const freedom> motions, double most,
+                                     const similarity& at, double diagonal) {
+    std::vector<similarity> starts{at};
+    for (const freedom& one : motions) {
+        if (one.stiffness >= most) continue;
+        for (double by = 0.001; by < 0.1; by *= 2.0)
+            for (const double way : {by * diagonal, -by * diagonal}) {
+                const Vector3d turn = way * one.turn;
+                const double angle = turn.norm();
+                similarity start = at;
+                if (angle > 0.0)
+                    start.rotation = Eigen::AngleAxisd(angle, turn / angle) * at.rotation;
+                start.shift += way * one.shift;
+                starts.push_back(start);
+            }
+    }
+    return starts;
+}
+
 std::vector<tried_start> try_starts(const search_task& task, std::span<const Vector3d> few,
                                     std::span<const similarity> starts,
                                     function_ref<bool(std::size_t)> go_on) {

@@ -2,6 +2,7 @@
 /// \file
 /// Places that an alignment may start from, and which of them are worth it.
 
+#include <libmesh/place/align_judge.hpp>
 #include <libmesh/place/align_search.hpp>
 #include <libmesh/place/align_steps.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -26,6 +27,11 @@ struct inertia {
 /// \source Alexa, Super-Fibonacci Spirals: Fast, Low-Discrepancy Sampling of SO(3), CVPR (2022)
 [[nodiscard]] std::vector<similarity> starts_of(const inertia& moving, const inertia& fixed,
                                                 const similarity& present, std::size_t count);
+
+/// `at`, and places from there along the motions with a stiffness below `most`: 0.1% to 6% of
+/// `diagonal` away in the root mean square, both ways.
+[[nodiscard]] std::vector<similarity> starts_along(std::span<const freedom> motions, double most,
+                                                   const similarity& at, double diagonal);
 
 /// A start, and what a search with few points and steps makes of it.
 struct tried_start {
