@@ -10,7 +10,7 @@ using row6 = Eigen::Matrix<double, 6, 1>;
 using square6 = Eigen::Matrix<double, 6, 6>;
 using wide6 = Eigen::Matrix<double, 6, 12>;
 
-double off_plane(const partner& p) { return (p.from - p.to).dot(p.normal); }
+double signed_distance(const partner& p) { return (p.from - p.to).dot(p.normal); }
 
 }  // namespace
 
@@ -22,12 +22,12 @@ residuals residuals_of(const std::vector<partner>& weighed) {
     const partner* before = nullptr;
     for (const partner& p : weighed) {
         if (!(p.weight > 0.0)) continue;
-        const double off = off_plane(p);
+        const double off = signed_distance(p);
         all += p.weight * off * off;
         weights += p.weight;
         const double facing = before != nullptr ? p.normal.dot(before->normal) : 0.0;
         if (std::abs(facing) > 0.5) {
-            const double other = off_plane(*before), weight = p.weight * before->weight;
+            const double other = signed_distance(*before), weight = p.weight * before->weight;
             products += weight * (facing < 0.0 ? -off : off) * other;
             squares += weight * 0.5 * (off * off + other * other);
             ++found.pairs;

@@ -28,7 +28,8 @@ std::vector<Matrix3d> spread_turns(std::size_t count) {
 }
 
 /// The place where `center` goes to `to`, turned by `turn`.
-similarity turned(const Matrix3d& turn, double scale, const Vector3d& center, const Vector3d& to) {
+similarity placed_turned(const Matrix3d& turn, double scale, const Vector3d& center,
+                         const Vector3d& to) {
     return {scale, turn, to - scale * (turn * center)};
 }
 
@@ -73,12 +74,12 @@ std::vector<similarity> starts_of(const inertia& moving, const inertia& fixed,
     std::vector<similarity> starts{present};
     const Vector3d flips[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     for (const Vector3d& flip : flips)
-        starts.push_back(turned(fixed.axes * flip.asDiagonal() * moving.axes.transpose(),
-                                present.scale, moving.center, fixed.center));
+        starts.push_back(placed_turned(fixed.axes * flip.asDiagonal() * moving.axes.transpose(),
+                                       present.scale, moving.center, fixed.center));
     const std::size_t more = count > starts.size() ? count - starts.size() : 0;
     for (const Matrix3d& turn : spread_turns(more))
         starts.push_back(
-            turned(turn * present.rotation, present.scale, moving.center, fixed.center));
+            placed_turned(turn * present.rotation, present.scale, moving.center, fixed.center));
     starts.resize(std::max<std::size_t>(std::min(count, starts.size()), 1));
     return starts;
 }

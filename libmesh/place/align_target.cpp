@@ -12,7 +12,7 @@ namespace treeform::detail::place {
 namespace {
 
 /// Points that a plane of a cloud is fitted to.
-constexpr std::size_t around = 12;
+constexpr std::size_t points_of_plane = 12;
 
 Vector3d vector_of(const point3& p) { return {p.x, p.y, p.z}; }
 std::array<double, 3> array_of(const point3& p) { return {p.x, p.y, p.z}; }
@@ -69,7 +69,7 @@ void align_target::find_normals() {
     if (!is_cloud() || spacing_ > 0.0) return;
     std::vector<std::array<double, 3>> places;
     for (const point3& p : points_) places.push_back(array_of(p));
-    const auto near = among_points_.k_nearest(places, around);
+    const auto near = among_points_.k_nearest(places, points_of_plane);
     double sum = 0.0;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (near[i].size() > 1) sum += near[i][1].distance * near[i][1].distance;

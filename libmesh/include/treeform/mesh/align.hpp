@@ -102,7 +102,8 @@ struct align_result {
     point3 pivot{};        ///< center of the box of the moving points
     point3 pivot_moved{};  ///< where it goes
     double scale = 1.0;    ///< found in addition to that of `start`
-    /// Root mean square of the distances that count, by their weights, after; 0 for none.
+    /// Root mean square of the distances that count, after, by weights if they were asked for; 0 for
+    /// none.
     double rms = 0.0;
     double rms_at_start = 0.0;
     /// Share of all moving points whose nearest fixed point is within `max_distance`, after.
@@ -112,7 +113,7 @@ struct align_result {
     /// Correlation of the signed distances of neighbors, in [-1, 1]: near 0 where they are noise,
     /// near 1 where whole regions are off to one side.
     double correlation = 0.0;
-    /// The independent motions, least held first; none without partners. \see undetermined
+    /// The independent motions, least held first; none without partners.
     std::vector<align_freedom> freedoms{};
     align_end end = align_end::nothing_to_align;
     bool converged = false;                          ///< `end` is `converged`
