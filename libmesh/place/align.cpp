@@ -176,7 +176,7 @@ class alignment {
         if (!work_.reach(0.2)) return {.status = status::cancelled};
         best_ = search_from(present, 0.2, 0.6);
         const auto tried = options_.starts > 1
-                               ? others_than(present, task_, few_, options_.starts, 0.6, 0.7)
+                               ? others_than(present, few_, options_.starts, 0.6, 0.7)
                                : std::vector<detail::place::tried_start>{};
         for (std::size_t i = 0; i < std::min(tried.size(), refined) && !work_.cancelled(); ++i)
             if (take_if_better(tried[i].end.map, 0.7, 0.75))
@@ -194,7 +194,6 @@ class alignment {
     static constexpr std::size_t doubt_samples = 500;
     static constexpr std::size_t refined = 3;    ///< of other starts, the best
     static constexpr std::size_t doubts = 24;    ///< starts to try in doubt
-    static constexpr double better = 0.9;        ///< by what factor another place has to be
     static constexpr double little_held = 0.02;  ///< stiffness of motions that are tried out
     static constexpr double exact = 1e-9;        ///< distances that are none
     static constexpr double like_noise = 0.15;   ///< correlation of neighbors
@@ -226,13 +225,12 @@ class alignment {
 
     /// Other places than the present one, as few samples find them, the best first.
     [[nodiscard]] std::vector<detail::place::tried_start> others_than(const similarity& present,
-                                                                      const search_task& task,
                                                                       std::span<const Vector3d> few,
                                                                       std::size_t count,
                                                                       double from, double to) {
         const auto starts = detail::place::starts_of(detail::place::inertia_of(samples_),
                                                      inertia_in(frame_, fixed_), present, count);
-        return try_starts(task, few, starts,
+        return try_starts(task_, few, starts,
                           [&](std::size_t i) { return work_.step(from, to, i, 20.0); });
     }
 
@@ -260,8 +258,14 @@ class alignment {
             task_, few_, starts, [&](std::size_t i) { return work_.step(0.75, 0.78, i, 10.0); });
         if (tried.empty() || work_.cancelled()) return;
         const similarity& there = tried[0].end.map;
-        if (quality_at(task_, few_, there, best_.width, last).cost < better * here.cost)
+        if (quality_at(task_, few_, there, best_.width, last).cost <
+            better_of(few_.size()) * here.cost)
             take_if_better(there, 0.78, 0.8);
+    }
+
+    /// By what factor the cost of so many points has to be lower at another place: by more than chance.
+    [[nodiscard]] static double better_of(std::size_t points) {
+        return std::clamp(1.0 - 4.0 / std::sqrt(static_cast<double>(points)), 0.5, 0.9);
     }
 
     /// Whether what remains is noise, or too little for a doubt.
@@ -272,19 +276,20 @@ class alignment {
         return left.pairs >= 400 && left.correlation <= std::max(like_noise, by_chance);
     }
 
-    /// Whether some other start ends at a better place than the best.
+    /// Whether some other start ends at a better place than the best, by the same weights.
     [[nodiscard]] bool other_is_better(const similarity& present) {
         const std::vector<Vector3d> few = some_of(few_, doubt_samples);
-        matching last;
-        search_task task = task_;
-        task.welsch = false;
-        const double here = quality_at(task, few, best_.map, endless, last).cost;
-        const auto tried = others_than(present, task, few, doubts, 0.85, 0.98);
+        const auto cost_at = [&](const similarity& map) {
+            matching last;
+            return quality_at(task_, few, map, best_.width, last).cost;
+        };
+        const double here = cost_at(best_.map);
+        const auto tried = others_than(present, few, doubts, 0.85, 0.98);
         for (std::size_t i = 0; i < std::min(tried.size(), refined); ++i) {
-            matching of_few;
-            const auto end = search(task, few, tried[i].end.map, of_few,
+            matching last;
+            const auto end = search(task_, few, tried[i].end.map, last,
                                     [&](unsigned) { return !work_.cancelled(); });
-            if (quality_at(task, few, end.map, endless, of_few).cost < better * here) return true;
+            if (cost_at(end.map) < better_of(few.size()) * here) return true;
         }
         return false;
     }
