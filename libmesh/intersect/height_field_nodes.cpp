@@ -10,6 +10,7 @@ namespace treeform::detail::intersect {
 node_marks<3> find_height_fields(points_view points, std::span<const numbered_face> faces,
                                  const tree<3>& tree) {
     node_marks<3> found(tree);
+    if (tree.empty()) return found;
     unsigned top = 0;
     while (!tree.is_leaf_level(top) && tree.capacity(top) > height_field_test::max_faces) ++top;
     for_chunks(tree.nodes_in_level(top), 8, [&](std::size_t begin, std::size_t end, std::size_t) {
