@@ -69,6 +69,18 @@ bool can_be_halved(const box3& box, std::size_t& axis, double& at) {
     return box.min[axis] < at && at < box.max[axis];
 }
 
+/// Where a box of a node is along one axis: as `box_in_space`, of which the others are not needed.
+aabb<double, 1> extent_in_space(const tree_frame<3>& frame, const wide_node<3>& boxes,
+                                std::size_t slot, std::size_t axis) {
+    tree_frame<1> along;
+    along.origin[0] = frame.origin[axis];
+    along.scale = frame.scale;
+    wide_node<1> only;
+    only.min[0][0] = boxes.min[axis][slot];
+    only.max[0][0] = boxes.max[axis][slot];
+    return box_in_space(along, only, 0);
+}
+
 bool is_larger(const box3& a, const box3& b) {
     for (std::size_t k = 0; k < 3; ++k)
         if (0.5 * a.max[k] - 0.5 * a.min[k] > 0.5 * b.max[k] - 0.5 * b.min[k]) return true;
@@ -111,13 +123,12 @@ class divider {
         result.upper = {p.box, {}, {}};
         result.lower.box.max[result.axis] = result.at;
         result.upper.box.min[result.axis] = result.at;
-        for (const item& i : p.inside) sort_in(i, result);
+        for (const item& i : p.inside) sort_in_known(i, result);
         const double rest = p.budget - static_cast<double>(p.inside.size());
         const std::size_t all = result.lower.inside.size() + result.upper.inside.size();
         for (place* half : {&result.lower, &result.upper}) {
             half->budget =
                 rest * static_cast<double>(half->inside.size()) / static_cast<double>(all);
-            for (const item& i : half->inside) half->faces += faces_below(i);
             for (const std::uint32_t c : p.unusual)
                 if (std::ranges::any_of(components_.unusual_boxes(c), [&](const box3& unusual) {
                         return overlaps(unusual, half->box);
@@ -258,12 +269,39 @@ class divider {
         const bool in_lower = reaches(i, box, result.lower.box);
         const bool in_upper = reaches(i, box, result.upper.box);
         if (!in_lower && !in_upper) return;
-        if (is_face(i) || !is_larger(box, result.lower.box)) {
-            if (in_lower) result.lower.inside.push_back(i);
-            if (in_upper) result.upper.inside.push_back(i);
-            return;
+        if (is_face(i) || !is_larger(box, result.lower.box))
+            put(i, in_lower, in_upper, result);
+        else
+            for_children(i, [&](const item& child) { sort_in(child, result); });
+    }
+
+    /// The same of an item that reaches into both halves together, and is no larger: along the other
+    /// axes nothing has changed.
+    void sort_in_known(const item& i, halves& result) const {
+        const tree<3>& tree = components_.tree_of(i.component);
+        if (i.level == 0 || i.level == tree.levels()) return sort_in(i, result);
+        const std::size_t axis = result.axis;
+        const auto extent =
+            extent_in_space(tree.frame(), tree.level(i.level - 1)[i.number / tree.width],
+                            i.number % tree.width, axis);
+        const box3& lower = result.lower.box;
+        if (0.5 * extent.max[0] - 0.5 * extent.min[0] >
+            0.5 * lower.max[axis] - 0.5 * lower.min[axis])
+            for_children(i, [&](const item& child) { sort_in(child, result); });
+        else
+            put(i, extent.min[0] <= result.at, extent.max[0] >= result.at, result);
+    }
+
+    void put(const item& i, bool in_lower, bool in_upper, halves& result) const {
+        const std::size_t faces = faces_below(i);
+        if (in_lower) {
+            result.lower.inside.push_back(i);
+            result.lower.faces += faces;
         }
-        for_children(i, [&](const item& child) { sort_in(child, result); });
+        if (in_upper) {
+            result.upper.inside.push_back(i);
+            result.upper.faces += faces;
+        }
     }
 
     void mark_faces(const item& i, const box3& box) const {

@@ -17,16 +17,49 @@
 namespace treeform::detail::topology {
 namespace {
 
-/// The corners of `f` after and before `point`.
+/// The corners of `f` after and before `point`, without a branch: which corner it is nobody can
+/// predict.
 std::array<std::uint32_t, 2> link_of(const face& f, std::uint32_t point) {
-    const std::size_t i = f[0] == point ? 0 : f[1] == point ? 1 : 2;
-    return {f[(i + 1) % 3], f[(i + 2) % 3]};
+    constexpr std::array<std::uint8_t, 5> corner{0, 1, 2, 0, 1};
+    const auto i =
+        static_cast<std::size_t>(f[1] == point) + 2 * static_cast<std::size_t>(f[2] == point);
+    return {f[corner[i + 1]], f[corner[i + 2]]};
+}
+
+/// As `is_one_fan`, of a few faces: all are compared with all, which is faster than to stop early.
+constexpr std::size_t few = 8;
+bool are_few_one_fan(std::span<const face> faces, std::span<const std::uint32_t> around,
+                     std::uint32_t point) {
+    constexpr std::uint32_t one = 16;  // counts, beside the number of a face
+    static_assert(few <= one);
+    std::array<std::uint32_t, few> after, before, following;
+    after.fill(point);  // which no other corner is
+    for (std::size_t i = 0; i < around.size(); ++i) {
+        const auto [next, last] = link_of(faces[around[i]], point);
+        after[i] = next;
+        before[i] = last;
+    }
+    bool once = true;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+        std::uint32_t sum = 0;
+        for (std::uint32_t j = 0; j < few; ++j) sum += after[j] == before[i] ? one + j : 0;
+        once &= sum / one == 1;
+        following[i] = sum % one;
+    }
+    if (!once) return false;
+    std::size_t steps = 0;
+    std::uint32_t at = 0;
+    do at = following[at];
+    while (++steps < around.size() && at != 0);
+    return at == 0 && steps == around.size();
 }
 
 /// Whether the faces at a point are one closed fan: from one to the next across the edge that it
 /// has in common with it alone, and so around all of them.
 bool is_one_fan(std::span<const face> faces, std::span<const std::uint32_t> around,
                 std::uint32_t point, std::vector<std::array<std::uint32_t, 2>>& links) {
+    if (around.empty()) return true;
+    if (around.size() <= few) return are_few_one_fan(faces, around, point);
     links.clear();
     for (const std::uint32_t f : around) links.push_back(link_of(faces[f], point));
     for (std::size_t i = 0; i + 1 < links.size(); ++i) {
@@ -37,7 +70,7 @@ bool is_one_fan(std::span<const face> faces, std::span<const std::uint32_t> arou
         if (following == 0 || following == links.size()) return false;
         std::swap(links[i + 1], links[following]);
     }
-    return links.empty() || links.back()[1] == links.front()[0];
+    return links.back()[1] == links.front()[0];
 }
 
 /// Whether all points are in one fan each: `point_of(i)` with the faces `star_of(i)`.
@@ -45,12 +78,16 @@ template <class StarOf, class PointOf>
 bool are_all_one_fan(std::span<const face> faces, std::size_t count, const StarOf& star_of,
                      const PointOf& point_of) {
     constexpr std::size_t many = 64;
+    constexpr std::size_t ahead = 8;  // stars whose memory is under way
     std::atomic<bool> manifold{true};
     for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::vector<std::array<std::uint32_t, 2>> links;
-        for (std::size_t i = begin; i < end && manifold.load(std::memory_order_relaxed); ++i)
+        for (std::size_t i = begin; i < end && manifold.load(std::memory_order_relaxed); ++i) {
+            if (i + ahead < end)
+                for (const std::uint32_t f : star_of(i + ahead)) __builtin_prefetch(&faces[f]);
             if (star_of(i).size() > many || !is_one_fan(faces, star_of(i), point_of(i), links))
                 manifold = false;
+        }
     });
     return manifold;
 }
