@@ -54,10 +54,16 @@ struct place {
     double budget = 0.0;
 };
 
+/// A half of a box.
+struct half : place {
+    std::vector<settled_component> gone;  ///< reach into the box, but not into this half; ascending
+    bool is_settled = false;  ///< by some of them: what else there is was not looked for
+};
+
 struct halves {
     std::size_t axis = 0;
     double at = 0.0;
-    place lower, upper;
+    half lower, upper;
 };
 
 bool can_be_halved(const box3& box, std::size_t& axis, double& at) {
@@ -116,58 +122,53 @@ class divider {
         return p.inside.front().component != p.inside.back().component;
     }
 
-    /// False where the box is too small for that.
-    [[nodiscard]] bool halve(const place& p, halves& result) const {
+    /// False where the box is too small for that. `settles(gone)` says whether a half is settled by
+    /// the components known to be gone from it.
+    template <class Settles>
+    [[nodiscard]] bool halve(const place& p, halves& result, const Settles& settles) const {
         if (!can_be_halved(p.box, result.axis, result.at)) return false;
-        result.lower = {p.box, {}, {}};
-        result.upper = {p.box, {}, {}};
+        result.lower = {{p.box, {}, {}}, {}};
+        result.upper = {{p.box, {}, {}}, {}};
         result.lower.box.max[result.axis] = result.at;
         result.upper.box.min[result.axis] = result.at;
-        for (const item& i : p.inside) sort_in_known(i, result);
+        for (auto i = p.inside.begin(); i != p.inside.end();) {
+            const std::uint32_t c = i->component;
+            const std::size_t in_lower = result.lower.inside.size();
+            const std::size_t in_upper = result.upper.inside.size();
+            for (; i != p.inside.end() && i->component == c; ++i) sort_in_known(*i, result);
+            if (result.lower.inside.size() == in_lower) leave(c, result.lower, settles);
+            if (result.upper.inside.size() == in_upper) leave(c, result.upper, settles);
+            if (result.lower.is_settled && result.upper.is_settled) return true;
+        }
         const double rest = p.budget - static_cast<double>(p.inside.size());
         const std::size_t all = result.lower.inside.size() + result.upper.inside.size();
-        for (place* half : {&result.lower, &result.upper}) {
-            half->budget =
-                rest * static_cast<double>(half->inside.size()) / static_cast<double>(all);
+        for (half* part : {&result.lower, &result.upper}) {
+            part->budget =
+                rest * static_cast<double>(part->inside.size()) / static_cast<double>(all);
             for (const std::uint32_t c : p.unusual)
                 if (std::ranges::any_of(components_.unusual_boxes(c), [&](const box3& unusual) {
-                        return overlaps(unusual, half->box);
+                        return overlaps(unusual, part->box);
                     }))
-                    half->unusual.push_back(c);
+                    part->unusual.push_back(c);
         }
         return true;
     }
 
-    /// The components that reach into a box, but not into that part of it.
-    [[nodiscard]] std::vector<settled_component> settled_in(const place& part,
-                                                            const items& above) const {
-        std::vector<settled_component> result;
-        point3 q;
-        for (std::size_t k = 0; k < 3; ++k) q[k] = part.box.min[k];
-        auto next = part.inside.begin();
-        for_components(above, [&](std::uint32_t c) {
-            while (next != part.inside.end() && next->component < c) ++next;
-            if (next == part.inside.end() || next->component != c)
-                result.push_back({c, components_.winding_around(c, q)});
-        });
+    /// What is known of a part of a place by the components that are gone from it.
+    [[nodiscard]] std::vector<range_change> changes_by(const std::vector<settled_component>& gone,
+                                                       const place& above) const {
+        std::vector<range_change> result;
+        for (const auto& [c, winding] : gone)
+            change(c, winding_range::only(winding), above, result);
         return result;
     }
 
     /// What is known besides of a part of a place.
-    [[nodiscard]] std::vector<range_change> changes_in(const place& part,
-                                                       const place& above) const {
-        std::vector<range_change> result;
-        const auto change = [&](std::uint32_t c, const winding_range& now) {
-            const winding_range& before = range_in(above, c);
-            if (now != before)
-                result.push_back(
-                    {components_.operand(c), {now.low - before.low, now.high - before.high}});
-        };
-        for (const auto& [c, winding] : settled_in(part, above.inside))
-            change(c, winding_range::only(winding));
+    [[nodiscard]] std::vector<range_change> changes_in(const half& part, const place& above) const {
+        std::vector<range_change> result = changes_by(part.gone, above);
         for (const std::uint32_t c : above.unusual)
             if (!std::ranges::binary_search(part.unusual, c) && is_inside(c, part))
-                change(c, components_.usual_range(c));
+                change(c, components_.usual_range(c), above, result);
         return result;
     }
 
@@ -204,6 +205,25 @@ class divider {
     }
 
   private:
+    void change(std::uint32_t c, const winding_range& now, const place& above,
+                std::vector<range_change>& result) const {
+        const winding_range& before = range_in(above, c);
+        if (now != before)
+            result.push_back(
+                {components_.operand(c), {now.low - before.low, now.high - before.high}});
+    }
+
+    /// A component does not reach into a half.
+    template <class Settles>
+    void leave(std::uint32_t c, half& from, const Settles& settles) const {
+        if (from.is_settled) return;
+        point3 q;
+        for (std::size_t k = 0; k < 3; ++k) q[k] = from.box.min[k];
+        const std::int64_t winding = components_.winding_around(c, q);
+        from.gone.push_back({c, winding});
+        if (winding != 0) from.is_settled = settles(from.gone);
+    }
+
     template <class Visit>
     static void for_components(const items& inside, const Visit& visit) {
         std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
@@ -266,8 +286,8 @@ class divider {
     /// Puts an item into the halves that it reaches into, opened where it is larger than they are.
     void sort_in(const item& i, halves& result) const {
         const box3 box = box_of(i);
-        const bool in_lower = reaches(i, box, result.lower.box);
-        const bool in_upper = reaches(i, box, result.upper.box);
+        const bool in_lower = !result.lower.is_settled && reaches(i, box, result.lower.box);
+        const bool in_upper = !result.upper.is_settled && reaches(i, box, result.upper.box);
         if (!in_lower && !in_upper) return;
         if (is_face(i) || !is_larger(box, result.lower.box))
             put(i, in_lower, in_upper, result);
@@ -293,6 +313,9 @@ class divider {
     }
 
     void put(const item& i, bool in_lower, bool in_upper, halves& result) const {
+        in_lower = in_lower && !result.lower.is_settled;
+        in_upper = in_upper && !result.upper.is_settled;
+        if (!in_lower && !in_upper) return;
         const std::size_t faces = faces_below(i);
         if (in_lower) {
             result.lower.inside.push_back(i);
@@ -336,8 +359,15 @@ class subdivision {
   private:
     void divide(const place& p, std::size_t own) {
         halves parts;
+        const auto settles = [&](const std::vector<settled_component>& gone) {
+            const auto changes = division_.changes_by(gone, p);
+            settle(changes, true);
+            const bool is_settled = state_.value().has_value();
+            settle(changes, false);
+            return is_settled;
+        };
         if (!division_.is_worth_halving(p) || division_.is_hopeless(p, state_) ||
-            !division_.halve(p, parts)) {
+            !division_.halve(p, parts, settles)) {
             nodes_[own].axis = node::active;
             division_.mark_faces(p);
             return;
@@ -346,11 +376,12 @@ class subdivision {
         nodes_[own] = {static_cast<std::uint8_t>(parts.axis), parts.at,
                        static_cast<std::uint32_t>(below)};
         nodes_.resize(below + 2);  // settled, until it turns out that they are not
-        const std::array<place*, 2> half = {&parts.lower, &parts.upper};
+        const std::array<half*, 2> part = {&parts.lower, &parts.upper};
         std::array<std::vector<range_change>, 2> known;
-        std::array<bool, 2> is_settled{};
+        std::array<bool, 2> is_settled{parts.lower.is_settled, parts.upper.is_settled};
         for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
-            known[i] = division_.changes_in(*half[i], p);
+            if (is_settled[i]) continue;
+            known[i] = division_.changes_in(*part[i], p);
             settle(known[i], true);
             is_settled[i] = state_.value().has_value();
             settle(known[i], false);
@@ -358,9 +389,9 @@ class subdivision {
         for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
             if (is_settled[i]) continue;
             if (is_settled[1 - i])
-                half[i]->budget += pay_of_face * static_cast<double>(p.faces - half[i]->faces);
+                part[i]->budget += pay_of_face * static_cast<double>(p.faces - part[i]->faces);
             settle(known[i], true);
-            divide(*half[i], below + i);
+            divide(*part[i], below + i);
             settle(known[i], false);
         }
     }
@@ -395,7 +426,8 @@ std::vector<task> divide_into_tasks(const divider& division, place&& everything,
         task above = std::move(tasks[next]);
         halves parts;
         if (tasks.size() - next + whole.size() >= most_tasks ||
-            !division.is_worth_halving(above.begin) || !division.halve(above.begin, parts)) {
+            !division.is_worth_halving(above.begin) ||
+            !division.halve(above.begin, parts, [](const auto&) { return false; })) {
             whole.push_back(std::move(above));
             continue;
         }
@@ -403,8 +435,8 @@ std::vector<task> divide_into_tasks(const divider& division, place&& everything,
         nodes[above.at] = {static_cast<std::uint8_t>(parts.axis), parts.at,
                            static_cast<std::uint32_t>(below)};
         nodes.resize(below + 2);
-        for (place* part : {&parts.lower, &parts.upper}) {
-            auto known = division.settled_in(*part, above.begin.inside);
+        for (half* part : {&parts.lower, &parts.upper}) {
+            std::vector<settled_component> known = std::move(part->gone);
             std::erase_if(known, [](const settled_component& c) { return c.winding == 0; });
             known.insert(known.end(), above.known.begin(), above.known.end());
             tasks.push_back(
