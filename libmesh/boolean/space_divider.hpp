@@ -1,0 +1,350 @@
+#pragma once
+/// \file
+/// Boxes on the way down to settled and active ones, and what reaches into each.
+
+#include <libmesh/base/face_boxes.hpp>
+#include <libmesh/boolean/active_space.hpp>
+#include <libmesh/boolean/partial_expression.hpp>
+#include <libmesh/boolean/rough_corners.hpp>
+#include <libmesh/boolean/surface_components.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/aabb.hpp>
+#include <treeform/tree/detail/box_in_space.hpp>
+#include <treeform/tree/tree.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace treeform::detail::boolean {
+
+/// To halve a box costs as much as there are items in it. What may be spent is so much for a face,
+/// shared out among the halves; where one is settled, the faces that are in it alone pay so much.
+constexpr double budget_of_face = 16.0;
+constexpr double pay_of_face = 4.0;
+
+/// What reaches into a box of a component: all below a node of its tree, or a face of it, which is
+/// one level lower.
+struct item {
+    std::uint32_t component;
+    std::uint32_t level;
+    std::uint32_t number;
+};
+using items = std::vector<item>;  // ascending by component
+
+struct settled_component {
+    std::uint32_t component;
+    std::int64_t winding;
+};
+
+struct range_change {
+    std::uint32_t operand;
+    winding_range by;
+};
+
+/// A box on the way down.
+struct place {
+    aabb<double, 3> box;
+    items inside;
+    std::vector<std::uint32_t> unusual;  ///< components that may wind otherwise there; ascending
+    std::size_t faces = 0;               ///< below its items
+    double budget = 0.0;
+};
+
+/// A half of a box.
+struct half : place {
+    std::vector<settled_component> gone;  ///< reach into the box, but not into this half; ascending
+    bool is_settled = false;  ///< by some of them: what else there is was not looked for
+};
+
+struct halves {
+    std::size_t axis = 0;
+    double at = 0.0;
+    half lower, upper;
+};
+
+/// Where to halve a box; false where it is too small for that.
+inline bool can_be_halved(const aabb<double, 3>& box, std::size_t& axis, double& at) {
+    axis = 0;
+    const auto extent = [&](std::size_t k) { return 0.5 * box.max[k] - 0.5 * box.min[k]; };
+    for (const std::size_t k : {std::size_t{1}, std::size_t{2}})
+        if (extent(k) > extent(axis)) axis = k;
+    at = 0.5 * box.min[axis] + 0.5 * box.max[axis];
+    return box.min[axis] < at && at < box.max[axis];
+}
+
+/// Where a box of a node is along one axis: as `box_in_space`, of which the others are not needed.
+inline aabb<double, 1> extent_in_space(const tree_frame<3>& frame, const wide_node<3>& boxes,
+                                       std::size_t slot, std::size_t axis) {
+    tree_frame<1> along;
+    along.origin[0] = frame.origin[axis];
+    along.scale = frame.scale;
+    wide_node<1> only;
+    only.min[0][0] = boxes.min[axis][slot];
+    only.max[0][0] = boxes.max[axis][slot];
+    return box_in_space(along, only, 0);
+}
+
+inline bool is_larger(const aabb<double, 3>& a, const aabb<double, 3>& b) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (0.5 * a.max[k] - 0.5 * a.min[k] > 0.5 * b.max[k] - 0.5 * b.min[k]) return true;
+    return false;
+}
+
+/// Halves boxes, and says what of the components that reach into them is known in each half.
+class divider {
+  public:
+    divider(const surface_components& components, const division_limits& limits,
+            std::vector<std::uint8_t>& is_active_face)
+        : components_(components),
+          limits_(limits),
+          box_of_(base::face_boxes(components.mesh().points)),
+          is_active_face_(is_active_face) {}
+
+    [[nodiscard]] place everything() const {
+        place all;
+        for (std::uint32_t c = 0; c < components_.size(); ++c) {
+            all.box.include(components_.box(c));
+            all.inside.push_back({c, 0, 0});
+            if (!components_.unusual_boxes(c).empty()) all.unusual.push_back(c);
+        }
+        all.faces = components_.mesh().faces.size();
+        all.budget = limits_.effort * budget_of_face * static_cast<double>(all.faces);
+        return all;
+    }
+
+    /// Whether to halve a place whose value is not known.
+    [[nodiscard]] bool is_worth_halving(const place& p) const {
+        if (p.faces <= limits_.faces_not_halved || p.budget < static_cast<double>(p.inside.size()))
+            return false;
+        // A box that one component alone reaches into has nothing hidden that halves would show.
+        return p.inside.front().component != p.inside.back().component;
+    }
+
+    /// False where the box is too small for that. `settles(gone)` says whether a half is settled by
+    /// the components known to be gone from it.
+    template <class Settles>
+    [[nodiscard]] bool halve(const place& p, halves& result, const Settles& settles) const {
+        if (!can_be_halved(p.box, result.axis, result.at)) return false;
+        result.lower = {{p.box, {}, {}}, {}};
+        result.upper = {{p.box, {}, {}}, {}};
+        result.lower.box.max[result.axis] = result.at;
+        result.upper.box.min[result.axis] = result.at;
+        for (auto i = p.inside.begin(); i != p.inside.end();) {
+            const std::uint32_t c = i->component;
+            const std::size_t in_lower = result.lower.inside.size();
+            const std::size_t in_upper = result.upper.inside.size();
+            for (; i != p.inside.end() && i->component == c; ++i) sort_in_known(*i, result);
+            if (result.lower.inside.size() == in_lower) leave(c, result.lower, settles);
+            if (result.upper.inside.size() == in_upper) leave(c, result.upper, settles);
+            if (result.lower.is_settled && result.upper.is_settled) return true;
+        }
+        const double rest = p.budget - static_cast<double>(p.inside.size());
+        const std::size_t all = result.lower.inside.size() + result.upper.inside.size();
+        for (half* part : {&result.lower, &result.upper}) {
+            part->budget =
+                rest * static_cast<double>(part->inside.size()) / static_cast<double>(all);
+            for (const std::uint32_t c : p.unusual)
+                if (std::ranges::any_of(components_.unusual_boxes(c),
+                                        [&](const aabb<double, 3>& unusual) {
+                                            return overlaps(unusual, part->box);
+                                        }))
+                    part->unusual.push_back(c);
+        }
+        return true;
+    }
+
+    /// What is known of a part of a place by the components that are gone from it.
+    [[nodiscard]] std::vector<range_change> changes_by(const std::vector<settled_component>& gone,
+                                                       const place& above) const {
+        std::vector<range_change> result;
+        for (const auto& [c, winding] : gone)
+            change(c, winding_range::only(winding), above, result);
+        return result;
+    }
+
+    /// What is known besides of a part of a place.
+    [[nodiscard]] std::vector<range_change> changes_in(const half& part, const place& above) const {
+        std::vector<range_change> result = changes_by(part.gone, above);
+        for (const std::uint32_t c : above.unusual)
+            if (!std::ranges::binary_search(part.unusual, c) && is_inside(c, part))
+                change(c, components_.usual_range(c), above, result);
+        return result;
+    }
+
+    void mark_faces(const place& p) const {
+        for (const item& i : p.inside) mark_faces(i, p.box);
+    }
+
+    /// Adds the ranges of the components that reach into a place, or takes them away.
+    void tell(partial_expression& state, const place& p, bool is_there) const {
+        const std::int64_t sign = is_there ? 1 : -1;
+        for_components(p.inside, [&](std::uint32_t c) {
+            const winding_range& range = range_in(p, c);
+            state.add(components_.operand(c), {sign * range.low, sign * range.high});
+        });
+    }
+
+    /// Whether few components reach into a place, none of which can settle it alone.
+    [[nodiscard]] bool is_hopeless(const place& p, partial_expression& state) const {
+        std::size_t count = 0;
+        bool has_hope = false;
+        for_components(p.inside, [&](std::uint32_t c) {
+            if (++count > limits_.few_components || has_hope) return;
+            const winding_range& range = range_in(p, c);
+            const bool is_known = range != winding_range::unknown();
+            for (const std::int64_t winding :
+                 {is_known ? range.low : 0, is_known ? range.high : 1}) {
+                const winding_range by{winding - range.low, winding - range.high};
+                state.add(components_.operand(c), by);
+                if (state.value()) has_hope = true;
+                state.add(components_.operand(c), {-by.low, -by.high});
+            }
+        });
+        return !has_hope && count <= limits_.few_components;
+    }
+
+  private:
+    void change(std::uint32_t c, const winding_range& now, const place& above,
+                std::vector<range_change>& result) const {
+        const winding_range& before = range_in(above, c);
+        if (now != before)
+            result.push_back(
+                {components_.operand(c), {now.low - before.low, now.high - before.high}});
+    }
+
+    /// A component does not reach into a half.
+    template <class Settles>
+    void leave(std::uint32_t c, half& from, const Settles& settles) const {
+        if (from.is_settled) return;
+        point3 q;
+        for (std::size_t k = 0; k < 3; ++k) q[k] = from.box.min[k];
+        const std::int64_t winding = components_.winding_around(c, q);
+        from.gone.push_back({c, winding});
+        if (winding != 0) from.is_settled = settles(from.gone);
+    }
+
+    template <class Visit>
+    static void for_components(const items& inside, const Visit& visit) {
+        std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
+        for (const item& i : inside) {
+            if (i.component == last) continue;
+            last = i.component;
+            visit(last);
+        }
+    }
+
+    [[nodiscard]] const winding_range& range_in(const place& p, std::uint32_t c) const {
+        return std::ranges::binary_search(p.unusual, c) ? components_.range(c)
+                                                        : components_.usual_range(c);
+    }
+    [[nodiscard]] static bool is_inside(std::uint32_t c, const place& p) {
+        return std::ranges::binary_search(p.inside, c, {}, &item::component);
+    }
+
+    [[nodiscard]] bool is_face(const item& i) const {
+        return i.level == components_.tree_of(i.component).levels();
+    }
+    [[nodiscard]] std::size_t faces_below(const item& i) const {
+        if (is_face(i)) return 1;
+        const tree<3>& tree = components_.tree_of(i.component);
+        const std::size_t each = tree.capacity(i.level);
+        return std::min(each, tree.size() - each * i.number);
+    }
+    [[nodiscard]] std::uint32_t face_of(const item& i) const {
+        return components_.faces(i.component)[components_.tree_of(i.component).ids()[i.number]];
+    }
+    [[nodiscard]] aabb<double, 3> box_of(const item& i) const {
+        const tree<3>& tree = components_.tree_of(i.component);
+        if (is_face(i)) return box_of_(components_.mesh().faces[face_of(i)]);
+        if (i.level == 0) return components_.box(i.component);
+        return box_in_space(tree.frame(), tree.level(i.level - 1)[i.number / tree.width],
+                            i.number % tree.width);
+    }
+
+    /// \pre `i` is no face
+    template <class Visit>
+    void for_children(const item& i, const Visit& visit) const {
+        const tree<3>& tree = components_.tree_of(i.component);
+        const auto first = static_cast<std::uint32_t>(tree.width * i.number);
+        const std::size_t children = tree.children(i.level, i.number);
+        for (std::uint32_t k = 0; k < children; ++k)
+            visit(item{i.component, i.level + 1, first + k});
+    }
+
+    /// Whether an item, which is in `own`, may reach into a box. Of a large face not all that its box
+    /// does.
+    [[nodiscard]] bool reaches(const item& i, const aabb<double, 3>& own,
+                               const aabb<double, 3>& box) const {
+        if (!overlaps(own, box)) return false;
+        if (!is_face(i) || !is_larger(own, box)) return true;
+        std::array<aabb<double, 3>, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k)
+            corners[k].include(components_.mesh().points[components_.mesh().faces[face_of(i)][k]]);
+        return !rough_corners(corners).is_apart_from(box);
+    }
+
+    /// Puts an item into the halves that it reaches into, opened where it is larger than they are.
+    void sort_in(const item& i, halves& result) const {
+        const aabb<double, 3> box = box_of(i);
+        const bool in_lower = !result.lower.is_settled && reaches(i, box, result.lower.box);
+        const bool in_upper = !result.upper.is_settled && reaches(i, box, result.upper.box);
+        if (!in_lower && !in_upper) return;
+        if (is_face(i) || !is_larger(box, result.lower.box))
+            put(i, in_lower, in_upper, result);
+        else
+            for_children(i, [&](const item& child) { sort_in(child, result); });
+    }
+
+    /// The same of an item that reaches into both halves together, and is no larger: along the other
+    /// axes nothing has changed.
+    void sort_in_known(const item& i, halves& result) const {
+        const tree<3>& tree = components_.tree_of(i.component);
+        if (i.level == 0 || i.level == tree.levels()) return sort_in(i, result);
+        const std::size_t axis = result.axis;
+        const auto extent =
+            extent_in_space(tree.frame(), tree.level(i.level - 1)[i.number / tree.width],
+                            i.number % tree.width, axis);
+        const aabb<double, 3>& lower = result.lower.box;
+        if (0.5 * extent.max[0] - 0.5 * extent.min[0] >
+            0.5 * lower.max[axis] - 0.5 * lower.min[axis])
+            for_children(i, [&](const item& child) { sort_in(child, result); });
+        else
+            put(i, extent.min[0] <= result.at, extent.max[0] >= result.at, result);
+    }
+
+    void put(const item& i, bool in_lower, bool in_upper, halves& result) const {
+        in_lower = in_lower && !result.lower.is_settled;
+        in_upper = in_upper && !result.upper.is_settled;
+        if (!in_lower && !in_upper) return;
+        const std::size_t faces = faces_below(i);
+        if (in_lower) {
+            result.lower.inside.push_back(i);
+            result.lower.faces += faces;
+        }
+        if (in_upper) {
+            result.upper.inside.push_back(i);
+            result.upper.faces += faces;
+        }
+    }
+
+    void mark_faces(const item& i, const aabb<double, 3>& box) const {
+        if (!reaches(i, box_of(i), box)) return;
+        if (is_face(i)) {
+            std::atomic_ref(is_active_face_[face_of(i)]).store(1, std::memory_order_relaxed);
+            return;
+        }
+        for_children(i, [&](const item& child) { mark_faces(child, box); });
+    }
+
+    const surface_components& components_;
+    division_limits limits_;
+    decltype(base::face_boxes(points_view{})) box_of_;
+    std::vector<std::uint8_t>& is_active_face_;
+};
+
+}  // namespace treeform::detail::boolean
