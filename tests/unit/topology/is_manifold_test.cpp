@@ -66,3 +66,24 @@ TEST_CASE("is_manifold: points of more than 64 faces are not looked at") {
     CHECK(is_manifold(bipyramid(64)));
     CHECK(!is_manifold(bipyramid(65)));
 }
+
+TEST_CASE("is_manifold: few faces at a point and many, in one fan or in two") {
+    for (std::uint32_t count = 3; count <= 20; ++count) {
+        CAPTURE(count);
+        const tf::mesh one = bipyramid(count);
+        CHECK(is_manifold(one));
+        tf::mesh two = test::together(one, one);
+        for (tf::face& f : two.faces)
+            for (std::uint32_t& corner : f)
+                if (corner == 2 * count + 2) corner = count;  // the upper points are one
+        const std::uint32_t last = 2 * count + 3;
+        for (tf::face& f : two.faces)
+            for (std::uint32_t& corner : f)
+                if (corner == last) corner = 2 * count + 2;
+        two.points.pop_back();
+        CHECK(!is_manifold(two));
+        tf::mesh turned = one;
+        std::swap(turned.faces[0][0], turned.faces[0][1]);
+        CHECK(!is_manifold(turned));
+    }
+}
