@@ -193,12 +193,10 @@ class las_opener {
                                      get<std::uint16_t>(at_item + 2),
                                      get<std::uint16_t>(at_item + 4)});
         }
-        const bool layered = laz::is_layered(packing.items);
+        const std::uint16_t usual = laz::is_layered(packing.items) ? 3 : 2;
         if (packing.items.size() != items || !laz::is_known(packing.items) ||
-            compressor != (layered           ? 3
-                           : packing.chunked ? 2
-                                             : 1) ||
-            packing.chunk_size == 0 || get<std::uint16_t>(d + 2) != 0)
+            compressor != (packing.chunked ? usual : 1) ||
+            (packing.chunked && packing.chunk_size == 0) || get<std::uint16_t>(d + 2) != 0)
             in_.fail(
                 "points are packed in a way that is not read; convert it with LASzip or PDAL: "
                 "pdal translate in.laz out.las");

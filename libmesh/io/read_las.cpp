@@ -65,8 +65,13 @@ struct placed_chunk {
     const char* const table = find_table(in, file);
     const char* at = in.begin() + file.first_point + 8;
     const auto room = static_cast<std::size_t>(table - at);
-    const auto chunks = laz::read_chunk_table(bytes_from(table, in.end()), packing.sizes_vary(),
-                                              room / file.record_size);
+    std::vector<laz::chunk> chunks;
+    try {
+        chunks = laz::read_chunk_table(bytes_from(table, in.end()), packing.sizes_vary(),
+                                       room / file.record_size);
+    } catch (const laz::damaged& fault) {
+        in.fail_byte(table, fault.what());
+    }
     std::vector<placed_chunk> placed;
     std::uint64_t left = file.count;
     for (const laz::chunk& c : chunks) {

@@ -58,7 +58,9 @@ class sink {
     void flush();
 
     /// The file, for errors.
-    [[nodiscard]] std::string_view name() const { return memory_ ? "memory" : name_; }
+    [[nodiscard]] std::string_view name() const {
+        return memory_ != nullptr ? std::string_view("memory") : std::string_view(name_);
+    }
 
     /// Whether bytes that were put can be replaced: false for pipes and terminals.
     [[nodiscard]] bool can_replace() const;

@@ -10,10 +10,14 @@
 #include <support/models.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -27,12 +31,17 @@ std::string written(const tf::mesh_file& file, const std::string& format) {
     return tf::write_to_memory(file, {.format = format});
 }
 
-std::vector<tf::point3> sorted_places(const tf::mesh_file& file) {
-    std::vector<tf::point3> points = file.mesh.points;
-    std::sort(points.begin(), points.end(), [](const tf::point3& a, const tf::point3& b) {
-        return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
-    });
-    return points;
+tf::mesh_file read_back(std::string_view bytes) {
+    return tf::read(std::as_bytes(std::span(bytes)), "written.laz", {});
+}
+
+/// The places in units of `unit`, which both files of a pair have; their offsets differ.
+std::vector<std::array<double, 3>> sorted_places(const tf::mesh_file& file, double unit) {
+    std::vector<std::array<double, 3>> places;
+    for (const tf::point3& p : file.mesh.points)
+        places.push_back({std::round(p.x / unit), std::round(p.y / unit), std::round(p.z / unit)});
+    std::sort(places.begin(), places.end());
+    return places;
 }
 
 }  // namespace
@@ -61,8 +70,7 @@ TEST_CASE("clouds: what is whole comes back bit for bit, as LAS and through LAZ"
             const auto records = test::get<std::uint32_t>(original, 96) - first;
             CHECK(plain.substr(first, records) == original.substr(first, records));
         }
-        CHECK(written(tf::read(std::as_bytes(std::span(written(file, "laz"))), "a.laz", {}),
-                      "las") == plain);
+        CHECK(written(read_back(written(file, "laz")), "las") == plain);
     }
     CHECK(read >= 20);
 }
@@ -82,12 +90,12 @@ TEST_CASE("clouds: LAZ equals its twin") {
     const tf::mesh_file star = tf::read(folder / "ept/lone-star.laz");
     const tf::mesh_file copc = tf::read(folder / "copc/lone-star.copc.laz");
     REQUIRE(star.mesh.points.size() == 518862);
-    CHECK(sorted_places(star) == sorted_places(copc));
-    CHECK(sorted_places(tf::read(folder / "las/1.2-with-color.las")) ==
-          sorted_places(tf::read(folder / "copc/1.2-with-color.copc.laz")));
+    CHECK(sorted_places(star, 0.00025) == sorted_places(copc, 0.00025));
+    const tf::mesh_file colors = tf::read(folder / "copc/1.2-with-color.copc.laz");
+    CHECK(sorted_places(tf::read(folder / "las/1.2-with-color.las"), 0.01) ==
+          sorted_places(colors, 0.01));
     // Written anew it is a plain LAZ.
-    const tf::mesh_file again =
-        tf::read(std::as_bytes(std::span(written(copc, "laz"))), "again.laz", {});
+    const tf::mesh_file again = read_back(written(copc, "laz"));
     CHECK(again.attributes.elements == copc.attributes.elements);
     for (const tf::las_record& r : again.attributes.las->records)
         CHECK(std::string_view(r.user_id) != "copc");
