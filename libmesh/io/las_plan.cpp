@@ -147,7 +147,7 @@ class las_planner {
             throw las_fault(
                 "LAS is written by runs only with scale and offset: set "
                 "attributes::las of the header");
-        for (std::size_t axis = 0; axis < 3; ++axis) choose_axis(h, *points_, axis);
+        choose_las_grid(h, *points_);
     }
 
     [[nodiscard]] bool has(std::string_view name) const {
@@ -275,6 +275,26 @@ class las_planner {
 };
 
 }  // namespace
+
+void choose_las_grid(las_header& header, std::span<const point3> points) {
+    for (std::size_t axis = 0; axis < 3; ++axis) choose_axis(header, points, axis);
+}
+
+double nearest_step(const las_grid& grid, std::size_t axis, double x) {
+    const double guess = std::nearbyint((x - grid.offset[axis]) / grid.scale[axis]);
+    double best = guess;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double candidate : {guess, guess - 1, guess + 1}) {
+        if (!is_las_step(candidate)) continue;
+        const double by = std::abs(grid.coordinate(axis, static_cast<std::int32_t>(candidate)) - x);
+        if (by < least) {
+            least = by;
+            best = candidate;
+        }
+        if (by == 0.0) break;
+    }
+    return best;
+}
 
 las_plan plan_las(const write_job& job, std::optional<std::span<const point3>> points,
                   bool packed) {

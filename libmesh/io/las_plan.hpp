@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -36,6 +37,17 @@ struct las_plan {
 
 /// Points of a chunk of LAZ.
 constexpr std::uint32_t laz_chunk = 50000;
+
+/// Scale and offset for these points, on each axis.
+void choose_las_grid(las_header& header, std::span<const point3> points);
+
+/// The whole number whose coordinate is nearest to `x`: the exact one, where there is one. It may be
+/// beyond 32 bits.
+[[nodiscard]] double nearest_step(const las_grid& grid, std::size_t axis, double x);
+[[nodiscard]] inline bool is_las_step(double step) {
+    return step >= std::numeric_limits<std::int32_t>::min() &&
+           step <= std::numeric_limits<std::int32_t>::max();
+}
 
 /// The plan for the job's file. `points` are all of them; none when they will come by runs: then the
 /// file must have been LAS.

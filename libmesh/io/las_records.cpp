@@ -27,29 +27,6 @@ struct chunk_fault {
     }
 };
 
-[[nodiscard]] bool fits(double step) {
-    return step >= std::numeric_limits<std::int32_t>::min() &&
-           step <= std::numeric_limits<std::int32_t>::max();
-}
-
-/// The whole number whose coordinate is nearest to `x`: the exact one, where there is one.
-[[nodiscard]] double nearest_step(const las_grid& grid, std::size_t axis, double x, double& moved) {
-    const double guess = std::nearbyint((x - grid.offset[axis]) / grid.scale[axis]);
-    double best = guess;
-    double least = std::numeric_limits<double>::infinity();
-    for (const double candidate : {guess, guess - 1, guess + 1}) {
-        if (!fits(candidate)) continue;
-        const double by = std::abs(grid.coordinate(axis, static_cast<std::int32_t>(candidate)) - x);
-        if (by < least) {
-            least = by;
-            best = candidate;
-        }
-        if (by == 0.0) break;
-    }
-    if (least > moved && std::isfinite(least)) moved = least;
-    return best;
-}
-
 [[nodiscard]] std::string too_large(const column& c, double value) {
     return "a value of " + c.name +
            " that its field in LAS does not hold: " + std::to_string(value);
@@ -71,11 +48,13 @@ void put_axes(std::span<const point3> points, const record_rows& rows, const las
                 fault.at(rows.first + i, "a coordinate that is no finite number; LAS holds none");
                 continue;
             }
-            const double step = nearest_step(grid, axis, x, fault.moved);
-            if (!fits(step)) {
+            const double step = nearest_step(grid, axis, x);
+            if (!is_las_step(step)) {
                 fault.at(rows.first + i, "a coordinate beyond what 32 bits hold with this scale");
                 continue;
             }
+            const double by = grid.coordinate(axis, static_cast<std::int32_t>(step)) - x;
+            fault.moved = std::max(fault.moved, std::abs(by));
             store<std::endian::little>(reinterpret_cast<char*>(rows.to + i * rows.size + 4 * axis),
                                        static_cast<std::int32_t>(step));
         }

@@ -135,7 +135,7 @@ TEST_CASE("chunks: every format comes back, with and without extra bytes") {
                     const auto bytes = packed(items, records);
                     CHECK(unpacked(items, bytes, count) == records);
                     if (family == test::las_family::equal && count == 1000)
-                        CHECK(bytes.size() * 20 < records.size());
+                        CHECK(bytes.size() * 10 < records.size());
                 }
         }
     }
