@@ -7,7 +7,6 @@
 #include <libmesh/io/las_dimensions.hpp>
 #include <libmesh/io/source.hpp>
 #include <libmesh/laz/chunk.hpp>
-#include <treeform/mesh/las.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 
 #include <cstddef>

@@ -137,8 +137,8 @@ class las_planner {
   private:
     void start_header() {
         las_header& h = plan_.header;
-        if (job_.file.attributes.las) {
-            h = *job_.file.attributes.las;
+        if (job_.file.las) {
+            h = *job_.file.las;
             drop_untrue(h.records, job_.result.warnings);
             drop_untrue(h.extended_records, job_.result.warnings);
             return;
@@ -146,7 +146,7 @@ class las_planner {
         if (!points_)
             throw las_fault(
                 "LAS is written by runs only with scale and offset: set "
-                "attributes::las of the header");
+                "mesh_file::las of the header");
         choose_las_grid(h, *points_);
     }
 
@@ -164,7 +164,7 @@ class las_planner {
 
     [[nodiscard]] las_features features() const {
         las_features f;
-        if (job_.file.attributes.las) f = features_of(plan_.header.point_format);
+        if (job_.file.las) f = features_of(plan_.header.point_format);
         f.gps_time = f.gps_time || has("gps_time");
         f.color = f.color || (has("red") && has("green") && has("blue"));
         f.infrared = f.infrared || has("nir");

@@ -5,7 +5,7 @@
 #include <libmesh/io/las_rows.hpp>
 #include <libmesh/io/writers.hpp>
 #include <libmesh/laz/chunk.hpp>
-#include <treeform/mesh/las.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -4,8 +4,8 @@
 
 #include <libmesh/io/las_dimensions.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/las.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
 #include <array>
 #include <cstddef>

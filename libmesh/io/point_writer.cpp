@@ -24,7 +24,7 @@ namespace {
     head.attributes.texture_files = header.attributes.texture_files;
     head.attributes.comments = header.attributes.comments;
     head.attributes.obj_info = header.attributes.obj_info;
-    head.attributes.las = header.attributes.las;
+    head.las = header.las;
     for (const element& e : header.attributes.elements) {
         if (e.name != "vertex" && e.rows > 0)
             refuse_block("the header's element " + e.name + " has rows");

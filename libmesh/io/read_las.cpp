@@ -200,7 +200,7 @@ point_rows open_las_points(const source& in) {
         rows.append = rows_of(std::make_shared<plain_run>(in, file), file);
     rows.head.format = file.packing ? "laz" : "las";
     rows.head.attributes.elements = {las_columns(file.dimensions)};
-    rows.head.attributes.las = std::move(file.header);
+    rows.head.las = std::move(file.header);
     return rows;
 }
 

@@ -11,11 +11,11 @@ namespace treeform {
 
 double round_to_las(mesh_file& file) {
     std::vector<point3>& points = file.mesh.points;
-    if (!file.attributes.las) {
-        file.attributes.las.emplace();
-        detail::io::choose_las_grid(*file.attributes.las, points);
+    if (!file.las) {
+        file.las.emplace();
+        detail::io::choose_las_grid(*file.las, points);
     }
-    const detail::io::las_grid grid{file.attributes.las->scale, file.attributes.las->offset};
+    const detail::io::las_grid grid{file.las->scale, file.las->offset};
     std::vector<double> moved(chunk_count(points.size(), light_grain), 0.0);
     std::vector<std::size_t> beyond(moved.size(), points.size());
     for_chunks(points.size(), light_grain,

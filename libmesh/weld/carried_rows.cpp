@@ -99,8 +99,7 @@ attributes carry_rows(const attributes& properties, const weld_result& welded) {
                       .texture_files = properties.texture_files,
                       .comments = properties.comments,
                       .obj_info = properties.obj_info,
-                      .header = properties.header,
-                      .las = properties.las};
+                      .header = properties.header};
     result.elements.reserve(properties.elements.size());
     for (const element& e : properties.elements) result.elements.push_back(carried(e, welded));
     const std::vector<std::uint32_t>& faces = welded.face_of_new;

@@ -189,7 +189,7 @@ void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& fil
     tf::mesh_file gone;
     gone.format = file.format;
     gone.stored_as = file.stored_as;
-    gone.attributes.las = file.attributes.las;
+    gone.las = file.las;
     gone.mesh.points.reserve(rows.size());
     for (const std::uint32_t p : rows) gone.mesh.points.push_back(file.mesh.points[p]);
     if (const tf::element* vertices = tf::find_element(file.attributes, "vertex"))

@@ -13,7 +13,6 @@
 #include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
-#include <treeform/mesh/las.hpp>
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>

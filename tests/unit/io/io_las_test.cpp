@@ -168,8 +168,7 @@ TEST_CASE("LAS: extended records come back behind the points") {
         CHECK(out.ends_with(las.extended));
         CHECK(test::get<std::uint64_t>(out, 235) == out.size() - las.extended.size());
         CHECK(test::get<std::uint64_t>(out, 227) == out.size() - 1060);  // waveforms
-        CHECK(read(out, std::string("scan.") + format).attributes.las->extended_records.size() ==
-              2);
+        CHECK(read(out, std::string("scan.") + format).las->extended_records.size() == 2);
     }
 }
 
@@ -225,7 +224,7 @@ TEST_CASE("LAS: extra bytes have the names and types of their record") {
     CHECK(value(again, "group", 19) == 7);
     CHECK(value(again, "amplitude", 0) == 513);
     CHECK(tf::find_column(again.attributes.elements[0], "a_time") == nullptr);
-    CHECK(again.attributes.las->records.size() == 1);
+    CHECK(again.las->records.size() == 1);
 }
 
 TEST_CASE("LAS: points of other formats get the smallest format that holds them") {
@@ -258,7 +257,7 @@ TEST_CASE("LAS: decimal coordinates keep their decimals; others move by what is 
     for (int i = 0; i < 1000; ++i)
         file.mesh.points.push_back({(500000123 + 7 * i) / 1000.0, i / 100.0, -i / 10.0});
     tf::mesh_file back = read(written(file));
-    CHECK(back.attributes.las->scale == std::array<double, 3>{0.001, 0.01, 0.1});
+    CHECK(back.las->scale == std::array<double, 3>{0.001, 0.01, 0.1});
     for (std::size_t i = 0; i < 1000; ++i)
         CHECK(std::abs(back.mesh.points[i].x - file.mesh.points[i].x) <= 500000 * 0x1p-52);
     // What was read can be written and read again.
@@ -313,7 +312,7 @@ TEST_CASE("LAS: damaged files are refused, odd ones are read with a warning") {
     const tf::mesh_file odd = read(changed(100, std::uint32_t{1000000}));
     CHECK(odd.warnings.at(0).code == "records");
     CHECK(odd.mesh == read(whole).mesh);
-    CHECK(odd.attributes.las->records.size() == 1);
+    CHECK(odd.las->records.size() == 1);
 }
 
 TEST_CASE("LAZ: cut anywhere it is refused; a table that lies is found out") {

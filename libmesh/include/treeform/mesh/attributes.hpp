@@ -4,7 +4,6 @@
 /// faces and other elements; values of corners; names of parts; files of materials and textures;
 /// comments.
 
-#include <treeform/mesh/las.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 
@@ -217,7 +216,6 @@ struct attributes {
     std::vector<std::string> comments{};  ///< PLY: one line each, without those of texture files
     std::vector<std::string> obj_info{};  ///< PLY: one line each
     std::string header{};                 ///< binary STL: its first 80 bytes
-    std::optional<las_header> las{};      ///< LAS and LAZ: how they store points, and their records
 
     friend bool operator==(const attributes&, const attributes&) = default;
 };

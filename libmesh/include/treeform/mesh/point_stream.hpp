@@ -65,7 +65,7 @@ class TREEFORM_API point_writer {
     /// float64.
     ///
     /// \throws io_error as `write`; also for a format other than ply, pcd, las, laz, xyz
-    ///         and csv, and for LAS without `attributes::las` or to a pipe
+    ///         and csv, and for LAS without `mesh_file::las` or to a pipe
     point_writer(const std::filesystem::path& path, const mesh_file& header, std::uint64_t count,
                  const write_options& options = {});
     ~point_writer();

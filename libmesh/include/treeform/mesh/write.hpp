@@ -81,7 +81,7 @@ TREEFORM_API write_result write(const std::filesystem::path& path, const mesh_fi
                                 const write_options& options = {});
 
 /// Moves the coordinates of `file` to those that a LAS file can hold, and gives it the scale and
-/// offset that it will have there (`attributes::las`). What is decided of the points after that holds
+/// offset that it will have there (`mesh_file::las`). What is decided of the points after that holds
 /// in the file that is written. Returns the furthest that a coordinate moved: 0 for what was LAS and
 /// is as it was. Coordinates that are not finite stay.
 ///
