@@ -132,6 +132,7 @@ class joiner {
     void join_descriptions() {
         all_.format = files_.front().format;
         all_.attributes.header = files_.front().attributes.header;
+        all_.las = files_.front().las;
         all_.stored_as = precision::float32;
         for (std::size_t i = 0; i < files_.size(); ++i) {
             const mesh_file& file = files_[i];

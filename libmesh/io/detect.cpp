@@ -65,8 +65,8 @@ void refuse_unless_text(const source& in) {
     return next == "FIELDS" || next == "COLUMNS";
 }
 
-[[noreturn]] void refuse_las(const source& in) {
-    in.fail("LAS and LAZ are not read; convert it first, with PDAL: pdal translate in.laz out.ply");
+[[noreturn]] void refuse_e57(const source& in) {
+    in.fail("E57 is not read; convert it first, with PDAL: pdal translate in.e57 out.laz");
 }
 
 [[nodiscard]] std::optional<detected> by_magic(const source& in, std::string_view extension) {
@@ -74,7 +74,8 @@ void refuse_unless_text(const source& in) {
     if (t.starts_with("ply\n") || t.starts_with("ply\r") || t.starts_with("ply "))
         return detected{file_kind::ply};
     if (t.starts_with("# .PCD") || is_pcd_header(t)) return detected{file_kind::pcd};
-    if (t.starts_with("LASF")) refuse_las(in);
+    if (t.starts_with("LASF")) return detected{file_kind::las};
+    if (t.starts_with("ASTM-E57")) refuse_e57(in);
     if (t.starts_with("glTF")) return detected{file_kind::scene, "glb"};
     if (is_binary_stl(in)) return detected{file_kind::stl_binary};
     if (t.starts_with("PK\x03\x04"))
@@ -137,7 +138,11 @@ detected detect(const source& in, std::string_view format, std::string_view exte
     if (wanted == "ply") return {file_kind::ply};
     if (wanted == "pcd") return {file_kind::pcd};
     if (wanted == "3mf") return {file_kind::package_3mf};
-    if (wanted == "las" || wanted == "laz") refuse_las(in);
+    if (wanted == "las" || wanted == "laz") {
+        if (!text(in).starts_with("LASF")) in.fail_byte(in.begin(), "no LAS or LAZ file");
+        return {file_kind::las};
+    }
+    if (wanted == "e57") refuse_e57(in);
     if (wanted == "stl") return is_binary_stl(in) ? detected{file_kind::stl_binary} : stl_kind(in);
     if (const auto kind = text_kind(wanted)) {
         refuse_unless_text(in);

@@ -17,6 +17,7 @@ enum class file_kind : std::uint8_t {
     ply,
     off,
     pcd,
+    las,  ///< or LAZ
     xyz,
     csv,
     package_3mf,

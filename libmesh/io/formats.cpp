@@ -13,6 +13,8 @@ constexpr known_format formats[] = {
     {"xyz", "", "xyz", nullptr, write_xyz, false, false, start_xyz_points},
     {"csv", "", "csv", nullptr, write_csv, false, false, start_csv_points},
     {"pcd", "pcd-binary", "pcd-ascii", write_pcd, write_pcd, false, false, start_pcd_points},
+    {"las", "las", "", write_las, nullptr, false, false, start_las_points},
+    {"laz", "laz", "", write_laz, nullptr, false, false, start_laz_points},
     {"glb", "glb", "", write_glb, nullptr, true, false, nullptr},
     {"3mf", "3mf", "", write_3mf, nullptr, false, true, nullptr},
 };

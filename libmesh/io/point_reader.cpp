@@ -20,12 +20,14 @@ namespace {
             return detail::io::open_ply_points(in);
         case detail::io::file_kind::pcd:
             return detail::io::open_pcd_points(in);
+        case detail::io::file_kind::las:
+            return detail::io::open_las_points(in);
         case detail::io::file_kind::xyz:
             return detail::io::open_xyz_points(in, "xyz");
         case detail::io::file_kind::csv:
             return detail::io::open_xyz_points(in, "csv");
         default:
-            in.fail("only PLY, PCD, XYZ and CSV are read in blocks");
+            in.fail("only PLY, PCD, LAS, LAZ, XYZ and CSV are read in blocks");
     }
 }
 

@@ -33,6 +33,7 @@ struct point_rows {
 /// \throws io_error, also for a file with faces or other elements that have rows
 [[nodiscard]] point_rows open_ply_points(const source& in);
 [[nodiscard]] point_rows open_pcd_points(const source& in);
+[[nodiscard]] point_rows open_las_points(const source& in);
 [[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format);
 
 }  // namespace treeform::detail::io

@@ -24,6 +24,7 @@ namespace {
     head.attributes.texture_files = header.attributes.texture_files;
     head.attributes.comments = header.attributes.comments;
     head.attributes.obj_info = header.attributes.obj_info;
+    head.las = header.las;
     for (const element& e : header.attributes.elements) {
         if (e.name != "vertex" && e.rows > 0)
             refuse_block("the header's element " + e.name + " has rows");
@@ -53,7 +54,8 @@ struct point_writer::state {
         : count(points), options(wanted), head(without_points(header)) {
         const detail::io::known_format& format = detail::io::find_format(path, options);
         if (format.start == nullptr)
-            throw io_error(path.string() + ": only PLY, PCD, XYZ and CSV are written in blocks");
+            throw io_error(path.string() +
+                           ": only PLY, PCD, LAS, LAZ, XYZ and CSV are written in blocks");
         result.format =
             detail::io::writes_text(format, options) ? format.text_name : format.binary_name;
         result.written_as = options.precision.value_or(head.stored_as);

@@ -26,6 +26,8 @@ namespace {
             return detail::io::read_off(in);
         case detail::io::file_kind::pcd:
             return detail::io::read_pcd(in);
+        case detail::io::file_kind::las:
+            return detail::io::read_las(in);
         case detail::io::file_kind::xyz:
             return detail::io::read_xyz(in, "xyz");
         case detail::io::file_kind::csv:

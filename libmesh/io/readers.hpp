@@ -16,6 +16,8 @@ namespace treeform::detail::io {
 [[nodiscard]] mesh_file read_ply(const source& in);
 [[nodiscard]] mesh_file read_off(const source& in);
 [[nodiscard]] mesh_file read_pcd(const source& in);
+/// LAS and LAZ.
+[[nodiscard]] mesh_file read_las(const source& in);
 [[nodiscard]] mesh_file read_3mf(const source& in);
 /// `format` is "xyz" or "csv", which are read alike.
 [[nodiscard]] mesh_file read_xyz(const source& in, std::string_view format);

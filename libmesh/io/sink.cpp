@@ -28,6 +28,25 @@ void sink::flush() {
     }
 }
 
+bool sink::can_replace() const {
+    return memory_ != nullptr || ::lseek(fd_, 0, SEEK_CUR) != static_cast<off_t>(-1);
+}
+
+void sink::replace(std::size_t at, std::string_view bytes) {
+    flush();
+    if (memory_ != nullptr) {
+        memory_->replace(at, bytes.size(), bytes);
+        return;
+    }
+    while (!bytes.empty()) {
+        const ssize_t written = ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(at));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) throw io_error(name_ + ": " + std::generic_category().message(errno));
+        at += static_cast<std::size_t>(written);
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
 output_file::output_file(const std::filesystem::path& path)
     : name_(path == "-" ? std::string("stdout") : path.string()), target_(path) {
     if (path == "-") {

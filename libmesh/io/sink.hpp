@@ -57,6 +57,19 @@ class sink {
     /// \throws io_error
     void flush();
 
+    /// The file, for errors.
+    [[nodiscard]] std::string_view name() const {
+        return memory_ != nullptr ? std::string_view("memory") : std::string_view(name_);
+    }
+
+    /// Whether bytes that were put can be replaced: false for pipes and terminals.
+    [[nodiscard]] bool can_replace() const;
+    /// Replaces bytes from `at` on, counted from the first that was put.
+    ///
+    /// \pre    `can_replace`, and these bytes were put
+    /// \throws io_error
+    void replace(std::size_t at, std::string_view bytes);
+
   private:
     std::array<char, std::size_t{1} << 16> buffer_;
     std::size_t used_ = 0;

@@ -59,12 +59,16 @@ void write_glb(const write_job& job);
 void write_3mf(const write_job& job);
 void write_csv(const write_job& job);
 void write_pcd(const write_job& job);
+void write_las(const write_job& job);
+void write_laz(const write_job& job);
 
 /// Start a file of `count` points; the points of the job's file are not looked at.
 [[nodiscard]] point_sink start_ply_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_xyz_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_csv_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_pcd_points(const write_job& job, std::uint64_t count);
+[[nodiscard]] point_sink start_las_points(const write_job& job, std::uint64_t count);
+[[nodiscard]] point_sink start_laz_points(const write_job& job, std::uint64_t count);
 
 /// For formats of points: says that faces are not written, if there are any.
 inline void warn_of_faces(const write_job& job, const std::string& format) {

@@ -60,6 +60,7 @@ mesh_file head_of(const mesh_file& file) {
     mesh_file head;
     head.stored_as = file.stored_as;
     head.format = file.format;
+    head.las = file.las;
     head.warnings = file.warnings;
     return head;
 }

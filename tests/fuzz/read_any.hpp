@@ -22,7 +22,7 @@ inline int read_any(const std::uint8_t* data, std::size_t size, const char* form
         const mesh_file file = read(std::as_bytes(std::span(data, size)), "fuzz", format);
         // Packed points can be more than bytes, but no more often than that; and of scenes many
         // nodes may show one mesh.
-        constexpr std::size_t most_ratio = 32;
+        const std::size_t most_ratio = std::string_view(format) == "las" ? 4096 : 32;
         const bool scene = std::string_view(format) == "glb" || std::string_view(format) == "3mf";
         if (!scene &&
             (file.mesh.points.size() / most_ratio > size || file.mesh.faces.size() > size))

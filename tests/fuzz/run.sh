@@ -24,7 +24,7 @@ done
 shift $((OPTIND - 1))
 targets=("$@")
 ((${#targets[@]})) || targets=(
-    read_stl read_obj read_ply read_off read_pcd read_xyz read_csv read_glb read_3mf
+    read_stl read_obj read_ply read_off read_pcd read_las read_xyz read_csv read_glb read_3mf
     predicates implicit_points triangle_triangle self_intersections boolean repair weld
     tool_selfintersect tool_weld tool_boolean tool_place tool_repair)
 
@@ -42,12 +42,13 @@ printf '%-20s %12s %9s %8s  %s\n' target runs runs/s inputs outcome
 for target in "${targets[@]}"; do
     formats=()
     [[ $target == read_* ]] && formats=("${target#read_}")
-    [[ $target == tool_* ]] && formats=(stl obj ply off pcd xyz csv glb 3mf)
+    [[ $target == tool_* ]] && formats=(stl obj ply off pcd las laz xyz csv glb 3mf)
     more=()
     for format in "${formats[@]}"; do
         files=$seeds/files-$format
         mkdir -p "$files"
-        find data ${TREEFORM_MODELS_DIR:+"$TREEFORM_MODELS_DIR"} -type f -size -64k \
+        find data ${TREEFORM_MODELS_DIR:+"$TREEFORM_MODELS_DIR"} \
+            ${TREEFORM_CLOUDS_DIR:+"$TREEFORM_CLOUDS_DIR"} -type f -size -64k \
             -iname "*.$format" -exec cp -t "$files" {} +
         more+=("$files")
         [[ $target == tool_* ]] && more+=("$seeds/read_$format")

@@ -6,6 +6,7 @@
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 
+#include <support/las_bytes.hpp>
 #include <support/packages.hpp>
 #include <support/stress_families.hpp>
 #include <support/stress_meshes.hpp>
@@ -28,7 +29,7 @@ namespace {
 
 using tf::test::stress_family;
 
-constexpr std::array formats{"3mf", "csv", "glb", "obj", "off", "pcd", "ply", "stl", "xyz"};
+constexpr std::array formats{"3mf", "csv", "glb", "las", "obj", "off", "pcd", "ply", "stl", "xyz"};
 constexpr std::array deciders{
     "predicates", "implicit_points", "triangle_triangle", "self_intersections", "boolean", "repair",
     "weld"};
@@ -192,6 +193,25 @@ void write_model_parts(const std::filesystem::path& to) {
     write(to / "model-path", model(leaf, "<item objectid=\"1\" p:path=\"/3D/3dmodel.model\"/>"));
 }
 
+/// Points of every format, plain and packed, with extra bytes and records.
+void write_las_files(const std::filesystem::path& to) {
+    for (unsigned format = 0; format <= 10; ++format) {
+        test::las_bytes las{.minor = format >= 6   ? 4u
+                                     : format >= 4 ? 3u
+                                                   : 2u,
+                            .format = format,
+                            .record_size = test::las_sizes[format] + format % 3};
+        las.add_record("LASF_Projection", 2112, "GEOGCS[]");
+        if (las.minor == 4) las.add_extended("someone", 1, "abc");
+        const std::string bytes =
+            las.file(test::las_points(test::las_family::scan, format, las.record_size, 30, format));
+        const tf::mesh_file file = tf::read(std::as_bytes(std::span(bytes)), "seed", "las");
+        const std::string name = "format-" + std::to_string(format);
+        write(to / name, bytes);
+        write(to / (name + "-packed"), write_to_memory(file, {.format = "laz"}));
+    }
+}
+
 void write_seeds(const std::filesystem::path& folder) {
     const auto folder_of = [&](const std::string& target) {
         std::filesystem::create_directories(folder / "new" / target);
@@ -208,6 +228,7 @@ void write_seeds(const std::filesystem::path& folder) {
                       write_to_memory(file, {.format = format, .ascii = ascii}));
         }
         if (format == std::string_view("3mf")) write_model_parts(to);
+        if (format == std::string_view("las")) write_las_files(to);
         const tf::mesh_file textured =
             with_corner_values(stress_mesh(static_cast<stress_family>(0), 12, 1));
         if (format == std::string_view("obj") || format == std::string_view("ply"))

@@ -30,7 +30,7 @@ FLOORS = [
     ["geometry"],
     ["topology", "attributes"],
     ["exact"],
-    ["base"],
+    ["base", "laz"],
 ]
 # A public header belongs to the room that has a source of its name; but these are of several:
 # to the lowest one.

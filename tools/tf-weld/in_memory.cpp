@@ -74,6 +74,18 @@ void label(job& work, tf::mesh_file& file, const welding& w, const std::string& 
         work.warn("replaced", "property " + name + " was there before; its values are replaced");
 }
 
+/// Where the output is LAS: as it will be there, so that what is decided holds for what is written.
+void fit_to_las(job& work, tf::mesh_file& file, const std::string& why) {
+    const auto path = mesh_output(work.options, work.path);
+    if (!path) return;
+    const std::string format = form_of(work, file, *path).format;
+    if (format != "las" && format != "laz") return;
+    const double moved = tf::round_to_las(file);
+    if (moved > 0.0)
+        work.warn("las-grid",
+                  why + " are rounded to the steps of the LAS file, by at most " + brief(moved));
+}
+
 }  // namespace
 
 exit_status weld_in_memory(job& work, const weld_request& request, const std::string& remark) {
@@ -84,6 +96,7 @@ exit_status weld_in_memory(job& work, const weld_request& request, const std::st
     check_outputs(work, {asked.map}, {asked.removed});
     tf::mesh_file file = read_all(work);
     check_formats(work, request, file);
+    fit_to_las(work, file, "coordinates");
     const auto path = mesh_output(o, work.path);
 
     welding w = weld(work, file, request.settings);
@@ -105,6 +118,8 @@ exit_status weld_in_memory(job& work, const weld_request& request, const std::st
         label(work, file, w, asked.label);
     else
         file = std::move(w.result.file);
+    if (!labeled && request.settings.options.keep == tf::weld_keep::mean)
+        fit_to_las(work, file, "means");
     work.entry["polygons"] = {{"in", w.polygons}, {"out", file.stored_faces}};
     if (path && !o.dry_run) write_result(work, outputs, file, w, request, *path);
     if (map) map->commit();

@@ -50,12 +50,12 @@ void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_opt
     line.output(options.output, {"-o, --output", "FILE",
                                  "the welded set; all other properties are kept\n"
                                  "(meshes: obj ply stl off glb; points: ply pcd\n"
-                                 "xyz csv). \"-\" = stdout, with --output-format"});
+                                 "las laz xyz csv). \"-\" = stdout, with --output-format"});
     line.output(outputs.map, {"--map", "FILE",
                               "input index -> output index: CSV where FILE ends\n"
                               "in .csv or is \"-\", else binary u64, little endian"});
     line.output(outputs.removed,
-                {"--removed", "FILE", "the points that were dropped (ply pcd xyz csv)"});
+                {"--removed", "FILE", "the points that were dropped, in a format of points"});
     line.option(outputs.label, {"--label", "P", "drop nothing; write group numbers to property P"});
     line.flag(outputs.check, {"--check", "", "only count; exit 1 if anything would be merged"});
 }
@@ -155,8 +155,8 @@ int main(int argc, char** argv) {
     options.suffix = "-weld";
     bool exact = true;
     line.inputs(options.inputs,
-                "points: PLY PCD XYZ CSV; meshes: STL OBJ PLY OFF\n"
-                "GLB/glTF 3MF; or folders of them; \"-\" = stdin");
+                "points: PLY PCD LAS LAZ XYZ CSV; meshes: STL OBJ\n"
+                "PLY OFF GLB/glTF 3MF; or folders; \"-\" = stdin");
     options.content = tf::file_content::meshes_and_points;
     line.flag(options.joined, {"--join", "", "treat all INPUTs as one set", "each on its own"});
     add_what_is_merged(line, r.settings, exact);
@@ -167,9 +167,9 @@ int main(int argc, char** argv) {
     add_meshes(line, r.settings);
     add_large_clouds(line, tiles);
     line.group("Common options");
-    tools::add_common_options(
-        line, options,
-        {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf", "pcd", "xyz", "csv"}});
+    tools::add_common_options(line, options,
+                              {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf", "pcd",
+                                                  "las", "laz", "xyz", "csv"}});
     line.refuse("--html", true, "makes no sense here: pages show faces; -o file.ply shows points");
     line.epilogue(epilogue);
     return tools::run(

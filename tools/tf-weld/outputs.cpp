@@ -61,9 +61,9 @@ std::array<char, 8> little_endian(std::uint64_t number) {
 
 void refuse_label_format(const std::filesystem::path& path, const std::string& format) {
     if (format == "stl" || format == "obj" || format == "off" || format == "glb" || format == "3mf")
-        throw failure(
-            bad_usage, "usage",
-            path.string() + ": --label needs a format with properties: ply, pcd, xyz, csv");
+        throw failure(bad_usage, "usage",
+                      path.string() +
+                          ": --label needs a format with properties: ply, pcd, las, laz, xyz, csv");
 }
 
 }  // namespace
@@ -100,9 +100,10 @@ void pending_outputs::commit() {
 std::string check_points_format(const std::filesystem::path& path) {
     std::string format = extension_of(path);
     if (format == "txt" || format == "asc") format = "xyz";
-    if (format != "ply" && format != "pcd" && format != "xyz" && format != "csv")
+    constexpr std::array known{"ply", "pcd", "las", "laz", "xyz", "csv"};
+    if (std::find(known.begin(), known.end(), format) == known.end())
         throw failure(bad_usage, "usage",
-                      path.string() + ": points can be written as ply, pcd, xyz or csv");
+                      path.string() + ": points can be written as ply, pcd, las, laz, xyz or csv");
     return format;
 }
 
@@ -188,6 +189,7 @@ void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& fil
     tf::mesh_file gone;
     gone.format = file.format;
     gone.stored_as = file.stored_as;
+    gone.las = file.las;
     gone.mesh.points.reserve(rows.size());
     for (const std::uint32_t p : rows) gone.mesh.points.push_back(file.mesh.points[p]);
     if (const tf::element* vertices = tf::find_element(file.attributes, "vertex"))

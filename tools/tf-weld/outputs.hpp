@@ -35,7 +35,7 @@ class pending_outputs {
 };
 
 /// The format of a file of points, by its extension.
-/// \throws failure (bad_usage) when it is none of ply, pcd, xyz (txt, asc) and csv
+/// \throws failure (bad_usage) when it is none of ply, pcd, las, laz, xyz (txt, asc) and csv
 std::string check_points_format(const std::filesystem::path& path);
 
 /// Looks whether what comes of `file` can be written as asked. \throws failure

@@ -22,7 +22,7 @@ struct point_block {
     element properties{.name = "vertex"};  ///< a row a point
 };
 
-/// Reads PLY without faces, PCD, XYZ and CSV from the first point to the last. All blocks together
+/// Reads PLY without faces, PCD, LAS, LAZ, XYZ and CSV from the first point to the last. All blocks together
 /// are what `read` gives for the whole file.
 class TREEFORM_API point_reader {
   public:
@@ -64,7 +64,8 @@ class TREEFORM_API point_writer {
     /// columns in "vertex"; in binary as doubles when these are at most float32 and `stored_as` is
     /// float64.
     ///
-    /// \throws io_error as `write`; also for a format other than ply, pcd, xyz and csv
+    /// \throws io_error as `write`; also for a format other than ply, pcd, las, laz, xyz
+    ///         and csv, and for LAS without `mesh_file::las` or to a pipe
     point_writer(const std::filesystem::path& path, const mesh_file& header, std::uint64_t count,
                  const write_options& options = {});
     ~point_writer();

@@ -34,6 +34,8 @@ namespace treeform {
 /// - PCD: a field of several values becomes columns "name[0]", "name[1]", ... WIDTH, HEIGHT and
 ///   VIEWPOINT of an organized cloud become lines of `attributes::obj_info`: "num_cols 640",
 ///   "num_rows 480", "viewpoint 0 0 0 1 0 0 0".
+/// - LAS and LAZ: columns as `las_header` says. LAZ of LASzip 1 to 3, COPC included; extra bytes as
+///   described in the file.
 /// - 3MF: the build. Each mesh that an item shows, itself or through components, is a part with a
 ///   name of its own ("gear", "gear (2)"), where the transforms put it; mirrored ones have their
 ///   faces turned, so that they are not inside out. Supports and surfaces are read as models are,
@@ -55,7 +57,7 @@ namespace treeform {
 /// Which files of a folder are meant.
 enum class file_content : std::uint8_t {
     meshes,            ///< STL, OBJ, PLY, OFF, 3MF, and where scenes can be read GLB, glTF
-    meshes_and_points  ///< also PCD, XYZ, CSV, PTS, ASC
+    meshes_and_points  ///< also PCD, LAS, LAZ, XYZ, CSV, PTS, ASC
 };
 
 /// `paths` with each folder replaced by the files in it of such a format, by extension, in the

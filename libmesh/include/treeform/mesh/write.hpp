@@ -16,7 +16,7 @@ namespace treeform {
 
 /// How to write.
 struct write_options {
-    /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, glb, 3mf. Empty: that of
+    /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty: that of
     /// the path.
     std::string format{};
     /// Write text when the format has text and binary. Binary PLY is little endian unless the file
@@ -55,6 +55,11 @@ struct write_result {
 /// - STL: its header, the names of solids, the column "stl_attribute".
 /// - XYZ and CSV: further columns. PCD: these, and the lines "num_cols", "num_rows" and "viewpoint"
 ///   of `obj_info`.
+/// - LAS and LAZ: what `las_header` says; further columns as extra bytes. Columns red, green and blue
+///   of 8 bits are multiplied by 256. Coordinates that the file's scale and offset do not hold are
+///   rounded (`max_displacement`). A file that was not LAS gets the smallest format that holds its
+///   columns, and for each axis the coarsest scale of 1, 0.1, 0.01, ... that gives all coordinates
+///   back within two units in their last place, else the finest that 32 bits allow.
 /// - GLB: one primitive for each color of faces (columns red, green, blue and alpha, if any, of the
 ///   element "face"). Other columns of faces with whole numbers from 0 on become accessors that the
 ///   primitive's `extras.face_properties` names.
@@ -75,7 +80,16 @@ struct write_result {
 TREEFORM_API write_result write(const std::filesystem::path& path, const mesh_file& file,
                                 const write_options& options = {});
 
-/// The same for a mesh without attributes.
+/// Moves the coordinates of `file` to those that a LAS file can hold, and gives it the scale and
+/// offset that it will have there (`mesh_file::las`). What is decided of the points after that holds
+/// in the file that is written. Returns the furthest that a coordinate moved: 0 for what was LAS and
+/// is as it was. Coordinates that are not finite stay.
+///
+/// \throws io_error naming the first point that 32 bits do not hold with the file's scale
+/// \cost   O(V)
+TREEFORM_API double round_to_las(mesh_file& file);
+
+/// `write` for a mesh without attributes.
 TREEFORM_API write_result write(const std::filesystem::path& path, mesh surface,
                                 const write_options& options = {});
 

@@ -1,0 +1,205 @@
+#include <libmesh/io/las_dimensions.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+namespace treeform::detail::io {
+
+namespace {
+
+constexpr std::size_t description_size = 192;
+
+/// Types of extra bytes from 1 on. From 11 on they are pairs of these, from 21 on triples.
+constexpr std::array extra_types{scalar_type::uint8,  scalar_type::int8,   scalar_type::uint16,
+                                 scalar_type::int16,  scalar_type::uint32, scalar_type::int32,
+                                 scalar_type::uint64, scalar_type::int64,  scalar_type::float32,
+                                 scalar_type::float64};
+
+/// Dimensions one behind the other.
+class packed_dimensions {
+  public:
+    packed_dimensions(std::vector<las_dimension>& to, std::size_t first) : to_(to), at_(first) {}
+
+    void add(std::string name, scalar_type type) {
+        to_.push_back({.name = std::move(name), .type = type, .byte = at_});
+        at_ += size_of(type);
+    }
+    /// Values of a byte, from its lowest bit on.
+    void add_bits(std::span<const std::pair<const char*, unsigned>> parts) {
+        unsigned shift = 0;
+        for (const auto& [name, bits] : parts) {
+            to_.push_back({name, scalar_type::uint8, at_, shift, bits});
+            shift += bits;
+        }
+        ++at_;
+    }
+    [[nodiscard]] std::size_t at() const { return at_; }
+
+  private:
+    std::vector<las_dimension>& to_;
+    std::size_t at_;
+};
+
+using parts_of_byte = std::pair<const char*, unsigned>;
+
+void add_legacy(packed_dimensions& to) {
+    constexpr std::array<parts_of_byte, 4> returns{{{"return_number", 3},
+                                                    {"number_of_returns", 3},
+                                                    {"scan_direction_flag", 1},
+                                                    {"edge_of_flight_line", 1}}};
+    constexpr std::array<parts_of_byte, 4> classes{
+        {{"classification", 5}, {"synthetic", 1}, {"key_point", 1}, {"withheld", 1}}};
+    to.add("intensity", scalar_type::uint16);
+    to.add_bits(returns);
+    to.add_bits(classes);
+    to.add("scan_angle_rank", scalar_type::int8);
+    to.add("user_data", scalar_type::uint8);
+    to.add("point_source_id", scalar_type::uint16);
+}
+
+void add_extended(packed_dimensions& to) {
+    constexpr std::array<parts_of_byte, 2> returns{
+        {{"return_number", 4}, {"number_of_returns", 4}}};
+    constexpr std::array<parts_of_byte, 7> flags{{{"synthetic", 1},
+                                                  {"key_point", 1},
+                                                  {"withheld", 1},
+                                                  {"overlap", 1},
+                                                  {"scanner_channel", 2},
+                                                  {"scan_direction_flag", 1},
+                                                  {"edge_of_flight_line", 1}}};
+    to.add("intensity", scalar_type::uint16);
+    to.add_bits(returns);
+    to.add_bits(flags);
+    to.add("classification", scalar_type::uint8);
+    to.add("user_data", scalar_type::uint8);
+    to.add("scan_angle", scalar_type::int16);
+    to.add("point_source_id", scalar_type::uint16);
+}
+
+void add_wave_packet(packed_dimensions& to) {
+    to.add("wave_packet_index", scalar_type::uint8);
+    to.add("wave_packet_offset", scalar_type::uint64);
+    to.add("wave_packet_size", scalar_type::uint32);
+    for (const char* name : {"wave_return_location", "wave_x", "wave_y", "wave_z"})
+        to.add(name, scalar_type::float32);
+}
+
+[[nodiscard]] std::string name_in(std::span<const std::byte> description) {
+    std::string name;
+    for (const std::byte b : description.subspan(4, 32)) {
+        if (b == std::byte{0}) break;
+        const auto c = static_cast<char>(b);
+        name += std::isspace(static_cast<unsigned char>(c)) != 0 ? '_' : c;
+    }
+    return name.empty() ? "extra" : name;
+}
+
+/// `name`, or with a number behind it what is none of the names of `groups`.
+[[nodiscard]] std::string unique_name(const std::vector<extra_group>& groups,
+                                      const std::string& name) {
+    const auto is_taken = [&](const std::string& wanted) {
+        return std::any_of(groups.begin(), groups.end(), [&](const extra_group& g) {
+            return std::any_of(g.values.begin(), g.values.end(),
+                               [&](const las_dimension& d) { return d.name == wanted; });
+        });
+    };
+    std::string unique = name;
+    for (int k = 2; is_taken(unique); ++k) unique = name + '_' + std::to_string(k);
+    return unique;
+}
+
+}  // namespace
+
+las_features features_of(unsigned format) {
+    return {.gps_time = format == 1 || format >= 3,
+            .color = format == 2 || format == 3 || format == 5 || format == 7 || format == 8 ||
+                     format == 10,
+            .infrared = format == 8 || format == 10,
+            .wave_packet = format == 4 || format == 5 || format >= 9,
+            .extended = format >= 6};
+}
+
+unsigned las_format_of(const las_features& f) {
+    if (f.extended || f.infrared) {
+        if (f.wave_packet) return f.color || f.infrared ? 10 : 9;
+        return f.infrared ? 8 : f.color ? 7 : 6;
+    }
+    if (f.wave_packet) return f.color ? 5 : 4;
+    return (f.gps_time ? 1u : 0u) + (f.color ? 2u : 0u);
+}
+
+std::vector<las_dimension> las_dimensions(unsigned format) {
+    std::vector<las_dimension> dimensions;
+    packed_dimensions to(dimensions, 12);
+    const las_features has = features_of(format);
+    has.extended ? add_extended(to) : add_legacy(to);
+    if (has.gps_time) to.add("gps_time", scalar_type::float64);
+    if (has.color)
+        for (const char* name : {"red", "green", "blue"}) to.add(name, scalar_type::uint16);
+    if (has.infrared) to.add("nir", scalar_type::uint16);
+    if (has.wave_packet) add_wave_packet(to);
+    return dimensions;
+}
+
+std::size_t las_record_size(unsigned format) {
+    const auto dimensions = las_dimensions(format);
+    return dimensions.back().byte + size_of(dimensions.back().type);
+}
+
+std::vector<extra_group> extra_groups(std::span<const std::byte> descriptions, std::size_t first,
+                                      std::size_t bytes) {
+    std::vector<extra_group> groups;
+    std::size_t at = first;
+    for (; descriptions.size() >= description_size;
+         descriptions = descriptions.subspan(description_size)) {
+        const auto type = std::to_integer<unsigned>(descriptions[2]);
+        if (type > 3 * extra_types.size()) break;
+        const std::size_t count = type == 0 ? std::to_integer<std::size_t>(descriptions[3])
+                                            : (type - 1) / extra_types.size() + 1;
+        const scalar_type scalar =
+            type == 0 ? scalar_type::uint8 : extra_types[(type - 1) % extra_types.size()];
+        if (count * size_of(scalar) > first + bytes - at) break;
+        const std::string name = name_in(descriptions);
+        extra_group group;
+        const auto description = descriptions.first(description_size);
+        group.description.assign(description.begin(), description.end());
+        for (std::size_t i = 0; i < count; ++i) {
+            const bool one = type > 0 && count == 1;
+            const std::string full = one ? name : name + '[' + std::to_string(i) + ']';
+            group.values.push_back({.name = unique_name(groups, full), .type = scalar, .byte = at});
+            at += size_of(scalar);
+        }
+        groups.push_back(std::move(group));
+    }
+    return groups;
+}
+
+std::vector<las_dimension> extra_dimensions(std::span<const std::byte> descriptions,
+                                            std::size_t first, std::size_t bytes) {
+    std::vector<las_dimension> dimensions;
+    std::size_t at = first;
+    for (extra_group& group : extra_groups(descriptions, first, bytes))
+        for (las_dimension& d : group.values) {
+            at += size_of(d.type);
+            dimensions.push_back(std::move(d));
+        }
+    packed_dimensions rest(dimensions, at);
+    for (std::size_t i = 0; rest.at() < first + bytes; ++i)
+        rest.add(undescribed_name(i), scalar_type::uint8);
+    return dimensions;
+}
+
+std::string undescribed_name(std::size_t i) { return "extra_bytes[" + std::to_string(i) + ']'; }
+
+std::vector<std::byte> describe_extra(std::string_view name, scalar_type type) {
+    std::vector<std::byte> description(description_size);
+    const auto* const found = std::find(extra_types.begin(), extra_types.end(), type);
+    description[2] = static_cast<std::byte>(found - extra_types.begin() + 1);
+    for (std::size_t i = 0; i < std::min<std::size_t>(name.size(), 32); ++i)
+        description[4 + i] = static_cast<std::byte>(name[i]);
+    return description;
+}
+
+}  // namespace treeform::detail::io

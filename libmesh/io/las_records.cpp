@@ -1,0 +1,214 @@
+#include <libmesh/io/byte_order.hpp>
+#include <libmesh/io/is_value_of.hpp>
+#include <libmesh/io/las_records.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace treeform::detail::io {
+
+namespace {
+
+constexpr auto nobody = std::numeric_limits<std::size_t>::max();
+
+/// The first point of a chunk that cannot be stored, and why.
+struct chunk_fault {
+    std::size_t point = nobody;
+    std::string reason{};
+    double moved = 0.0;
+
+    void at(std::size_t i, const std::string& why) {
+        if (i >= point) return;
+        point = i;
+        reason = why;
+    }
+};
+
+[[nodiscard]] std::string too_large(const column& c, double value) {
+    return "a value of " + c.name +
+           " that its field in LAS does not hold: " + std::to_string(value);
+}
+
+struct record_rows {
+    std::size_t first = 0;  ///< row of the columns
+    std::size_t count = 0;
+    std::uint8_t* to = nullptr;
+    std::size_t size = 0;
+};
+
+void put_axes(std::span<const point3> points, const record_rows& rows, const las_grid& grid,
+              chunk_fault& fault) {
+    for (std::size_t i = 0; i < rows.count; ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double x = points[rows.first + i][axis];
+            if (!std::isfinite(x)) {
+                fault.at(rows.first + i, "a coordinate that is no finite number; LAS holds none");
+                continue;
+            }
+            const double step = nearest_step(grid, axis, x);
+            if (!is_las_step(step)) {
+                fault.at(rows.first + i, "a coordinate beyond what 32 bits hold with this scale");
+                continue;
+            }
+            const double by = grid.coordinate(axis, static_cast<std::int32_t>(step)) - x;
+            fault.moved = std::max(fault.moved, std::abs(by));
+            store<std::endian::little>(reinterpret_cast<char*>(rows.to + i * rows.size + 4 * axis),
+                                       static_cast<std::int32_t>(step));
+        }
+    }
+}
+
+template <class T>
+void put_same(const column& c, const record_rows& rows, std::size_t byte) {
+    for (std::size_t i = 0; i < rows.count; ++i) {
+        T bits;
+        std::memcpy(&bits, c.values.data() + (rows.first + i) * sizeof(T), sizeof(T));
+        store<std::endian::little>(reinterpret_cast<char*>(rows.to + i * rows.size + byte), bits);
+    }
+}
+
+void put_same_bits(const column& c, const record_rows& rows, std::size_t byte) {
+    switch (size_of(c.type)) {
+        case 1:
+            return put_same<std::uint8_t>(c, rows, byte);
+        case 2:
+            return put_same<std::uint16_t>(c, rows, byte);
+        case 4:
+            return put_same<std::uint32_t>(c, rows, byte);
+        default:
+            return put_same<std::uint64_t>(c, rows, byte);
+    }
+}
+
+/// Bytes that are a part of a byte in the record.
+void put_bytes_as_bits(const column& c, const record_rows& rows, const las_dimension& d,
+                       chunk_fault& fault) {
+    const unsigned most = (1u << d.bits) - 1;
+    for (std::size_t i = 0; i < rows.count; ++i) {
+        const auto value = std::to_integer<unsigned>(c.values[rows.first + i]);
+        if (value > most) fault.at(rows.first + i, too_large(c, value));
+        std::uint8_t* const to = rows.to + i * rows.size + d.byte;
+        *to = static_cast<std::uint8_t>(*to | (value & most) << d.shift);
+    }
+}
+
+/// Colors of 8 bits become the high byte of those of 16, as the standard has it.
+[[nodiscard]] double factor_for(const column& c, const las_dimension& d) {
+    const bool color = d.name == "red" || d.name == "green" || d.name == "blue";
+    return color && c.type == scalar_type::uint8 && d.type == scalar_type::uint16 ? 256.0 : 1.0;
+}
+
+void put_converted(const column& c, const record_rows& rows, const las_dimension& d,
+                   chunk_fault& fault) {
+    const double factor = factor_for(c, d);
+    const double most = d.bits > 0 ? (1u << d.bits) - 1 : std::numeric_limits<double>::infinity();
+    with_type(d.type, [&]<class T>(T) {
+        for (std::size_t i = 0; i < rows.count; ++i) {
+            const double value = number_at(c, rows.first + i) * factor;
+            if constexpr (std::is_integral_v<T>) {
+                if (!is_value_of<T>(value) || value > most) {
+                    fault.at(rows.first + i, too_large(c, value));
+                    continue;
+                }
+            }
+            std::uint8_t* const to = rows.to + i * rows.size + d.byte;
+            if (d.bits > 0)
+                *to = static_cast<std::uint8_t>(*to | static_cast<unsigned>(value) << d.shift);
+            else
+                store<std::endian::little>(reinterpret_cast<char*>(to), static_cast<T>(value));
+        }
+    });
+}
+
+}  // namespace
+
+las_tally::las_tally(const las_plan& plan)
+    : record_size_(plan.record_size), return_bits_(plan.header.point_format >= 6 ? 4 : 3) {
+    low_.fill(std::numeric_limits<std::int32_t>::max());
+    high_.fill(std::numeric_limits<std::int32_t>::min());
+}
+
+void las_tally::add(const std::uint8_t* records, std::size_t count) {
+    seen_ += count;
+    for (std::size_t i = 0; i < count; ++i) {
+        const char* const r = reinterpret_cast<const char*>(records + i * record_size_);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto x = load<std::int32_t, std::endian::little>(r + 4 * axis);
+            low_[axis] = std::min(low_[axis], x);
+            high_[axis] = std::max(high_[axis], x);
+        }
+        ++by_return_[static_cast<unsigned char>(r[14]) & ((1u << return_bits_) - 1)];
+    }
+}
+
+void las_tally::put(std::vector<std::byte>& block, const las_grid& grid, std::uint64_t count,
+                    unsigned version_minor, unsigned format) const {
+    const auto at = [&](std::size_t byte, auto value) {
+        store<std::endian::little>(reinterpret_cast<char*>(block.data() + byte), value);
+    };
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    const bool legacy = format < 6 && count <= most;
+    if (!legacy && version_minor < 4)
+        throw las_fault("more than 4294967295 points, which LAS holds from 1.4 on");
+    at(107, static_cast<std::uint32_t>(legacy ? count : 0));
+    for (std::size_t r = 0; r < 5; ++r)
+        at(111 + 4 * r, static_cast<std::uint32_t>(legacy ? by_return_[r + 1] : 0));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double a = seen_ == 0 ? 0.0 : grid.coordinate(axis, high_[axis]);
+        double b = seen_ == 0 ? 0.0 : grid.coordinate(axis, low_[axis]);
+        if (a < b) std::swap(a, b);  // the scale is negative
+        at(179 + 16 * axis, a);
+        at(187 + 16 * axis, b);
+    }
+    if (version_minor < 4) return;
+    at(247, count);
+    for (std::size_t r = 0; r < 15; ++r) at(255 + 8 * r, by_return_[r + 1]);
+}
+
+las_source::las_source(std::span<const point3> points, const element* vertices,
+                       const las_plan& plan)
+    : points_(points), columns_(plan.dimensions.size(), nullptr), plan_(plan) {
+    std::vector<const column*> data;
+    if (vertices != nullptr)
+        for (const column& c : vertices->columns)
+            if (c.role == column_role::data && !c.list_length) data.push_back(&c);
+    for (std::size_t d = 0; d < columns_.size(); ++d)
+        if (plan.column_of[d]) columns_[d] = data[*plan.column_of[d]];
+}
+
+void las_source::put(std::size_t first, std::size_t count, std::uint64_t number,
+                     std::uint8_t* records, las_tally& tally) const {
+    constexpr std::size_t at_once = 512;
+    const std::size_t size = plan_.record_size;
+    std::vector<chunk_fault> faults(chunk_count(count, light_grain));
+    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        chunk_fault& fault = faults[chunk];
+        for (std::size_t at = begin; at < end; at += at_once) {
+            const record_rows rows{first + at, std::min(at_once, end - at), records + at * size,
+                                   size};
+            put_axes(points_, rows, plan_.grid, fault);
+            for (std::size_t d = 0; d < columns_.size(); ++d) {
+                if (columns_[d] == nullptr) continue;
+                const las_dimension& to = plan_.dimensions[d];
+                if (to.bits == 0 && columns_[d]->type == to.type)
+                    put_same_bits(*columns_[d], rows, to.byte);
+                else if (to.bits > 0 && columns_[d]->type == scalar_type::uint8)
+                    put_bytes_as_bits(*columns_[d], rows, to, fault);
+                else
+                    put_converted(*columns_[d], rows, to, fault);
+            }
+        }
+    });
+    for (const chunk_fault& f : faults) {
+        if (f.point != nobody)
+            throw las_fault("point " + std::to_string(number + (f.point - first)) + ": " +
+                            f.reason);
+        tally.moved(f.moved);
+    }
+    tally.add(records, count);
+}
+
+}  // namespace treeform::detail::io

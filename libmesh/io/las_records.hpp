@@ -1,0 +1,63 @@
+#pragma once
+/// \file
+/// LAS point records from columns, and what a header says of all of them.
+
+#include <libmesh/io/las_plan.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/mesh.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::io {
+
+/// Bounds and counts of points that were written.
+class las_tally {
+  public:
+    explicit las_tally(const las_plan& plan);
+
+    /// Records that follow one another.
+    void add(const std::uint8_t* records, std::size_t count);
+    void moved(double by) {
+        if (by > max_displacement_) max_displacement_ = by;
+    }
+    /// The furthest that a coordinate is from the one that was to be written.
+    [[nodiscard]] double max_displacement() const { return max_displacement_; }
+
+    /// Puts bounds and counts into a header. `count` is the number of points.
+    void put(std::vector<std::byte>& block, const las_grid& grid, std::uint64_t count,
+             unsigned version_minor, unsigned format) const;
+
+  private:
+    std::size_t record_size_;
+    unsigned return_bits_;  ///< 3 or 4
+    double max_displacement_ = 0.0;
+    std::uint64_t seen_ = 0;
+    std::array<std::int32_t, 3> low_{};
+    std::array<std::int32_t, 3> high_{};
+    std::array<std::uint64_t, 16> by_return_{};
+};
+
+/// Some points and their columns.
+class las_source {
+  public:
+    las_source(std::span<const point3> points, const element* vertices, const las_plan& plan);
+
+    /// The records of `count` points from `first` on; in parallel. `number` is that of the first in
+    /// the file, in errors.
+    ///
+    /// \throws las_fault naming the lowest point whose coordinates or values the format does not hold
+    void put(std::size_t first, std::size_t count, std::uint64_t number, std::uint8_t* records,
+             las_tally& tally) const;
+
+  private:
+    std::span<const point3> points_;
+    std::vector<const column*> columns_{};  ///< [dimensions]; null: zeros
+    const las_plan& plan_;
+};
+
+}  // namespace treeform::detail::io

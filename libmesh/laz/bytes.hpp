@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// Numbers in point records, which are little endian, and differences of single bytes.
+
+#include <cstdint>
+
+namespace treeform::detail::laz {
+
+[[nodiscard]] inline std::uint16_t get16(const std::uint8_t* p) {
+    return static_cast<std::uint16_t>(p[0] | p[1] << 8);
+}
+inline void put16(std::uint8_t* p, std::uint32_t x) {
+    p[0] = static_cast<std::uint8_t>(x);
+    p[1] = static_cast<std::uint8_t>(x >> 8);
+}
+[[nodiscard]] inline std::int32_t get32(const std::uint8_t* p) {
+    return static_cast<std::int32_t>(std::uint32_t{get16(p)} | std::uint32_t{get16(p + 2)} << 16);
+}
+inline void put32(std::uint8_t* p, std::int32_t x) {
+    put16(p, static_cast<std::uint32_t>(x));
+    put16(p + 2, static_cast<std::uint32_t>(x) >> 16);
+}
+[[nodiscard]] inline std::uint64_t get64(const std::uint8_t* p) {
+    return static_cast<std::uint32_t>(get32(p)) |
+           std::uint64_t{static_cast<std::uint32_t>(get32(p + 4))} << 32;
+}
+inline void put64(std::uint8_t* p, std::uint64_t x) {
+    put32(p, static_cast<std::int32_t>(static_cast<std::uint32_t>(x)));
+    put32(p + 4, static_cast<std::int32_t>(static_cast<std::uint32_t>(x >> 32)));
+}
+
+/// Sums and differences of 32 bits go around.
+[[nodiscard]] inline std::int32_t sum(std::int32_t a, std::int32_t b) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+}
+[[nodiscard]] inline std::int32_t difference(std::int32_t a, std::int32_t b) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
+[[nodiscard]] inline std::int32_t product(std::int32_t a, std::int32_t b) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b));
+}
+
+/// `x` modulo 256.
+[[nodiscard]] inline std::uint8_t low_byte(int x) { return static_cast<std::uint8_t>(x); }
+[[nodiscard]] inline int clamp_byte(int x) { return x < 0 ? 0 : x > 255 ? 255 : x; }
+
+}  // namespace treeform::detail::laz

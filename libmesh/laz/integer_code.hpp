@@ -1,0 +1,80 @@
+#pragma once
+/// \file
+/// Whole numbers by their difference to a prediction: how many bits it takes, then the bits.
+///
+/// \source Isenburg, LASzip (2013), "Entropy coding"
+
+#include <libmesh/laz/entropy.hpp>
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+namespace treeform::detail::laz {
+
+class integer_code {
+  public:
+    /// Of numbers modulo 2^bits. \pre `bits` is 8, 16 or 32
+    integer_code(unsigned bits, unsigned contexts) : bits_(bits) {
+        size_.assign(contexts, symbol_model(bits + 1));
+        rest_.reserve(bits);
+        for (unsigned k = 1; k <= bits; ++k) rest_.emplace_back(1u << (k < high ? k : high));
+    }
+
+    /// The number, in [0, 2^bits), or as a signed one of 32 bits. `real` is what an encoder writes.
+    template <class Coder>
+    std::int32_t code(Coder& c, std::int32_t predicted, std::int32_t real, unsigned context = 0) {
+        std::uint32_t by = 0;
+        if constexpr (Coder::writes) by = folded(bits_of(real) - bits_of(predicted));
+        by = correction(c, size_[context], by);
+        const std::uint32_t is = bits_of(predicted) + by;
+        return static_cast<std::int32_t>(bits_ == 32 ? is : is & ((1u << bits_) - 1));
+    }
+
+    /// How many bits the last correction took; a measure of how well predictions fit.
+    [[nodiscard]] unsigned last_size() const { return last_size_; }
+
+  private:
+    static constexpr unsigned high = 8;  ///< this many bits have a model, lower ones are stored
+
+    [[nodiscard]] static std::uint32_t bits_of(std::int32_t x) {
+        return static_cast<std::uint32_t>(x);
+    }
+    /// Modulo 2^bits, nearest to zero.
+    [[nodiscard]] std::uint32_t folded(std::uint32_t x) const {
+        const unsigned above = 32 - bits_;
+        return bits_of(static_cast<std::int32_t>(x << above) >> above);
+    }
+
+    /// A correction of k bits is in [-(2^k - 1), -2^(k-1)] or [2^(k-1) + 1, 2^k]; of no bits, 0 or
+    /// 1. Those of 32 bits are -2^31 alone.
+    template <class Coder>
+    std::uint32_t correction(Coder& c, symbol_model& sizes, std::uint32_t by) {
+        const auto is_negative = [](std::uint32_t x) { return x >> 31 != 0; };
+        unsigned k = 0;
+        if constexpr (Coder::writes)
+            k = static_cast<unsigned>(std::bit_width(by == 0           ? 0u
+                                                     : is_negative(by) ? 0u - by
+                                                                       : by - 1));
+        k = last_size_ = c.symbol(sizes, k);
+        if (k == 0) return c.bit(none_, by);
+        if (k == 32) return 0x80000000u;
+        std::uint32_t rest = is_negative(by) ? by + ((1u << k) - 1) : by - 1;
+        if (k <= high) {
+            rest = c.symbol(rest_[k - 1], rest);
+        } else {
+            const unsigned low = k - high;
+            const std::uint32_t top = c.symbol(rest_[k - 1], rest >> low);
+            rest = top << low | c.bits(low, rest & ((1u << low) - 1));
+        }
+        return rest >> (k - 1) != 0 ? rest + 1 : rest - ((1u << k) - 1);
+    }
+
+    unsigned bits_;
+    unsigned last_size_ = 0;
+    bit_model none_{};
+    std::vector<symbol_model> size_{};  ///< [contexts]
+    std::vector<symbol_model> rest_{};  ///< [bits], of corrections of 1, 2, ... bits
+};
+
+}  // namespace treeform::detail::laz

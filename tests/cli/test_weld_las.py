@@ -1,0 +1,87 @@
+"""LAS and LAZ through tf-weld: what comes in comes out, and decisions hold for what is written."""
+
+from weld_support import *
+
+FIELDS = struct.Struct("<iiiHBBbBH")  # a record of format 0
+
+
+def las_file(points, scale=0.01, offset=0.0, extra=b""):
+    """LAS 1.2, format 0. A point is X, Y, Z in steps, and its intensity."""
+    header = bytearray(227)
+    header[0:4] = b"LASF"
+    header[24:26] = bytes((1, 2))
+    struct.pack_into("<HIIBHI", header, 94, 227, 227 + len(extra), 1 if extra else 0, 0, 20,
+                     len(points))
+    struct.pack_into("<6d", header, 131, *[scale] * 3, *[offset] * 3)
+    return bytes(header) + extra + b"".join(
+        FIELDS.pack(*p[:3], p[3], 0x09, 2, 0, 0, 7) for p in points)
+
+
+def las_points(data):
+    first, = struct.unpack_from("<I", data, 96)
+    count, = struct.unpack_from("<I", data, 107)
+    return [FIELDS.unpack_from(data, first + 20 * i)[:4] for i in range(count)]
+
+
+POINTS = [(0, 0, 0, 5), (100, 0, 0, 9), (100, 30, 0, 3), (-5000, 1, 1, 4), (0, 0, 0, 8)]
+
+
+class Las(WeldTest):
+    def setUp(self):
+        super().setUp()
+        record = struct.pack("<H16sHH32s", 0, b"LASF_Projection", 2112, 4, b"") + b"abcd"
+        self.write("in.las", las_file(POINTS, extra=record))
+
+    def test_records_that_stay_are_as_they_were(self):
+        entry = self.entry("in.las", "-t", "0.3", "-o", "out.las", "--removed", "gone.las",
+                           status=0)
+        data = self.read_bytes("out.las")
+        self.assertEqual(las_points(data), [POINTS[0], POINTS[1], POINTS[3]])
+        self.assertEqual(las_points(self.read_bytes("gone.las")), [POINTS[2], POINTS[4]])
+        self.assertEqual(data[227:227 + 58], self.read_bytes("in.las")[227:227 + 58])
+        self.assertEqual(struct.unpack_from("<dd", data, 179), (100 * 0.01, -5000 * 0.01))
+        self.assertEqual((entry["format"], entry["output"]["format"]), ("las", "las"))
+        self.assertEqual(entry["output"]["within_tolerance"], 0)
+        self.assertEqual(entry["warnings"], [])
+
+    def test_packed_and_back_it_is_the_same(self):
+        self.run_tool("in.las", "-t", "0.3", "-o", "out.las", status=0)
+        self.run_tool("in.las", "-o", "all.laz", "--rule", "chain", "-t", "0", status=0)
+        self.run_tool("all.laz", "-t", "0.3", "-o", "again.las", status=0)
+        self.assertEqual(self.read_bytes("again.las"), self.read_bytes("out.las"))
+
+    def test_a_label_becomes_extra_bytes(self):
+        self.run_tool("in.las", "-t", "0.3", "--label", "group", "-o", "out.las", status=0)
+        data = self.read_bytes("out.las")
+        self.assertEqual(struct.unpack_from("<H", data, 105)[0], 24)
+        self.assertIn(b"group", data)
+        self.run_tool("out.las", "-o", "out.csv", status=0)
+        self.assertTrue(self.read("out.csv").splitlines()[0].endswith(",group"))
+
+    def test_another_scale_is_rounded_before_anything_is_decided(self):
+        # 0.304 becomes 0.30, which is within 0.3 of the point at the origin.
+        self.write("a.las", las_file([(0, 0, 0, 1)]))
+        self.write("b.las", las_file([(304, 0, 0, 2)], scale=0.001))
+        entry = self.entry("a.las", "b.las", "--join", "-t", "0.3", "-o", "out.las", status=0)
+        self.assertEqual(entry["points"]["out"], 1)
+        self.assertEqual([w["code"] for w in entry["warnings"]], ["las-grid"])
+        entry = self.entry("a.las", "b.las", "--join", "-t", "0.3", "-o", "out.ply", status=0)
+        self.assertEqual((entry["points"]["out"], entry["warnings"]), (2, []))
+
+    def test_means_are_checked_as_they_are_written(self):
+        entry = self.entry("in.las", "-t", "0.3", "--keep", "mean", "-o", "out.las", status=0)
+        self.assertEqual(len(las_points(self.read_bytes("out.las"))), 3)
+        self.assertIsNotNone(entry["output"]["within_tolerance"])
+
+    def test_damaged_files_end_with_the_byte_and_the_reason(self):
+        whole = self.read_bytes("in.las")
+        self.write("cut.las", whole[:-1])
+        run = self.run_tool("cut.las", "-o", "x.las", status=3)
+        self.assertIn("cut.las: byte 285: the file ends in the points: 5 promised, 4 there",
+                      run.err)
+        self.write("a.e57", b"ASTM-E57" + bytes(100))
+        self.assertIn("pdal translate", self.run_tool("a.e57", "-o", "x.las", status=3).err)
+
+
+if __name__ == "__main__":
+    main()
