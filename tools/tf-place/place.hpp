@@ -2,13 +2,13 @@
 /// \file
 /// What a user of tf-place asks for, where MOVING goes, and what that is written to.
 
+#include "tools/common/arrange_options.hpp"
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
 #include "tools/common/parse_value.hpp"
 #include "tools/common/run.hpp"
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/lay_flat.hpp>
-#include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/tf.hpp>
 
@@ -35,7 +35,7 @@ struct place_settings {
     bool scene = false;
     tf::align_options fit{};
     std::optional<distance> max_distance{};
-    tf::pack_options arrange{};
+    arrange_settings arrange{};
     tf::lay_flat_options lay{};  ///< which side, and the spin
     bool largest_side = false;
     /// Flat faces that were turned and rounded, to float32 mostly, are one side of the hull again.

@@ -18,8 +18,8 @@ constexpr const char* blank_report = R"({
     "reason": null, "status_at_start": null, "status": null, "inside": null, "distance": null,
     "surface_distance": null, "closest": null, "direction": null, "travel": null,
     "backed_off": null, "matrix": null, "contacts": [], "contact_count": null, "sides": [],
-    "chosen": null, "corrected": null, "fit": null, "fits": null,
-    "tolerance": {"given": null, "used": null}, "parts": [], "not_placed": [], "rounding": null,
+    "chosen": null, "corrected": null, "fit": null, "fits": null, "tries": null,
+    "plates": null, "density": null, "tolerance": {"given": null, "used": null}, "parts": [], "not_placed": [], "rounding": null,
     "matrix_file": null, "output": null})";
 
 /// A point of a body: of a mesh on a face, of a cloud a vertex.

@@ -1,4 +1,5 @@
 #include "tools/common/align_options.hpp"
+#include "tools/common/arrange_options.hpp"
 #include "tools/common/exit_status.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
@@ -13,9 +14,6 @@ namespace {
 
 constexpr std::array<const char*, 8> modes{"drop",  "lay",     "slide",   "mate",
                                            "clear", "measure", "arrange", "fit"};
-/// By `plate_turns`.
-constexpr std::array<const char*, 4> turns{"none", "90", "45", "any"};
-
 place_mode parse_mode(std::string_view text) {
     if (text == "pack") return place_mode::arrange;
     if (text == "align") return place_mode::fit;
@@ -24,16 +22,6 @@ place_mode parse_mode(std::string_view text) {
     if (at == modes.end())
         refuse(std::string(text) + ": no mode; expected one of " + listed(modes));
     return static_cast<place_mode>(at - modes.begin());
-}
-
-/// "250,210" or "250,210,300", all greater than 0.
-tf::point3 parse_size3(std::string_view text) {
-    const bool flat = std::count(text.begin(), text.end(), ',') < 2;
-    const auto v = parse_numbers("--size", text, flat ? 2 : 3);
-    const tf::point3 size{v[0], v[1], flat ? tf::pack_options{}.size.z : v[2]};
-    if (!(size.x > 0.0 && size.y > 0.0 && size.z > 0.0))
-        refuse("--size " + std::string(text) + ": expected lengths greater than 0");
-    return size;
 }
 
 void add_modes(command_line& line) {
@@ -47,7 +35,7 @@ void add_modes(command_line& line) {
         {"clear, separate",
          "out of --fixed, or away from it to --clearance: a\n"
          "short translation, the shortest of many tried"},
-        {"arrange, pack", "put all MOVING on the bed or in a box without overlap"},
+        {"arrange, pack", "put all MOVING on plates, or in a box, without overlap"},
         {"fit, align", "align by ICP from the present position"},
         {"measure", "move nothing; report distance, contact or\npenetration"}};
     line.group("Modes");
@@ -72,15 +60,7 @@ void add_options_of_modes(command_line& line, place_settings& s) {
                              "it, and flat afterwards; 0 = exactly in one plane",
                              "0.0001%"});
     line.flag(s.lay.keep_spin, {"--keep-spin", "", "lay: keep the turn about the vertical"});
-    line.option({"--size", "X,Y[,Z]", "arrange: bed or box size"},
-                [&s](std::string_view text) { s.arrange.size = parse_size3(text); });
-    line.option({"--spacing", "DIST", "arrange: between parts", "2"}, [&s](std::string_view text) {
-        const distance spacing = parse_distance("--spacing", text);
-        if (spacing.relative) refuse("--spacing: expected a length");
-        s.arrange.spacing = spacing.value;
-    });
-    line.option(s.arrange.turns, {"--rotate", "SET", "arrange: none | 90 | 45 | any", "90"}, turns);
-    line.option(s.arrange.seed, {"--seed", "N", "arrange: same N, same result", "0"});
+    add_arrange_options(line, s.arrange);
     line.option(s.max_distance, {"--max-distance", "DIST", "fit: ignore pairs further apart"});
     add_align_options(line, s.fit);
 }
@@ -144,8 +124,8 @@ void check_settings(const command_line& line, place_settings& s, common_options&
         {is(lay) && !s.fixed.empty(), "--fixed: lay puts MOVING on the bed alone"},
         {is(lay) && clearance, "--clearance: lay puts MOVING on the bed"},
         {is(lay) && s.max_travel, "--max-travel: lay goes to the bed"},
-        {!is(arrange) && given(std::array{"--size", "--spacing", "--rotate", "--seed"}) > 0,
-         "--size, --spacing, --rotate and --seed are for arrange"},
+        {!is(arrange) && given(arrange_option_names()) > 0,
+         listed(arrange_option_names()) + " are for arrange"},
         {!is(fit) && (line.given("--max-distance") || given(align_option_names()) > 0),
          "--max-distance, " + listed(align_option_names()) + " are for fit"},
         {given(std::array{"--overlap", "--trim"}) > 1, "--overlap and --trim say the same"},
