@@ -12,6 +12,7 @@
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/features.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
