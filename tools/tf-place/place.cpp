@@ -82,10 +82,10 @@ double bed_of(const place_settings& settings, tf::precision precision, double ab
 // ---- one MOVING after the other ----
 
 tf::placement lay(placing& p, const tf::progress_callback& progress) {
-    tf::lay_flat_options options = p.settings.lay;
+    tf::lay_flat_options options = p.settings.lay.options;
     options.bed = bed_of(p.settings, p.precision);
     options.precision = p.precision;
-    options.tolerance = p.used(p.settings.flatness);
+    options.tolerance = p.used(p.settings.lay.flatness);
     options.progress = progress;
     p.laid = tf::lay_flat(p.moving.shapes[0], options);
     if (p.laid) return p.laid->as_placement();
@@ -100,6 +100,26 @@ tf::placement fit(placing& p, const tf::progress_callback& progress) {
     options.progress = progress;
     p.aligned = tf::align(p.moving.shapes[0], p.fixed.shapes[0], options);
     return p.aligned->as_placement();
+}
+
+tf::placement turn(placing& p, double clearance, const tf::progress_callback& progress) {
+    p.turned = tf::turn(p.moving.shapes[0], p.fixed.shapes, p.settings.turn.axis,
+                        {.clearance = clearance,
+                         .max_angle = p.settings.turn.max_angle,
+                         .precision = p.precision,
+                         .progress = progress});
+    return std::move(p.turned->at);
+}
+
+tf::placement mate(placing& p, double clearance, const tf::progress_callback& progress) {
+    p.mated = mate_by_features(p.settings.feature, p.moving, p.fixed,
+                               {.clearance = clearance,
+                                .flip = p.settings.feature.flip,
+                                .precision = p.precision,
+                                .progress = progress},
+                               p.reason);
+    if (p.mated) return std::move(p.mated->found.at);
+    return {.certificate = {.status = tf::status::no_place}, .end = tf::placement_end::nothing_met};
 }
 
 /// Calls the verb of the mode.
@@ -129,7 +149,10 @@ tf::placement search(placing& p, const tf::progress_callback& progress) {
         case place_mode::slide:
             return tf::slide(mesh, fixed, s.direction.value_or(tf::point3{0.0, 0.0, -1.0}),
                              with(tf::slide_options{}));
+        case place_mode::turn:
+            return turn(p, clearance, progress);
         case place_mode::mate:
+            if (s.feature.kind) return mate(p, clearance, progress);
             return tf::mate(mesh, fixed, with(tf::mate_options{}));
         case place_mode::clear:
             return tf::separate(mesh, fixed, with(tf::separate_options{}));
