@@ -2,7 +2,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/place/fit_features.hpp>
-#include <treeform/mesh/features.hpp>
+#include <treeform/mesh/properties.hpp>
 
 #include <algorithm>
 #include <array>

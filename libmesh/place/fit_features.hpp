@@ -2,8 +2,8 @@
 /// \file
 /// Planes and cylinders fitted to faces by least squares.
 
-#include <treeform/mesh/features.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/properties.hpp>
 
 #include <cstdint>
 #include <optional>

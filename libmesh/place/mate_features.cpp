@@ -3,7 +3,7 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/shape.hpp>
 #include <libmesh/place/turn_motion.hpp>
-#include <treeform/mesh/features.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/slide.hpp>
 

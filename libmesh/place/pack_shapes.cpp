@@ -84,7 +84,8 @@ pack_shapes::pack_shapes(std::span<const prepared_mesh> parts, const pack_option
             const turned_part there(part, turns[i % turns.size()]);
             const point3& size = there.size();
             if (!(size.x <= o.size.x && size.y <= o.size.y && size.z <= o.size.z)) continue;
-            if (cell_ > 0.0) all[i] = {there.turn(), size, cells_covered(there.mesh(), grid), 0};
+            if (cell_ > 0.0)
+                all[i] = {there.turn(), size, telling_first(cells_covered(there.mesh(), grid)), 0};
         }
     });
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -233,6 +233,16 @@ void shift_down(std::span<const std::uint64_t> from, std::size_t by, std::span<s
 
 }  // namespace
 
+footprint telling_first(footprint part) {
+    const auto rank = [](const cell_run& run) {
+        const unsigned tier = run.row % 8 == 3 ? 0 : run.row % 4 == 1 ? 1 : 2;
+        return std::pair(tier, std::int64_t{run.begin} - std::int64_t{run.end});
+    };
+    std::stable_sort(part.runs.begin(), part.runs.end(),
+                     [&](const cell_run& a, const cell_run& b) { return rank(a) < rank(b); });
+    return part;
+}
+
 footprint cells_covered(mesh_view mesh, const cell_grid& grid) {
     part_cells cells(mesh, grid);
     for (const face& f : mesh.faces) cells.cover(f);
@@ -283,8 +293,8 @@ void plate_raster::take(const footprint& part) {
 }
 
 void plate_raster::mark_blocked(const footprint& part, const cell_place& place,
-                                std::span<std::uint64_t> blocked) const {
-    std::vector<std::uint64_t> any(words_), shifted(words_);
+                                row_space& space) const {
+    auto& [blocked, any, shifted] = space;
     for (const cell_run& run : part.runs) {
         const std::size_t layer = std::size_t{place.layer} + run.layer;
         const std::size_t row = std::size_t{place.row} + run.row;
@@ -315,12 +325,14 @@ void plate_raster::mark_blocked(const footprint& part, const cell_place& place,
 std::optional<cell_place> plate_raster::first_free(const footprint& part, cell_place from,
                                                    cell_place last) const {
     const std::size_t columns = std::min<std::size_t>(std::size_t{last.column} + 1, words_ * 64);
-    std::vector<std::uint64_t> blocked(columns / 64 + 1);
+    row_space space{std::vector<std::uint64_t>(columns / 64 + 1),
+                    std::vector<std::uint64_t>(words_), std::vector<std::uint64_t>(words_)};
+    std::vector<std::uint64_t>& blocked = space.blocked;
     for (cell_place at = from; at.layer <= last.layer; ++at.layer, at.row = 0)
         for (; at.row <= last.row; ++at.row) {
             std::fill(blocked.begin(), blocked.end(), 0);
             set_bits(blocked, columns, blocked.size() * 64);
-            mark_blocked(part, at, blocked);
+            mark_blocked(part, at, space);
             const bool first = at.layer == from.layer && at.row == from.row;
             const std::size_t free = next_bit(blocked, first ? from.column : 0, columns, false);
             if (free < columns)

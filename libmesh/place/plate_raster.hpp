@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace treeform::detail::place {
@@ -40,6 +39,10 @@ struct cell_grid {
 /// \pre no used coordinate is below the corner, or more than 2^30 cells away
 [[nodiscard]] footprint cells_covered(mesh_view mesh, const cell_grid& grid);
 
+/// The same in the order in which a place that is not free is found out early: rows from all over
+/// the part, long runs first.
+[[nodiscard]] footprint telling_first(footprint part);
+
 struct cell_place {
     std::uint32_t layer = 0, row = 0, column = 0;
     friend auto operator<=>(const cell_place&, const cell_place&) = default;
@@ -70,9 +73,13 @@ class plate_raster {
         std::int64_t columns;       ///< to either side
     };
 
-    /// Bits of the columns [0, columns) at which a part in this row covers a cell taken.
-    void mark_blocked(const footprint& part, const cell_place& at,
-                      std::span<std::uint64_t> blocked) const;
+    struct row_space {
+        std::vector<std::uint64_t> blocked;  ///< bits of columns
+        std::vector<std::uint64_t> any, shifted;
+    };
+
+    /// Marks the columns at which a part in this row covers a cell taken.
+    void mark_blocked(const footprint& part, const cell_place& at, row_space& space) const;
     [[nodiscard]] std::size_t index_of(std::size_t layer, std::size_t row) const {
         return layer * size_.rows + row;
     }

@@ -5,7 +5,7 @@
 #include <libmesh/place/surroundings.hpp>
 #include <libmesh/place/turn_motion.hpp>
 #include <treeform/mesh/rounding.hpp>
-#include <treeform/mesh/turn.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/turn.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tree/transform.hpp>
 
 #include <cstddef>

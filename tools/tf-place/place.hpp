@@ -2,13 +2,13 @@
 /// \file
 /// What a user of tf-place asks for, where MOVING goes, and what that is written to.
 
-#include "tools/common/arrange_options.hpp"
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
-#include "tools/common/lay_options.hpp"
-#include "tools/common/motion_options.hpp"
 #include "tools/common/parse_value.hpp"
 #include "tools/common/run.hpp"
+#include "tools/placing/arrange_options.hpp"
+#include "tools/placing/lay_options.hpp"
+#include "tools/placing/motion_options.hpp"
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/tf.hpp>

@@ -1,6 +1,6 @@
 #include "tools/common/align_options.hpp"
-#include "tools/common/arrange_options.hpp"
 #include "tools/common/exit_status.hpp"
+#include "tools/placing/arrange_options.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
 

@@ -12,7 +12,6 @@
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/distance.hpp>
-#include <treeform/mesh/features.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
@@ -34,7 +33,6 @@
 #include <treeform/mesh/solid.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/mesh/triangle.hpp>
-#include <treeform/mesh/turn.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/weld_stream.hpp>

@@ -1,7 +1,8 @@
 #include <treeform/mesh/distance.hpp>
-#include <treeform/mesh/features.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/turn.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -1,4 +1,4 @@
-#include "tools/common/arrange_options.hpp"
+#include "tools/placing/arrange_options.hpp"
 
 #include "tools/common/exit_status.hpp"
 #include "tools/common/parse_value.hpp"

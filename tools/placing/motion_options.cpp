@@ -1,4 +1,4 @@
-#include "tools/common/motion_options.hpp"
+#include "tools/placing/motion_options.hpp"
 
 #include "tools/common/exit_status.hpp"
 #include "tools/common/parse_value.hpp"

@@ -4,9 +4,10 @@
 
 #include "tools/common/command_line.hpp"
 #include "tools/common/entries.hpp"
-#include <treeform/mesh/features.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/turn.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
 
 #include <cstdint>

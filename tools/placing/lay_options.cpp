@@ -1,4 +1,4 @@
-#include "tools/common/lay_options.hpp"
+#include "tools/placing/lay_options.hpp"
 
 #include "tools/common/exit_status.hpp"
 
