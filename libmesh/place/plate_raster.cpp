@@ -167,7 +167,8 @@ std::size_t next_bit(std::span<const std::uint64_t> row, std::size_t from, std::
 
 /// Takes the cells that cannot be reached from outside through free ones, from side to side.
 void part_cells::fill_voids() {
-    const auto [columns, rows, layers] = count_;
+    // Not a structured binding: clang 14 lets no lambda capture one.
+    const std::int64_t columns = count_[0], rows = count_[1], layers = count_[2];
     std::vector<std::uint64_t> free(bits_.size());  // reached
     std::vector<std::array<std::int64_t, 3>> open;
     const auto reach = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
