@@ -255,7 +255,7 @@ class Reports(PlaceTest):
                 (["measure", "in.obj", "--fixed", "outer.obj"], 0),
                 (["lay", "part.obj", "-n"], 0),
                 (["lay", "fine.stl", "--stable", "-n"], 0),
-                (["turn", "part.obj", *fixed, "--axis", "1,0,0", "--origin", "0,0,4", "-n"], 0),
+                (["turn", "part.obj", *fixed, "--axis", "1,0,0", "--origin", "0,0,3", "-n"], 0),
                 (["mate", "part.obj", *fixed, "--feature", "plane", "-n"], 0),
                 (["mate", "tube.obj", "--fixed", "tube.obj", "--feature", "axis", "-n"], 0),
                 (["fit", "part.obj", *fixed, "-n"], (0, 1)),
