@@ -6,6 +6,7 @@
 #include <libmesh/place/contacts.hpp>
 #include <libmesh/place/quickhull.hpp>
 #include <libmesh/place/shape.hpp>
+#include <libmesh/place/stability.hpp>
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -40,6 +41,8 @@ void check(mesh_view mesh, const lay_flat_options& options) {
     if (!std::isfinite(options.bed) || !detail::base::is_finite(options.toward))
         throw std::invalid_argument(
             "treeform::lay_flat: the bed, direction or point is not finite");
+    if (!(options.overhang_angle >= 0.0 && options.overhang_angle <= 90.0))
+        throw std::invalid_argument("treeform::lay_flat: the overhang angle is not 0 to 90");
     if (options.choose == lay_choice::nearest_normal && options.toward == point3{})
         throw std::invalid_argument("treeform::lay_flat: the direction is zero");
 }
@@ -204,7 +207,8 @@ bool is_down(const candidates& c, const hull_side& side) {
            });
 }
 
-std::size_t choose(const candidates& c, const lay_flat_options& options) {
+std::size_t choose(const candidates& c, const std::vector<side_stability>& stability,
+                   const lay_flat_options& options) {
     const std::vector<hull_side>& sides = c.hull.sides;
     std::vector<double> cost;
     double slack = equally_good;
@@ -219,6 +223,9 @@ std::size_t choose(const candidates& c, const lay_flat_options& options) {
             break;
         case lay_choice::holding_point:
             cost = distances_to(options.toward, c);
+            break;
+        case lay_choice::most_stable:
+            for (const side_stability& s : stability) cost.push_back(1.0 - s.tip_angle / 90.0);
             break;
     }
     slack += *std::min_element(cost.begin(), cost.end());
@@ -355,6 +362,25 @@ void put_down(laid_flat& laid, mesh_view mesh, const std::vector<std::uint32_t>&
     }
 }
 
+/// How it stands on each side; and the one that is chosen.
+void look_at_stability(laid_flat& laid, mesh_view mesh, const std::vector<std::uint32_t>& ids,
+                       const candidates& found, const lay_flat_options& options) {
+    const auto center = detail::place::center_of_mass(mesh, ids);
+    laid.center_of_mass = center.at;
+    laid.mass = center.what;
+    laid.stability = detail::place::stabilities(found.points, found.hull, center.at);
+    laid.chosen = choose(found, laid.stability, options);
+    double size = 0.0;
+    for (const point3& p : found.points) size = std::max(size, detail::base::largest_of(p));
+    const double flat = std::max(options.tolerance, size * 0x1p-40);
+    for_chunks(laid.sides.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (i < options.overhang_sides || i == laid.chosen)
+                laid.stability[i].overhang =
+                    detail::place::overhang_of(mesh, laid.sides[i], options.overhang_angle, flat);
+    });
+}
+
 }  // namespace
 
 std::optional<laid_flat> lay_flat(mesh_view mesh, const lay_flat_options& options) {
@@ -367,7 +393,7 @@ std::optional<laid_flat> lay_flat(mesh_view mesh, const lay_flat_options& option
 
     laid_flat laid;
     laid.sides = found.hull.sides;
-    laid.chosen = choose(found, options);
+    look_at_stability(laid, mesh, ids, found, options);
     laid.bed = detail::place::not_below(options.bed, options.precision);
     const hull_side& side = laid.sides[laid.chosen];
     const motion move = find_motion(found, side, options, laid.bed);

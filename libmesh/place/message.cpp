@@ -92,6 +92,9 @@ std::string placement::message(std::span<const std::string> names) const {
         case placement_end::no_coordinates:
             return floats ? "rounded to float32 there is no such place"
                           : "there is no such place in coordinates that can be written";
+        case placement_end::too_many_steps:
+            return "goes past something so near, and so long, that it was not found out whether "
+                   "it is met";
         case placement_end::out_of_range:
             return std::string("is beyond the range of ") + (floats ? "float32" : "doubles") +
                    " at its place";

@@ -2,6 +2,7 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/nearness/closest_points.hpp>
 #include <libmesh/place/plate.hpp>
+#include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/distance.hpp>
 
@@ -50,6 +51,28 @@ bool boxes_apart(const box3& a, const box3& b, double spacing) {
     return false;
 }
 
+/// With some cells beyond the plate, from which the gaps of the raster may let a part be moved in.
+raster_size raster_of(const pack_options& o, double cell) {
+    const auto cells = [cell](double length) {
+        return static_cast<std::uint32_t>(length / cell) + 8;
+    };
+    return {o.stack ? cells(o.size.z) : 1, cells(o.size.y), cells(o.size.x)};
+}
+
+/// In cells; what is wider than the plate is as good as that.
+double spacing_of(const pack_options& o, double cell) {
+    const raster_size size = raster_of(o, cell);
+    return std::min(o.spacing / cell,
+                    static_cast<double>(std::max({size.layers, size.rows, size.columns})));
+}
+
+/// Whether `a` is within the open box `b`.
+bool strictly_within(const box3& a, const box3& b) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!(b.min[k] < a.min[k] && a.max[k] < b.max[k])) return false;
+    return true;
+}
+
 }  // namespace
 
 turned_part::turned_part(mesh_view part, unsigned turn)
@@ -83,22 +106,25 @@ transform<3> turned_part::matrix(const point3& by) const {
     return m;
 }
 
+turned::turned(mesh_view mesh, unsigned turn)
+    : part(mesh, turn), faces(build_face_tree(part.mesh())) {}
+
 plate::plate(const pack_options& options, double cell, bool square)
     : options_(options),
       single_(options.precision == precision::float32),
-      cell_(cell),
+      corner_{options.corner.x, options.corner.y, not_below(options.corner.z, options.precision)},
+      grid_{corner_, cell, options.stack},
       unit_(0.0),
-      raster_(cell > 0.0 ? static_cast<std::uint32_t>(options.size.x / cell) + 8 : 1,
-              cell > 0.0 ? static_cast<std::uint32_t>(options.size.y / cell) + 8 : 1,
-              cell > 0.0 ? std::min(options.spacing / cell, 1e5) : 0.0, square) {
+      raster_(raster_of(options, cell), spacing_of(options, cell), square) {
     double largest = 0.0;
-    for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t k = 0; k < (options.stack ? 3U : 2U); ++k)
         largest = std::max(largest, std::abs(options.corner[k]) + options.size[k]);
     unit_ = std::ldexp(largest, options.precision == precision::float32 ? -23 : -52);
 }
 
-plate::resident plate::at(std::uint32_t number, const turned_part& part, const point3& by) const {
-    resident one{number, {}, part.mesh().faces, {}, {}};
+plate::resident plate::at(std::uint32_t number, const prepared_mesh& whose, const turned_part& part,
+                          const point3& by) const {
+    resident one{number, {}, &whose, {}, {}};
     one.part.placed = true;
     one.part.matrix = part.matrix(by);
     one.part.points.reserve(part.mesh().points.size());
@@ -114,15 +140,16 @@ plate::resident plate::at(std::uint32_t number, const turned_part& part, const p
 
 bool plate::inside(const box3& box) const {
     for (std::size_t k = 0; k < 3; ++k) {
-        const double corner = k == 2 ? box.min.z : options_.corner[k];
-        if (box.min[k] < corner || !std::isfinite(box.max[k])) return false;
+        const double corner = k == 2 && !options_.stack ? box.min.z : options_.corner[k];
+        if (box.min[k] < (k == 2 ? corner_.z : corner) || !std::isfinite(box.max[k])) return false;
         if (compare_difference(box.max[k], corner, options_.size[k]) > 0) return false;
     }
     return true;
 }
 
 /// Either the boxes are apart, exactly; or the faces are by what `distance` says less its
-/// error, 2^-49 of a length that is no more than the diagonal of the box around both.
+/// error, 2^-49 of a length that is no more than the diagonal of the box around both, and neither
+/// is inside the other, which takes a box inside the other's box.
 bool plate::apart(const resident& a, const resident& b) {
     const double spacing = options_.spacing;
     if (boxes_apart(a.box, b.box, spacing)) return true;
@@ -135,7 +162,11 @@ bool plate::apart(const resident& a, const resident& b) {
     const double error = 0x1p-48 * diagonal(both);
     const auto found = nearness::closest_points(a.mesh(), a.faces_tree, b.mesh(), b.faces_tree,
                                                 spacing + 2.0 * error);
-    return !found || (found->distance > 0.0 && found->distance - error >= spacing);
+    if (found && !(found->distance > 0.0 && found->distance - error >= spacing)) return false;
+    if (!strictly_within(a.box, b.box) && !strictly_within(b.box, a.box)) return true;
+    return relation_of(shape(*a.whose, a.part.points, a.faces_tree),
+                       shape(*b.whose, b.part.points, b.faces_tree))
+               .relation == mesh_relation::separate;
 }
 
 bool plate::fits(const resident& one) {
@@ -144,12 +175,12 @@ bool plate::fits(const resident& one) {
 }
 
 /// The least distance of the part, moved by `by`, to these; `most` when it is more.
-double plate::distance_to(const std::vector<const resident*>& others, const turned_part& part,
-                          const tree<3>& faces_tree, const point3& by, double most) const {
-    const transformed<3> moved(faces_tree, translation<3>(by));
+double plate::distance_to(const std::vector<const resident*>& others, const turned& part,
+                          const point3& by, double most) const {
+    const transformed<3> moved(part.faces, translation<3>(by));
     for (const resident* r : others) {
         const auto found =
-            nearness::closest_points(part.mesh(), moved, r->mesh(), r->faces_tree, most);
+            nearness::closest_points(part.part.mesh(), moved, r->mesh(), r->faces_tree, most);
         if (found) most = std::min(most, found->distance);
     }
     return most;
@@ -159,16 +190,16 @@ double plate::distance_to(const std::vector<const resident*>& others, const turn
 /// all that is in the way, beyond the spacing, in which it passes nothing. Where it is as near as
 /// it may be to something that it only moves along, so that this step is 0, it goes on from the
 /// nearest place that is free again: by less than its own length, so that it passes no wall either.
-double plate::free_travel(const turned_part& part, const tree<3>& faces_tree, const point3& by,
-                          std::size_t axis) const {
+double plate::free_travel(const turned& part, const point3& by, std::size_t axis) const {
     const double spacing = options_.spacing;
-    const double limit = by[axis] - options_.corner[axis];
+    const point3& size = part.part.size();
+    const double limit = by[axis] - corner_[axis];
     box3 swept;
     for (std::size_t k = 0; k < 3; ++k) {
         swept.min[k] = by[k];
-        swept.max[k] = by[k] + part.size()[k];
+        swept.max[k] = by[k] + size[k];
     }
-    swept.min[axis] = options_.corner[axis];
+    swept.min[axis] = corner_[axis];
     std::vector<const resident*> in_the_way;
     for (const resident& r : residents_)
         if (!boxes_apart(swept, r.box, spacing)) in_the_way.push_back(&r);
@@ -177,14 +208,15 @@ double plate::free_travel(const turned_part& part, const tree<3>& faces_tree, co
     const auto room_at = [&](double t, double most) {
         point3 there = by;
         there[axis] -= t;
-        return distance_to(in_the_way, part, faces_tree, there, most + spacing) - spacing;
+        return distance_to(in_the_way, part, there, most + spacing) - spacing;
     };
-    for (unsigned step = 0; step < 40 && travel < limit; ++step) {
+    for (unsigned step = 0; step < 60 && travel < limit; ++step) {
         double room = std::max(room_at(travel, limit - travel), 0.0);
-        if (room <= 1e-4 * cell_) {
-            room = std::min(0.5 * part.size()[axis], limit - travel);
-            while (room > 0.1 * cell_ && room_at(travel + room, unit_) < -8.0 * unit_) room *= 0.5;
-            if (room <= 0.1 * cell_) break;
+        if (room <= 1e-4 * grid_.cell) {
+            room = std::min(0.5 * size[axis], limit - travel);
+            while (room > 1e-3 * grid_.cell && room_at(travel + room, unit_) < -8.0 * unit_)
+                room *= 0.5;
+            if (room <= 1e-3 * grid_.cell) break;
         }
         travel += room;
     }
@@ -212,56 +244,56 @@ double plate::snapped(double at, std::size_t axis) const {
     return at;
 }
 
-/// Down y and down x, for as long as it brings something.
-void plate::slide(const turned_part& part, const tree<3>& faces_tree, point3& by) {
+/// Down z (when it may be stacked), y and x, for as long as it brings something.
+void plate::slide(const turned& part, point3& by) const {
     for (unsigned round = 0; round < 4; ++round) {
         double moved = 0.0;
-        for (const std::size_t axis : {std::size_t{1}, std::size_t{0}}) {
-            const double travel = free_travel(part, faces_tree, by, axis);
-            by[axis] = travel < by[axis] - options_.corner[axis] ? snapped(by[axis] - travel, axis)
-                                                                 : options_.corner[axis];
+        for (const std::size_t axis : {std::size_t{2}, std::size_t{1}, std::size_t{0}}) {
+            if (axis == 2 && !options_.stack) continue;
+            const double travel = free_travel(part, by, axis);
+            by[axis] = travel < by[axis] - corner_[axis] ? snapped(by[axis] - travel, axis)
+                                                         : corner_[axis];
             moved += travel;
         }
-        if (moved <= 1e-3 * cell_) break;
+        if (moved <= 1e-3 * grid_.cell) break;
     }
 }
 
-bool plate::put(std::uint32_t number, mesh_view mesh, unsigned turn, cell_place place) {
-    const turned_part part(mesh, turn);
-    const point3 raster_place{options_.corner.x + place.column * cell_,
-                              options_.corner.y + place.row * cell_,
-                              not_below(options_.corner.z, options_.precision)};
+bool plate::put(std::uint32_t number, const prepared_mesh& whose, const turned& part,
+                cell_place place) {
+    const point3 raster_place{corner_.x + place.column * grid_.cell,
+                              corner_.y + place.row * grid_.cell,
+                              corner_.z + place.layer * grid_.cell};
     const auto settle = [&](const point3& by) {
-        resident one = this->at(number, part, by);
+        resident one = this->at(number, whose, part.part, by);
         if (!inside(one.box)) return false;
         one.faces_tree = build_face_tree(one.mesh());
         if (!fits(one)) return false;
-        raster_.take(cells_covered(one.mesh(), options_.corner.x, options_.corner.y, cell_));
+        raster_.take(cells_covered(one.mesh(), grid_));
+        for (std::size_t k = 0; k < 3; ++k)
+            reached_[k] = std::max(reached_[k], one.box.max[k] - corner_[k]);
         residents_.push_back(std::move(one));
         return true;
     };
     if (options_.tighten) {
-        const tree<3> faces_tree = build_face_tree(part.mesh());
         point3 tight = raster_place;
-        slide(part, faces_tree, tight);
+        slide(part, tight);
         // What rounding has brought too near is moved away again by units in the last place.
         if (settle(tight)) return true;
         for (double back = unit_; back < 100.0 * unit_; back *= 4.0)
-            for (const auto& [x, y] : {std::pair(back, 0.0), {0.0, back}, {back, back}})
-                if (settle({tight.x + x, tight.y + y, tight.z})) return true;
+            for (unsigned axes = 1; axes < (options_.stack ? 8U : 4U); ++axes) {
+                point3 there = tight;
+                for (std::size_t k = 0; k < 3; ++k)
+                    if ((axes >> k & 1U) != 0) there[k] += back;
+                if (settle(there)) return true;
+            }
     }
     return settle(raster_place);
 }
 
-std::vector<packed_part> plate::take_parts(std::span<const mesh_view> parts) {
-    std::vector<packed_part> result(parts.size());
+void plate::take_parts(std::vector<packed_part>& result) {
     for (resident& r : residents_) result[r.number] = std::move(r.part);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (result[i].placed) continue;
-        result[i].placed = parts[i].faces.empty();
-        result[i].points.assign(parts[i].points.begin(), parts[i].points.end());
-    }
-    return result;
+    residents_.clear();
 }
 
 }  // namespace treeform::detail::place

@@ -19,6 +19,20 @@ def ball_of_lines():
     return points, faces
 
 
+def tube(outer, inner, height, corners=32, low=0.0):
+    """Around the z axis, outward."""
+    points, faces = [], []
+    for i in range(corners):
+        c, s = math.cos(2 * math.pi * i / corners), math.sin(2 * math.pi * i / corners)
+        points += [(outer * c, outer * s, low), (outer * c, outer * s, low + height),
+                   (inner * c, inner * s, low + height), (inner * c, inner * s, low)]
+        j = (i + 1) % corners
+        for k in range(4):
+            l = (k + 1) % 4
+            faces += [(4 * i + k, 4 * j + k, 4 * j + l), (4 * i + k, 4 * j + l, 4 * i + l)]
+    return points, faces
+
+
 def read_stl(data):
     """The points of a binary STL, three a face."""
     count, = struct.unpack_from("<I", data, 80)

@@ -12,6 +12,8 @@ FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in
         "direction": (list, NULL), "travel": (*NUMBER, NULL), "backed_off": (int, NULL),
         "matrix": (list, NULL), "contacts": list, "contact_count": int, "sides": list,
         "chosen": (int, NULL), "corrected": (*NUMBER, NULL), "tolerance": dict, "fit": (dict, NULL),
+        "center_of_mass": (dict, NULL), "turn": (dict, NULL), "features": (dict, NULL),
+        "tries": (int, NULL), "plates": (int, NULL), "density": (*NUMBER, NULL),
         "fits": (bool, NULL), "parts": list, "not_placed": list, "rounding": (dict, NULL), "matrix_file": (str, NULL),
         "output": (dict, NULL), "warnings": list, "exit": int}
 

@@ -235,6 +235,7 @@ class Reports(PlaceTest):
             file.write(xyz_bytes([(1, 1, 5), (2, 1, 5), (1, 2, 7)]))
         self.mesh("post.obj", box((3e8, 3e8, 0), (3e8 + 1000, 3e8 + 1000, 1)))
         self.mesh("fine.stl", ball_of_lines())
+        self.mesh("tube.obj", tube(2, 1, 3))
         fixed = ["--fixed", "floor.obj"]
         for arguments, status in [
                 (["drop", "part.obj", "-o", "on_bed.stl", "--matrix", "m1.txt"], 0),
@@ -253,6 +254,10 @@ class Reports(PlaceTest):
                 (["measure", "nan.obj", "--fixed", "nan.obj"], 0),
                 (["measure", "in.obj", "--fixed", "outer.obj"], 0),
                 (["lay", "part.obj", "-n"], 0),
+                (["lay", "fine.stl", "--stable", "-n"], 0),
+                (["turn", "part.obj", *fixed, "--axis", "1,0,0", "--origin", "0,0,3", "-n"], 0),
+                (["mate", "part.obj", *fixed, "--feature", "plane", "-n"], 0),
+                (["mate", "tube.obj", "--fixed", "tube.obj", "--feature", "axis", "-n"], 0),
                 (["fit", "part.obj", *fixed, "-n"], (0, 1)),
                 (["arrange", "part.obj", "nan.obj", "--size", "9,9", "-o", "plate.stl"], 0),
                 (["arrange", "part.obj", "floor.obj", "--size", "4,3", "-n"], 1)]:

@@ -82,10 +82,10 @@ double bed_of(const place_settings& settings, tf::precision precision, double ab
 // ---- one MOVING after the other ----
 
 tf::placement lay(placing& p, const tf::progress_callback& progress) {
-    tf::lay_flat_options options = p.settings.lay;
+    tf::lay_flat_options options = p.settings.lay.options;
     options.bed = bed_of(p.settings, p.precision);
     options.precision = p.precision;
-    options.tolerance = p.used(p.settings.flatness);
+    options.tolerance = p.used(p.settings.lay.flatness);
     options.progress = progress;
     p.laid = tf::lay_flat(p.moving.shapes[0], options);
     if (p.laid) return p.laid->as_placement();
@@ -100,6 +100,26 @@ tf::placement fit(placing& p, const tf::progress_callback& progress) {
     options.progress = progress;
     p.aligned = tf::align(p.moving.shapes[0], p.fixed.shapes[0], options);
     return p.aligned->as_placement();
+}
+
+tf::placement turn(placing& p, double clearance, const tf::progress_callback& progress) {
+    p.turned = tf::turn(p.moving.shapes[0], p.fixed.shapes, p.settings.turn.axis,
+                        {.clearance = clearance,
+                         .max_angle = p.settings.turn.max_angle,
+                         .precision = p.precision,
+                         .progress = progress});
+    return std::move(p.turned->at);
+}
+
+tf::placement mate(placing& p, double clearance, const tf::progress_callback& progress) {
+    p.mated = mate_by_features(p.settings.feature, p.moving, p.fixed,
+                               {.clearance = clearance,
+                                .flip = p.settings.feature.flip,
+                                .precision = p.precision,
+                                .progress = progress},
+                               p.reason);
+    if (p.mated) return std::move(p.mated->found.at);
+    return {.certificate = {.status = tf::status::no_place}, .end = tf::placement_end::nothing_met};
 }
 
 /// Calls the verb of the mode.
@@ -129,7 +149,10 @@ tf::placement search(placing& p, const tf::progress_callback& progress) {
         case place_mode::slide:
             return tf::slide(mesh, fixed, s.direction.value_or(tf::point3{0.0, 0.0, -1.0}),
                              with(tf::slide_options{}));
+        case place_mode::turn:
+            return turn(p, clearance, progress);
         case place_mode::mate:
+            if (s.feature.kind) return mate(p, clearance, progress);
             return tf::mate(mesh, fixed, with(tf::mate_options{}));
         case place_mode::clear:
             return tf::separate(mesh, fixed, with(tf::separate_options{}));
@@ -164,10 +187,12 @@ void find_place(job& work, placing& p) {
 
 // ---- all on one plate ----
 
-tf::body_set read_all(job& work, const tf::transform<3>& start) {
+tf::body_set read_all(job& work, const place_settings& settings, const tf::transform<3>& start) {
     tf::body_set parts;
     std::uint64_t non_finite = 0;
-    for (const std::string& path : work.options.inputs) {
+    const auto counts = counts_of(settings.arrange, work.options.inputs);
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const std::string& path = work.options.inputs[i];
         json about{{"input", path}};
         tf::mesh_file file = work.read(path, about);
         work.warn(file.warnings, name_of_input(path) + ": ");
@@ -175,14 +200,17 @@ tf::body_set read_all(job& work, const tf::transform<3>& start) {
         if (added.cloud) refuse(added.label + ": is a cloud of points; arrange takes meshes only");
         about["faces"] = added.content.stored_faces;
         non_finite += added.left_out;
-        work.entry["parts"].push_back(std::move(about));
+        for (std::uint64_t copy = 0; copy < counts[i]; ++copy) {
+            if (copy > 0) parts.add(tf::mesh_file(added.content), added.label, added.name);
+            work.entry["parts"].push_back(about);
+        }
     }
     work.entry["skipped"]["non_finite"] = non_finite;
     return parts;
 }
 
 tf::packing find_places(job& work, const tf::body_set& parts, const place_settings& settings) {
-    tf::pack_options options = settings.arrange;
+    tf::pack_options options = pack_options_of(settings.arrange);
     options.precision = precision_of(work, parts);
     options.corner.z = bed_of(settings, options.precision);
     options.progress = work.progress("search");
@@ -197,12 +225,12 @@ void enter_places(job& work, const place_settings& settings, const tf::body_set&
                   const tf::packing& found) {
     json& entry = work.entry;
     const std::uint64_t count = parts.files.size();
-    std::string words = std::to_string(count - found.not_placed.size()) + " of " +
-                        counted(count, "part", "parts") + " placed";
+    std::string words = found.message();
     for (const std::uint32_t i : found.not_placed) {
-        entry["not_placed"].push_back(work.options.inputs[i]);
+        entry["not_placed"].push_back(entry["parts"][i]["input"]);
         words += "; no place for " + parts.files[i].label;
     }
+    entry.update(packing_entry(found));
     entry["fits"] = entry["placed"] = found.not_placed.empty();
     entry["bed"] = {{"given", settings.bed.value_or(0.0)}, {"used", found.bed}, {"reached", true}};
     const std::uint64_t pairs = count * (count - 1) / 2;
@@ -234,7 +262,7 @@ exit_status place_one(job& work, const place_settings& settings, fixed_meshes& f
 
 exit_status arrange_all(job& work, const place_settings& settings) {
     const tf::transform<3> start = read_matrix(settings.start);
-    tf::body_set parts = read_all(work, start);
+    tf::body_set parts = read_all(work, settings, start);
     const tf::packing plate = find_places(work, parts, settings);
     enter_places(work, settings, parts, plate);
     std::vector<placed_body> placed;
@@ -243,8 +271,9 @@ exit_status arrange_all(job& work, const place_settings& settings) {
         const tf::packed_part& at = plate.parts[i];
         const tf::transform<3> matrix = tf::after(at.matrix, start);
         matrix_lines += matrix_text(matrix);
-        work.entry["parts"][i].update(
-            {{"placed", at.placed}, {"matrix", or_null(at.placed, matrix)}});
+        work.entry["parts"][i].update({{"placed", at.placed},
+                                       {"plate", or_null(at.placed, at.plate)},
+                                       {"matrix", or_null(at.placed, matrix)}});
         if (at.placed) placed.push_back({i, at.points, at.matrix, matrix});
     }
     const auto timing = work.time("write");

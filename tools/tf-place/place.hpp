@@ -6,9 +6,10 @@
 #include "tools/common/common_options.hpp"
 #include "tools/common/parse_value.hpp"
 #include "tools/common/run.hpp"
+#include "tools/placing/arrange_options.hpp"
+#include "tools/placing/lay_options.hpp"
+#include "tools/placing/motion_options.hpp"
 #include <treeform/mesh/align.hpp>
-#include <treeform/mesh/lay_flat.hpp>
-#include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/tf.hpp>
 
@@ -20,7 +21,7 @@
 
 namespace tools {
 
-enum class place_mode { drop, lay, slide, mate, clear, measure, arrange, fit };
+enum class place_mode { drop, lay, slide, mate, clear, measure, arrange, fit, turn };
 
 struct place_settings {
     std::string mode_text{};
@@ -35,12 +36,10 @@ struct place_settings {
     bool scene = false;
     tf::align_options fit{};
     std::optional<distance> max_distance{};
-    tf::pack_options arrange{};
-    tf::lay_flat_options lay{};  ///< which side, and the spin
-    bool largest_side = false;
-    /// Flat faces that were turned and rounded, to float32 mostly, are one side of the hull again.
-    distance flatness{.given = "0.0001%", .value = 1e-6, .relative = true};
-
+    arrange_settings arrange{};
+    lay_settings lay{};
+    turn_settings turn{};
+    feature_settings feature{};
     /// Whether the bed stops MOVING: `drop` without fixed meshes, or where --bed is given.
     [[nodiscard]] bool has_bed() const {
         return mode == place_mode::drop && (bed.has_value() || fixed.empty());
@@ -72,6 +71,8 @@ struct placing {
     tf::placement at{};
     std::optional<tf::laid_flat> laid{};
     std::optional<tf::align_result> aligned{};
+    std::optional<tf::turn_result> turned{};
+    std::optional<mating> mated{};
     std::string reason{};       ///< why there is no place, in words
     tf::transform<3> matrix{};  ///< from the file to the place, with --start
 

@@ -18,8 +18,9 @@ constexpr const char* blank_report = R"({
     "reason": null, "status_at_start": null, "status": null, "inside": null, "distance": null,
     "surface_distance": null, "closest": null, "direction": null, "travel": null,
     "backed_off": null, "matrix": null, "contacts": [], "contact_count": null, "sides": [],
-    "chosen": null, "corrected": null, "fit": null, "fits": null,
-    "tolerance": {"given": null, "used": null}, "parts": [], "not_placed": [], "rounding": null,
+    "chosen": null, "corrected": null, "center_of_mass": null, "fit": null, "turn": null,
+    "features": null, "fits": null, "tries": null,
+    "plates": null, "density": null, "tolerance": {"given": null, "used": null}, "parts": [], "not_placed": [], "rounding": null,
     "matrix_file": null, "output": null})";
 
 /// A point of a body: of a mesh on a face, of a cloud a vertex.
@@ -66,12 +67,8 @@ void enter_fit(json& entry, const tf::align_result& fit) {
 }
 
 void enter_lay(json& entry, const placing& p) {
-    for (const tf::hull_side& side : p.laid->sides)
-        entry["sides"].push_back(
-            {{"normal", side.normal}, {"area", side.area}, {"center", side.center}});
-    entry["chosen"] = p.laid->chosen;
-    entry["tolerance"]["used"] = p.used(p.settings.flatness);
-    entry["corrected"] = p.laid->corrected;
+    entry.update(lay_entry(*p.laid));
+    entry["tolerance"]["used"] = p.used(p.settings.lay.flatness);
 }
 
 /// What did not have to be looked at.
@@ -112,6 +109,9 @@ std::string sentence(const placing& p) {
     if (p.settings.mode == place_mode::measure) return relation;
     if (p.aligned) return align_sentence(*p.aligned);
     if (p.laid) return "laid " + p.laid->message() + "; " + relation;
+    if (p.turned && p.turned->angle > 0.0)
+        return "turned by " + brief(p.turned->angle) + " degrees; " + relation;
+    if (p.mated) return "mated; " + relation;
     if (at.travel == 0.0) return "stays where it is; " + relation;
     const bool drops = p.settings.mode == place_mode::drop;
     const char* const moved = drops && at.direction.z > 0.0          ? "lifted by "
@@ -129,7 +129,7 @@ void enter_blank_report(job& work, const place_settings& settings) {
     entry["mode"] = name_of(settings.mode);
     entry["clearance"]["given"] = settings.clearance.given;
     if (settings.max_travel) entry["max_travel"] = settings.max_travel->given;
-    if (settings.mode == place_mode::lay) entry["tolerance"]["given"] = settings.flatness.given;
+    if (settings.mode == place_mode::lay) entry["tolerance"]["given"] = settings.lay.flatness.given;
     if (!settings.matrix.empty()) entry["matrix_file"] = settings.matrix.string();
 }
 
@@ -157,6 +157,8 @@ void enter_place(json& entry, const placing& p) {
         entry["contacts"].push_back(contact_entry(p, c));
     entry["contact_count"] = at.contact_count;
     if (at.nearest) enter_nearest(entry, p, *at.nearest);
+    if (p.turned) entry["turn"] = turn_entry(p.settings.turn, *p.turned);
+    if (p.mated) entry["features"] = mating_entry(*p.mated);
     if (!at) {
         entry["reason"] = p.reason;
         entry["not_placed"].push_back(entry["input"]);

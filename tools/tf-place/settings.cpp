@@ -1,5 +1,6 @@
 #include "tools/common/align_options.hpp"
 #include "tools/common/exit_status.hpp"
+#include "tools/placing/arrange_options.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
 
@@ -11,11 +12,8 @@
 namespace tools {
 namespace {
 
-constexpr std::array<const char*, 8> modes{"drop",  "lay",     "slide",   "mate",
-                                           "clear", "measure", "arrange", "fit"};
-/// By `plate_turns`.
-constexpr std::array<const char*, 4> turns{"none", "90", "45", "any"};
-
+constexpr std::array<const char*, 9> modes{"drop",    "lay",     "slide", "mate", "clear",
+                                           "measure", "arrange", "fit",   "turn"};
 place_mode parse_mode(std::string_view text) {
     if (text == "pack") return place_mode::arrange;
     if (text == "align") return place_mode::fit;
@@ -26,16 +24,6 @@ place_mode parse_mode(std::string_view text) {
     return static_cast<place_mode>(at - modes.begin());
 }
 
-/// "250,210" or "250,210,300", all greater than 0.
-tf::point3 parse_size3(std::string_view text) {
-    const bool flat = std::count(text.begin(), text.end(), ',') < 2;
-    const auto v = parse_numbers("--size", text, flat ? 2 : 3);
-    const tf::point3 size{v[0], v[1], flat ? tf::pack_options{}.size.z : v[2]};
-    if (!(size.x > 0.0 && size.y > 0.0 && size.z > 0.0))
-        refuse("--size " + std::string(text) + ": expected lengths greater than 0");
-    return size;
-}
-
 void add_modes(command_line& line) {
     const std::initializer_list<std::pair<const char*, const char*>> described{
         {"drop",
@@ -43,11 +31,14 @@ void add_modes(command_line& line) {
          "the bed, up to it, if there is no\n--fixed"},
         {"lay", "turn a flat side down, on the bed"},
         {"slide", "translate along --direction until contact (less\n--clearance)"},
-        {"mate", "bring the closest points of MOVING and --fixed\ntogether"},
+        {"mate",
+         "bring the closest points of MOVING and --fixed\n"
+         "together; with --feature, planes or axes"},
+        {"turn", "turn about --axis through --origin until contact"},
         {"clear, separate",
          "out of --fixed, or away from it to --clearance: a\n"
          "short translation, the shortest of many tried"},
-        {"arrange, pack", "put all MOVING on the bed or in a box without overlap"},
+        {"arrange, pack", "put all MOVING on plates, or in a box, without overlap"},
         {"fit, align", "align by ICP from the present position"},
         {"measure", "move nothing; report distance, contact or\npenetration"}};
     line.group("Modes");
@@ -55,32 +46,10 @@ void add_modes(command_line& line) {
 }
 
 void add_options_of_modes(command_line& line, place_settings& s) {
-    line.flag(s.largest_side,
-              {"--largest-face", "", "lay: on the largest side of the convex hull", "this"});
-    line.option({"--face-normal", "X,Y,Z", "lay: on the side whose normal is nearest to this"},
-                [&s](std::string_view text) {
-                    s.lay.choose = tf::lay_choice::nearest_normal;
-                    s.lay.toward = parse_direction("--face-normal", text);
-                });
-    line.option({"--face-point", "X,Y,Z", "lay: on the side that holds this point"},
-                [&s](std::string_view text) {
-                    s.lay.choose = tf::lay_choice::holding_point;
-                    s.lay.toward = parse_point("--face-point", text);
-                });
-    line.option(s.flatness, {"-t, --tolerance", "DIST",
-                             "lay: what is this near to the plane of a side is on\n"
-                             "it, and flat afterwards; 0 = exactly in one plane",
-                             "0.0001%"});
-    line.flag(s.lay.keep_spin, {"--keep-spin", "", "lay: keep the turn about the vertical"});
-    line.option({"--size", "X,Y[,Z]", "arrange: bed or box size"},
-                [&s](std::string_view text) { s.arrange.size = parse_size3(text); });
-    line.option({"--spacing", "DIST", "arrange: between parts", "2"}, [&s](std::string_view text) {
-        const distance spacing = parse_distance("--spacing", text);
-        if (spacing.relative) refuse("--spacing: expected a length");
-        s.arrange.spacing = spacing.value;
-    });
-    line.option(s.arrange.turns, {"--rotate", "SET", "arrange: none | 90 | 45 | any", "90"}, turns);
-    line.option(s.arrange.seed, {"--seed", "N", "arrange: same N, same result", "0"});
+    add_feature_options(line, s.feature);
+    add_turn_options(line, s.turn);
+    add_lay_options(line, s.lay);
+    add_arrange_options(line, s.arrange);
     line.option(s.max_distance, {"--max-distance", "DIST", "fit: ignore pairs further apart"});
     add_align_options(line, s.fit);
 }
@@ -133,19 +102,25 @@ void check_settings(const command_line& line, place_settings& s, common_options&
         return std::count_if(names.begin(), names.end(),
                              [&](const char* name) { return line.given(name); });
     };
-    const auto sides_chosen = given(std::array{"--largest-face", "--face-normal", "--face-point"});
+    const auto sides_chosen = given(side_option_names());
     const bool clearance = s.clearance.value > 0.0, mesh = wants_mesh(o);
     const bool form = o.ascii || o.binary || o.precision != "keep" || !o.output_format.empty();
     const std::initializer_list<std::pair<bool, std::string>> refused{
-        {!is(lay) && sides_chosen + given(std::array{"--tolerance", "--keep-spin"}) > 0,
-         "--largest-face, --face-normal, --face-point, --tolerance and --keep-spin are for lay"},
-        {is(lay) && sides_chosen > 1,
-         "--largest-face, --face-normal and --face-point exclude each other"},
+        {!is(lay) && given(lay_option_names()) > 0, listed(lay_option_names()) + " are for lay"},
+        {is(lay) && sides_chosen > 1, listed(side_option_names()) + " exclude each other"},
+        {!is(turn) && given(turn_option_names()) > 0,
+         listed(turn_option_names()) + " are for turn"},
+        {!is(place_mode::mate) && given(feature_option_names()) > 0,
+         listed(feature_option_names()) + " are for mate"},
+        {!s.feature.kind && given(feature_option_names()) > 0,
+         "--pick, --pick-fixed and --flip need --feature"},
+        {(is(turn) || s.feature.kind) && s.max_travel,
+         "--max-travel: not of a turn, or by features"},
         {is(lay) && !s.fixed.empty(), "--fixed: lay puts MOVING on the bed alone"},
         {is(lay) && clearance, "--clearance: lay puts MOVING on the bed"},
         {is(lay) && s.max_travel, "--max-travel: lay goes to the bed"},
-        {!is(arrange) && given(std::array{"--size", "--spacing", "--rotate", "--seed"}) > 0,
-         "--size, --spacing, --rotate and --seed are for arrange"},
+        {!is(arrange) && given(arrange_option_names()) > 0,
+         listed(arrange_option_names()) + " are for arrange"},
         {!is(fit) && (line.given("--max-distance") || given(align_option_names()) > 0),
          "--max-distance, " + listed(align_option_names()) + " are for fit"},
         {given(std::array{"--overlap", "--trim"}) > 1, "--overlap and --trim say the same"},
@@ -167,6 +142,7 @@ void check_settings(const command_line& line, place_settings& s, common_options&
          "--output-format, --ascii, --binary and --precision need -o, --output-dir or --in-place"}};
     for (const auto& [broken, text] : refused)
         if (broken) refuse(text);
+    if (s.lay.stable) s.lay.options.choose = tf::lay_choice::most_stable;
     if (!is(measure)) require_output(line, o);
 }
 

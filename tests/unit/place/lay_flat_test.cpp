@@ -312,3 +312,117 @@ TEST_CASE("lay flat: what cannot be meant is refused") {
     CHECK_THROWS_WITH_AS(static_cast<void>(tf::lay_flat(box)), doctest::Contains("point 5"),
                          std::invalid_argument);
 }
+
+TEST_CASE("lay flat: a box tips over the nearest edge of the side that it stands on") {
+    const tf::mesh box = test::moved(test::box(6, 4, 2), {100, -20, 3});
+    const auto laid = tf::lay_flat(box, {.choose = lay_choice::most_stable});
+    REQUIRE(laid);
+    CHECK(laid->mass == tf::mass_of::solid);
+    CHECK(distance(laid->center_of_mass, {103, -18, 4}) < 1e-12);
+    REQUIRE(laid->stability.size() == 6);
+    for (std::size_t i = 0; i < 6; ++i) {
+        const double height = 48.0 / laid->sides[i].area;  // the box has a volume of 48
+        const double half = height == 2 ? 2.0 : 1.0;       // of the shorter edge of that side
+        const tf::side_stability& s = laid->stability[i];
+        CHECK(s.height == doctest::Approx(0.5 * height).epsilon(1e-13));
+        CHECK(s.tip_angle ==
+              doctest::Approx(std::atan2(half, 0.5 * height) * 180 / 3.14159265358979)
+                  .epsilon(1e-13));
+        CHECK(s.overhang == 0.0);
+    }
+    CHECK(laid->sides[laid->chosen].area == 24);
+}
+
+TEST_CASE("lay flat: the most stable side need not be the largest, and some do not hold it") {
+    // A flag on a pole with a foot: the largest side of the hull lies under the flag.
+    tf::mesh flag =
+        test::together(test::box(8, 8, 2), test::moved(test::box(1, 1, 30), {0, 3.5, 2}));
+    flag = test::together(flag, test::moved(test::box(20, 1, 6), {1, 3.5, 26}));
+    const auto largest = tf::lay_flat(flag);
+    const auto stable = tf::lay_flat(flag, {.choose = lay_choice::most_stable});
+    REQUIRE(largest);
+    REQUIRE(stable);
+    CHECK(largest->sides == stable->sides);
+    double most = -90.0;
+    bool falls = false;
+    for (const tf::side_stability& s : stable->stability) {
+        most = std::max(most, s.tip_angle);
+        falls = falls || s.tip_angle < 0.0;
+    }
+    CHECK(stable->stability[stable->chosen].tip_angle == most);
+    CHECK(falls);
+    // A heavy foot on a sheet that reaches out: the sheet is larger, and the foot's end firmer.
+    const tf::mesh sign =
+        test::together(test::box(10, 10, 4), test::moved(test::box(60, 0.1, 1), {10, 0, 1.5}));
+    const auto by_area = tf::lay_flat(sign);
+    const auto by_angle = tf::lay_flat(sign, {.choose = lay_choice::most_stable});
+    CHECK(by_area->stability[by_area->chosen].tip_angle <
+          by_angle->stability[by_angle->chosen].tip_angle);
+    check(flag, *stable, {.choose = lay_choice::most_stable});
+    // By its definition: the least tilt over an edge of the side, seen from above after the turn.
+    for (const auto* laid : {&*largest, &*stable}) {
+        const tf::point3 c = laid->matrix(laid->center_of_mass);
+        std::vector<tf::point3> down;
+        for (const std::uint32_t i : laid->on_bed)
+            down.push_back({laid->points[i].x, laid->points[i].y, 0});
+        double least = 1e9;
+        for (const tf::point3& a : down)
+            for (const tf::point3& b : down) {
+                const double x = b.x - a.x, y = b.y - a.y, length = std::hypot(x, y);
+                if (length < 1e-9) continue;
+                const auto left = [&](const tf::point3& p) {
+                    return (x * (p.y - a.y) - y * (p.x - a.x)) / length;
+                };
+                if (std::all_of(down.begin(), down.end(), [&](auto& p) { return left(p) > -1e-9; }))
+                    least = std::min(least, left(c));
+            }
+        CHECK(laid->stability[laid->chosen].tip_angle ==
+              doctest::Approx(std::atan2(least, c.z) * 180 / 3.14159265358979).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("lay flat: the center of mass is of the solid, of the surface, or of the points") {
+    tf::mesh box = test::box(2, 2, 2);
+    box.faces.erase(box.faces.begin() + 2, box.faces.begin() + 4);  // without its top
+    const auto open = tf::lay_flat(box);
+    REQUIRE(open);
+    CHECK(open->mass == tf::mass_of::surface);
+    CHECK(distance(open->center_of_mass, {1, 1, 0.8}) < 1e-14);
+    tf::mesh inside_out = test::box(2, 2, 2);
+    for (auto& [a, b, c] : inside_out.faces) std::swap(a, b);
+    CHECK(tf::lay_flat(inside_out)->mass == tf::mass_of::solid);
+    CHECK(distance(tf::lay_flat(inside_out)->center_of_mass, {1, 1, 1}) < 1e-14);
+    const auto cloud = tf::lay_flat(tf::mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, {}});
+    REQUIRE(cloud);
+    CHECK(cloud->mass == tf::mass_of::points);
+    CHECK(distance(cloud->center_of_mass, {1, 1, 1}) < 1e-14);
+}
+
+TEST_CASE("lay flat: overhang is what looks down by more than the angle and is not on the bed") {
+    // Two feet and a beam over them; under the beam a roof of 45 degrees.
+    const tf::mesh feet =
+        test::together(test::box(1, 5, 3), test::moved(test::box(1, 5, 3), {4, 0, 0}));
+    const tf::mesh table = test::together(feet, test::moved(test::box(9, 5, 1), {-2, 0, 4}));
+    const tf::lay_flat_options down{.choose = lay_choice::nearest_normal, .toward = {0, 0, -1}};
+    const auto laid = tf::lay_flat(table, down);
+    REQUIRE(laid);
+    CHECK(laid->stability[laid->chosen].overhang == 45.0);  // the beam's, all of it
+    tf::mesh wedge;                                         // leans over by 45 degrees
+    wedge.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 1}, {1, 0, 1},
+                    {0, 3, 0}, {1, 3, 0}, {2, 3, 1}, {1, 3, 1}};
+    wedge.faces = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {0, 5, 1}, {0, 4, 5},
+                   {1, 6, 2}, {1, 5, 6}, {2, 7, 3}, {2, 6, 7}, {3, 4, 0}, {3, 7, 4}};
+    tf::lay_flat_options options = down;
+    for (const auto& [angle, area] :
+         {std::pair(44.9, 3 * std::sqrt(2.0)), {45.0, 0.0}, {50.0, 0.0}}) {
+        options.overhang_angle = angle;
+        const auto leaning = tf::lay_flat(wedge, options);
+        CHECK(leaning->stability[leaning->chosen].overhang == doctest::Approx(area));
+    }
+    options.overhang_angle = 91;
+    CHECK_THROWS_AS(static_cast<void>(tf::lay_flat(wedge, options)), std::invalid_argument);
+    options = {.overhang_sides = 1};
+    const auto few = tf::lay_flat(table, options);
+    for (std::size_t i = 0; i < few->sides.size(); ++i)
+        CHECK(std::isnan(few->stability[i].overhang) == (i >= 1 && i != few->chosen));
+}

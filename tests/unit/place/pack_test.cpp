@@ -1,4 +1,5 @@
 #include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/rounding.hpp>
@@ -50,6 +51,44 @@ tf::mesh ring(double outer, double inner, double height, std::uint32_t corners) 
     return mesh;
 }
 
+/// A prism over a polygon that goes around to the left, standing on z = 0; `triangles` cut it.
+tf::mesh prism(const std::vector<std::array<double, 2>>& outline,
+               const std::vector<tf::face>& triangles, double height) {
+    tf::mesh mesh;
+    const auto n = static_cast<std::uint32_t>(outline.size());
+    for (const double z : {0.0, height})
+        for (const auto& [x, y] : outline) mesh.points.push_back({x, y, z});
+    for (const auto& [a, b, c] : triangles)
+        mesh.faces.insert(mesh.faces.end(), {{a, c, b}, {a + n, b + n, c + n}});
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t j = (i + 1) % n;
+        mesh.faces.insert(mesh.faces.end(), {{i, j, j + n}, {i, j + n, i + n}});
+    }
+    return mesh;
+}
+
+/// Three quarters of a square of two `arm`s a side: the upper right one is not there.
+tf::mesh angle_piece(double arm, double height) {
+    return prism({{0, 0}, {2 * arm, 0}, {2 * arm, arm}, {arm, arm}, {arm, 2 * arm}, {0, 2 * arm}},
+                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {3, 4, 5}}, height);
+}
+
+/// An arch over the y axis: 3 `leg`s wide, 2 high.
+tf::mesh arch(double leg, double depth) {
+    tf::mesh mesh =
+        prism({{0, 0},
+               {leg, 0},
+               {leg, leg},
+               {2 * leg, leg},
+               {2 * leg, 0},
+               {3 * leg, 0},
+               {3 * leg, 2 * leg},
+               {0, 2 * leg}},
+              {{0, 1, 2}, {0, 2, 7}, {2, 6, 7}, {2, 3, 6}, {3, 5, 6}, {3, 4, 5}}, depth);
+    for (tf::point3& p : mesh.points) p = {p.x, depth - p.z, p.y};
+    return mesh;
+}
+
 /// What the header says of what `arrange` returns, by looking at all pairs.
 void check(const std::vector<tf::mesh>& parts, const tf::pack_options& o,
            const tf::packing& found) {
@@ -71,14 +110,17 @@ void check(const std::vector<tf::mesh>& parts, const tf::pack_options& o,
             continue;
         }
         const tf::box3 box = *tf::bounding_box(one.points);
-        CHECK(box.min.z == found.bed);
+        if (!o.stack) CHECK(box.min.z == found.bed);
+        CHECK(box.min.z >= found.bed);
+        CHECK(one.plate < found.plates_used);
         CHECK(found.bed >= o.corner.z);
         CHECK(found.bed - o.corner.z <= (single ? 0x1p-23 * std::abs(o.corner.z) : 0.0));
         for (std::size_t k = 0; k < 2; ++k) {
-            CHECK(box.min[k] >= o.corner[k]);
-            CHECK(box.max[k] - o.corner[k] <= o.size[k]);
+            const double corner = o.corner[k] + one.plate * o.plate_step[k];
+            CHECK(box.min[k] >= corner);
+            CHECK(box.max[k] - corner <= o.size[k]);
         }
-        CHECK(box.max.z - box.min.z <= o.size.z);
+        CHECK(box.max.z - (o.stack ? o.corner.z : box.min.z) <= o.size.z);
         double largest = 0.0;
         for (std::size_t v = 0; v < one.points.size(); ++v)
             for (std::size_t k = 0; k < 3; ++k)
@@ -100,9 +142,10 @@ void check(const std::vector<tf::mesh>& parts, const tf::pack_options& o,
             const tf::mesh a{found.parts[i].points, parts[i].faces};
             const tf::mesh b{found.parts[j].points, parts[j].faces};
             const auto nearest = tf::closest_points(a, b);
-            if (!nearest) continue;
+            if (!nearest || found.parts[i].plate != found.parts[j].plate) continue;
             CAPTURE(i);
             CAPTURE(j);
+            CHECK(tf::relation(a, b).relation != tf::mesh_relation::penetrating);
             CHECK(nearest->distance >= o.spacing * (1.0 - 1e-13));
         }
 }
@@ -187,6 +230,139 @@ TEST_CASE("pack: parts stand in the holes of others when they are small enough")
     CHECK(other.not_placed.size() == 1);
 }
 
+TEST_CASE("pack: angle pieces and rings that fit only into each other are placed") {
+    const std::vector<tf::mesh> two(2, angle_piece(10, 5));
+    for (const double spacing : {0.5, 2.0, 4.0}) {
+        CAPTURE(spacing);
+        // One turned around, in the other: side by side they would be 40 + spacing long.
+        const tf::pack_options options{
+            .size = {30 + spacing + 1e-3, 20 + spacing + 1e-3, any_height}, .spacing = spacing};
+        const auto found = tf::pack(views(two), options);
+        check(two, options, found);
+        CHECK(found.not_placed.empty());
+    }
+    std::vector<tf::mesh> rings;
+    for (const double outer : {50.0, 40.0, 30.0, 20.0})
+        rings.push_back(ring(outer, outer - 7.0, 10, 64));
+    const tf::pack_options options{.size = {100.5, 100.5, any_height}, .spacing = 2};
+    const auto found = tf::pack(views(rings), options);
+    check(rings, options, found);
+    CHECK(found.not_placed.empty());
+}
+
+TEST_CASE("pack: stacked boxes fill a box to its height, and not one more") {
+    const std::vector<tf::mesh> parts(28, test::box(20, 20, 20));
+    for (const auto precision : {tf::precision::float64, tf::precision::float32}) {
+        const tf::pack_options options{.size = {64, 64, 64},
+                                       .corner = {-5, 3, 7},
+                                       .stack = true,
+                                       .tries = 2,
+                                       .precision = precision};
+        const auto found = tf::pack(views(parts), options);
+        check(parts, options, found);
+        CHECK(found.not_placed.size() == 1);
+        CHECK(found.tries == 2);
+    }
+    const std::vector<tf::mesh> eight(8, parts[0]);
+    const tf::pack_options flat{.size = {64, 42, 64}};
+    CHECK(tf::pack(views(eight), flat).not_placed.size() == 2);
+    tf::pack_options high = flat;
+    high.stack = true;
+    const auto found = tf::pack(views(eight), high);
+    check(eight, high, found);
+    CHECK(found.not_placed.empty());
+}
+
+TEST_CASE("pack: stacked, a part goes under an arch, into a ring, and into no closed hollow") {
+    const std::vector<tf::mesh> under{arch(10, 10), test::box(7, 9, 7)};
+    const tf::pack_options options{.size = {30.5, 10.5, 20.5}, .spacing = 0.5, .stack = true};
+    const auto found = tf::pack(views(under), options);
+    check(under, options, found);
+    CHECK(found.not_placed.empty());
+
+    const std::vector<tf::mesh> in_ring{ring(20, 15, 30, 32), test::ball(3, 5), test::ball(3, 5)};
+    const tf::pack_options tube{.size = {40, 40, 30}, .spacing = 1, .stack = true};
+    const auto filled = tf::pack(views(in_ring), tube);
+    check(in_ring, tube, filled);
+    CHECK(filled.not_placed.empty());
+
+    tf::mesh hollow = test::ball(3, 19);
+    for (auto& [a, b, c] : hollow.faces) std::swap(a, b);
+    const std::vector<tf::mesh> shell{test::together(test::ball(3, 20), hollow), test::ball(3, 8)};
+    const tf::pack_options around{.size = {40, 40, 40}, .spacing = 1, .stack = true};
+    const auto kept = tf::pack(views(shell), around);
+    check(shell, around, kept);
+    CHECK(kept.not_placed == std::vector<std::uint32_t>{1});
+}
+
+TEST_CASE("pack: stacked parts of all kinds keep the spacing in the coordinates written") {
+    test::random source(5);
+    std::size_t placed = 0;
+    for (int round = 0; round < 5; ++round) {
+        CAPTURE(round);
+        const std::vector<tf::mesh> parts = mixed_parts(source, 8 + source.below(8));
+        tf::pack_options options;
+        options.size = {source.in(30, 50), source.in(30, 50), source.in(15, 40)};
+        options.corner = {source.in(-9, 9), source.in(-9, 9), source.in(-9, 9)};
+        options.spacing = round == 0 ? 0.0 : source.in(0.1, 3.0);
+        options.stack = true;
+        options.tries = 2;
+        options.precision = round % 2 == 1 ? tf::precision::float32 : tf::precision::float64;
+        const auto found = tf::pack(views(parts), options);
+        check(parts, options, found);
+        placed += parts.size() - found.not_placed.size();
+        CHECK(found.density > 0.0);
+        CHECK(found.density <= 1.0);
+    }
+    CHECK(placed > 25);
+}
+
+TEST_CASE("pack: what is too much for a plate goes to the next, as many as there are") {
+    const std::vector<tf::mesh> parts(10, test::box(20, 20, 5));
+    tf::pack_options options{.size = {42, 42, any_height}, .plates = 5, .plate_step = {50, 0, 0}};
+    const auto found = tf::pack(views(parts), options);
+    check(parts, options, found);
+    CHECK(found.not_placed.empty());
+    CHECK(found.plates_used == 3);
+    CHECK(found.tries == 1);
+    std::array<int, 3> count{};
+    for (const tf::packed_part& part : found.parts) ++count.at(part.plate);
+    CHECK(count == std::array{4, 4, 2});
+    CHECK(found.message() == "10 of 10 parts placed on 3 plates");
+    options.plates = 2;
+    options.tries = 3;
+    const auto fewer = tf::pack(views(parts), options);
+    check(parts, options, fewer);
+    CHECK(fewer.not_placed == std::vector<std::uint32_t>{8, 9});
+    CHECK(fewer.message() ==
+          "8 of 10 parts placed on 2 plates; a place for all was not found in 3 tries");
+}
+
+TEST_CASE("pack: more tries place more, and what is said of them holds") {
+    test::random source(7);
+    std::size_t first = 0, all = 0;
+    for (int round = 0; round < 6; ++round) {
+        CAPTURE(round);
+        const std::vector<tf::mesh> parts = mixed_parts(source, 9);
+        tf::pack_options options{.size = {52, 52, any_height}, .spacing = 1, .tries = 1};
+        const auto once = tf::pack(views(parts), options);
+        CHECK(once.tries == 1);
+        options.tries = 40;
+        const auto often = tf::pack(views(parts), options);
+        check(parts, options, often);
+        CHECK(often.not_placed.size() <= once.not_placed.size());
+        if (!often.not_placed.empty()) CHECK(often.tries == 40);
+        first += once.not_placed.size();
+        all += often.not_placed.size();
+        options.seconds = 0.0;
+        const auto hurried = tf::pack(views(parts), options);
+        CHECK(hurried.tries == 1);
+        CHECK(hurried.not_placed == once.not_placed);
+    }
+    MESSAGE("not placed in 1 try ", first, ", in 40 tries ", all);
+    CHECK(all < first);
+}
+
 TEST_CASE("pack: no two parts nearer than the spacing, none off the plate, whatever they are") {
     test::random source(1);
     std::size_t placed = 0, left = 0;
@@ -213,7 +389,8 @@ TEST_CASE("pack: no two parts nearer than the spacing, none off the plate, whate
 TEST_CASE("pack: the same on any number of threads, and in every run") {
     test::random source(2);
     const std::vector<tf::mesh> parts = mixed_parts(source, 6);
-    const tf::pack_options options{.size = {45, 45, any_height}, .turns = plate_turns::any};
+    const tf::pack_options options{
+        .size = {40, 40, any_height}, .turns = plate_turns::any, .tries = 10};
     const auto one = tf::pack(views(parts), options);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
@@ -238,7 +415,11 @@ TEST_CASE("pack: what cannot be meant is refused, and the part is named") {
     refused({.size = {10, 10, 10}, .corner = {nan, 0, 0}});
     refused({.size = {10, 10, 10}, .spacing = -1});
     refused({.size = {10, 10, 10}, .spacing = nan});
-    refused({.size = {10, 10, 10}, .attempts = 0});
+    refused({.size = {10, 10, 10}, .tries = 0});
+    refused({.size = {10, 10, 10}, .plates = 0});
+    refused({.size = {10, 10, 10}, .plates = 2, .plate_step = {nan, 0, 0}});
+    refused({.size = {10, 10, 10}, .seconds = nan});
+    refused({.size = {10, 10, any_height}, .stack = true});
     parts[1].points[3].x = nan;
     CHECK_THROWS_WITH_AS(static_cast<void>(tf::pack(views(parts), {.size = {10, 10, 10}})),
                          doctest::Contains("part 1"), std::invalid_argument);

@@ -24,6 +24,27 @@ enum class lay_choice : std::uint8_t {
     largest,         ///< the side of the largest area
     nearest_normal,  ///< the side whose outward normal makes the least angle with `toward`
     holding_point,   ///< the side nearest to `toward`: the one that contains it, if one does
+    most_stable      ///< the side with the largest tip angle
+};
+
+/// Of what the center of mass is.
+enum class mass_of : std::uint8_t {
+    solid,    ///< what a closed mesh bounds
+    surface,  ///< the faces, where they do not bound a solid: as sheets of equal thickness
+    points    ///< of a mesh without faces
+};
+
+/// How a mesh stands on a side.
+struct side_stability {
+    /// The least tilt, in degrees, that brings the center of mass over an edge of the side: then it
+    /// tips over. 90 where the center is in the plane of the side. Negative where the center is not
+    /// over the side: it tips over by itself.
+    double tip_angle = 0.0;
+    double height = 0.0;  ///< of the center of mass over the plane of the side
+    /// Area of the faces that would need support: that look down more than `overhang_angle` from
+    /// the vertical and are not on the bed. Only known of the first `overhang_sides` sides and the
+    /// chosen one, else NaN.
+    double overhang = 0.0;
 };
 
 /// How to lay a mesh flat.
@@ -37,7 +58,9 @@ struct lay_flat_options {
     /// one plane. That fits models in round numbers. A flat face that was turned and rounded before
     /// then falls into many sides; about 1e-6 of the size joins them again.
     double tolerance = 0.0;
-    double bed = 0.0;                                              ///< z of the bed
+    double bed = 0.0;              ///< z of the bed
+    double overhang_angle = 45.0;  ///< in degrees from the vertical, 0 to 90
+    std::size_t overhang_sides = 32;
     treeform::precision precision = treeform::precision::float64;  ///< of the points returned
     progress_callback progress{};
 };
@@ -52,6 +75,9 @@ struct laid_flat {
     /// The sides of the convex hull before the turn, largest area first. With a tolerance, each is
     /// a side of the hull together with its neighbors within the tolerance of its plane.
     std::vector<hull_side> sides{};
+    std::vector<side_stability> stability{};     ///< of each of `sides`
+    point3 center_of_mass{};                     ///< before the turn, rounded
+    mass_of mass = mass_of::solid;               ///< what that is the center of
     std::size_t chosen = 0;                      ///< number in `sides`
     std::vector<std::uint32_t> on_bed{};         ///< points of that side, ascending
     std::optional<placement_contact> contact{};  ///< the lowest face with the lowest point
@@ -79,9 +105,9 @@ struct laid_flat {
 ///
 /// \throws std::invalid_argument naming a point that is not finite or a face with a corner out of
 ///         range; for a direction that is zero where one is needed; for options not
-///         finite, and a negative tolerance
+///         finite, a negative tolerance, and an overhang angle out of range
 /// \throws std::overflow_error for coordinates too large to be turned
-/// \cost   that of `convex_hull`
+/// \cost   that of `convex_hull`, and O(F) for the center of mass and each side with an overhang
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<laid_flat> lay_flat(mesh_view mesh,
                                                              const lay_flat_options& options = {});

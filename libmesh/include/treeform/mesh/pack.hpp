@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Puts parts side by side on a plate.
+/// Puts parts side by side on plates, or on top of each other in a box.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace treeform {
@@ -24,23 +25,32 @@ enum class plate_turns : std::uint8_t {
     any,      ///< 24, by 15 degrees
 };
 
-/// The plate, and how to fill it.
+/// The plates, and how to fill them.
 struct pack_options {
     /// Length, depth and height of the plate or box. The height may be infinite.
     point3 size{0.0, 0.0, std::numeric_limits<double>::infinity()};
-    point3 corner{};       ///< corner of the plate with the lowest x and y; its z is the bed
+    point3 corner{};       ///< corner of the first plate with the lowest x and y; its z is the bed
     double spacing = 2.0;  ///< least distance of any two parts; parts may touch the plate's rim
     plate_turns turns = plate_turns::quarter;
+    /// Fill the box up to its height: parts also come above, below and inside one another, and hang
+    /// in the air. Otherwise each stands on the bed. The height has to be finite.
+    bool stack = false;
+    unsigned plates = 1;     ///< most plates used; at least 1
+    point3 plate_step{};     ///< from the corner of a plate to that of the next; its z is ignored
     bool tighten = true;     ///< close the gaps that the raster leaves
-    std::uint64_t seed = 0;  ///< for the other orders, tried when not all parts fit in the first
-    unsigned attempts = 4;   ///< number of orders tried; at least 1
+    std::uint64_t seed = 0;  ///< of the orders and turns that are tried when not all parts fit
+    unsigned tries = 32;     ///< at most; at least 1
+    /// No more tries begin after this many seconds. Where that ends the search, the result depends
+    /// on the speed of the machine.
+    double seconds = std::numeric_limits<double>::infinity();
     treeform::precision precision = treeform::precision::float64;  ///< of the points returned
     progress_callback progress{};
 };
 
-/// A part on the plate.
+/// A part on a plate.
 struct packed_part {
     bool placed = false;
+    unsigned plate = 0;  ///< number of its plate, from 0
     /// [V] the new points, as they are to be written; unchanged when the part is not placed.
     std::vector<point3> points{};
     /// new = M * old, a turn about z and a translation; the identity when the part is not placed.
@@ -48,44 +58,60 @@ struct packed_part {
     transform<3> matrix{};
 };
 
-/// A filled plate.
+/// Filled plates.
 struct packing {
     std::vector<packed_part> parts{};         ///< [P] in the order of the input
     std::vector<std::uint32_t> not_placed{};  ///< numbers of parts without a place, ascending
+    unsigned plates_used = 0;
+    unsigned tries = 0;  ///< made
+    /// Share of the plates that the parts on them cover, seen from above, as the raster has it;
+    /// with `stack`, of the boxes that their solids with what they enclose fill.
+    double density = 0.0;
     /// Pairs of parts whose faces were compared, because their boxes are nearer than the spacing.
     std::uint64_t pairs_measured = 0;
-    double bed = 0.0;  ///< z of the lowest point of each placed part, as written
+    double bed = 0.0;  ///< least z of a placed part that stands on the bed, as written
     /// ok: what `pack` promises of the points holds, also where parts have no place. Otherwise
     /// `cancelled`, and the rest is empty.
     treeform::certificate certificate{};
 
     explicit operator bool() const { return static_cast<bool>(certificate); }
+    /// For people: "9 of 9 parts placed", "7 of 9 parts placed; not found in 32 tries".
+    [[nodiscard]] TREEFORM_API std::string message() const;
 };
 
-/// Puts the parts on the plate, each turned about z by one of `turns` and standing on the bed with
-/// its lowest point.
+/// Puts the parts on plates, each turned about z by one of `turns`. Unless they are stacked, each
+/// stands on the bed with its lowest point.
 ///
 /// For the coordinates in `points`, as written:
 /// - The lowest z of a placed part is exactly that of the bed (with float32, the least one not
-///   below it).
+///   below it); of a stacked part, not below it.
 /// - No coordinate is outside the plate or above its height.
-/// - Any two placed parts are at least `spacing` apart, by their exact boxes or by `distance` less
-///   its error. With a spacing of 0, parts may touch only in a plane that separates their boxes.
+/// - Any two placed parts of a plate are at least `spacing` apart, by their exact boxes or by
+///   `distance` less its error, and none is inside another's solid. With a spacing of 0, parts may
+///   touch only in a plane that separates their boxes.
 ///
-/// Parts are not stacked. But a small part may stand in a hole of another, and `tighten` may move a
-/// part below an overhang.
+/// A small part may stand in a hole of another, and `tighten` may move a part below an overhang.
+/// A void that is closed all around stays empty.
 ///
-/// This is a search, and a part that is not placed may have had a place. Parts are taken in the
-/// order of the area that they cover. Each goes to the free place of the least y, then x, on a
-/// raster of about 512 cells a side, and is then moved down y and x until something is in the way.
+/// This is a search, and a part that is not placed may have had a place. In the first try, parts are
+/// taken in the order of the area that they cover (stacked, of their volume). Each goes to the
+/// first plate that has room, there to the free place of the least (z, then) y, then x, on a raster
+/// of about 512 cells a side (stacked, 96), and is then moved down (z,) y and x until something is
+/// in the way. While not all are placed, other orders and turns are tried: at random by the seed,
+/// and with parts that found no place brought forward. With several plates, tries also go on while
+/// more plates are used than the area asks for. The result is the try with the most parts placed,
+/// then with the least area left, then with the fewest plates, then the first.
+///
 /// Parts without faces take no room: they are placed where they are. Points that no face uses move
-/// along with their part and are otherwise ignored.
+/// along with their part and are otherwise ignored. Equal parts are prepared once.
 ///
 /// \throws std::invalid_argument naming the part with a corner out of range or not finite, and
-///         for options that are negative, NaN, or (except for the height) not finite
-/// \cost   for each part and turn a raster, O(F), and a few milliseconds to search a free place;
-///         for the place chosen a tree over the part and some `distance` to each neighbor
-/// \same   on any number of threads
+///         for options that are negative, NaN, or (except for the height and the seconds) not
+///         finite
+/// \cost   for each part and turn a raster, O(F); in each try for each part and turn a few
+///         milliseconds to search a free place, and for the place chosen a tree over the part and
+///         some `distance` to each neighbor. Tries run in parallel
+/// \same   on any number of threads, unless `seconds` ends the search
 [[nodiscard]] TREEFORM_API packing pack(std::span<const mesh_view> parts,
                                         const pack_options& options);
 [[nodiscard]] TREEFORM_API packing pack(std::span<const prepared_mesh> parts,

@@ -45,6 +45,7 @@ enum class placement_end : std::uint8_t {
     starts_touching,     ///< no place: it touches something where it is, and a clearance is asked
     starts_below_bed,    ///< no place: it would have to go up to the bed, past fixed meshes
     no_coordinates,      ///< no place in coordinates that can be written
+    too_many_steps,      ///< not found out, for `turn`: it goes past something very near
     out_of_range,        ///< no place: coordinates are beyond the range of the precision asked for
     cancelled            ///< `progress` asked to stop; the rest means nothing
 };

@@ -1,12 +1,14 @@
 #pragma once
 /// \file
-/// Properties of a mesh: defects, counts of edges and components, whether it is closed, its volume.
+/// Properties of a mesh: defects, counts of edges and components, whether it is closed, its volume;
+/// its flat and cylindrical regions.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -107,5 +109,55 @@ enum class face_order : std::uint8_t { kept, any };
 /// \pre  every corner is a point
 /// \cost O(F), and O(F log F) in any order
 [[nodiscard]] TREEFORM_API bool same_triangles(mesh_view a, mesh_view b, face_order order);
+
+enum class feature_kind : std::uint8_t { plane, axis };
+
+/// A plane or an axis, fitted to faces by least squares.
+struct mesh_feature {
+    feature_kind kind = feature_kind::plane;
+    point3 origin{};         ///< center of the faces, on the plane or the axis
+    point3 direction{};      ///< of length 1: the normal, outward; along the axis, either way
+    double radius = 0.0;     ///< of the cylinder
+    bool hollow = false;     ///< of a cylinder: the faces look at the axis, as those of a hole
+    double area = 0.0;       ///< of the faces
+    double deviation = 0.0;  ///< largest distance of a corner from the plane or cylinder
+    std::vector<std::uint32_t> faces{};  ///< ascending
+};
+
+struct feature_options {
+    /// Largest distance of a corner from the plane or cylinder. Default: 1e-4 of the diagonal.
+    std::optional<double> tolerance{};
+    double plane_angle = 1.0;   ///< in degrees: what faces of a plane may lean
+    double facet_angle = 46.0;  ///< in degrees: the most between faces of a cylinder side by side
+    double arc = 60.0;          ///< in degrees: the least part of a circle that makes an axis
+};
+
+/// The flat or cylindrical regions of `mesh`, largest area first. A region grows over edges, from
+/// the largest face, or pair of faces with an angle between them, that is not yet in one. Points
+/// with equal coordinates have to be one (`join_equal_points`). A cone is none.
+///
+/// \throws std::invalid_argument naming a point that is not finite or a face with a corner out of
+///         range, and for options that are negative or NaN
+/// \cost   O(F log F), times the regions that a face is tried for
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API std::vector<mesh_feature> find_features(
+    mesh_view mesh, feature_kind kind, const feature_options& options = {});
+
+/// The region around one face: it need not be among the largest. None where that is not flat or
+/// cylindrical.
+///
+/// \throws std::invalid_argument as `find_features`, and for a face out of range
+[[nodiscard]] TREEFORM_API std::optional<mesh_feature> feature_at(
+    mesh_view mesh, feature_kind kind, std::uint32_t face, const feature_options& options = {});
+/// That around the face nearest to a point.
+[[nodiscard]] TREEFORM_API std::optional<mesh_feature> feature_at(
+    mesh_view mesh, feature_kind kind, const point3& near, const feature_options& options = {});
+
+/// The plane, or axis, of exactly these faces, whatever their deviation. None where they have no
+/// area, or for an axis, where they are flat.
+///
+/// \throws std::invalid_argument as `find_features`, and for a face out of range
+[[nodiscard]] TREEFORM_API std::optional<mesh_feature> fit_feature(
+    mesh_view mesh, feature_kind kind, std::span<const std::uint32_t> faces);
 
 }  // namespace treeform

@@ -1,10 +1,11 @@
 #pragma once
 /// \file
-/// Moves a mesh against others: slide, drop, mate, separate.
+/// Moves a mesh against others: slide, drop, mate (by nearest points, planes or axes), separate.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -150,5 +151,51 @@ struct separate_options {
                                               const separate_options& options = {});
 [[nodiscard]] TREEFORM_API placement separate(mesh_view moving, mesh_view fixed,
                                               const separate_options& options = {});
+
+struct feature_mate_options {
+    double clearance = 0.0;  ///< the gap to leave, a distance; 0: until contact
+    /// Planes look the same way rather than at each other; axes are turned around.
+    bool flip = false;
+    treeform::precision precision = treeform::precision::float64;  ///< of the points returned
+    std::size_t limit = 1000;                                      ///< contacts listed
+    vertex_identity vertices = vertex_identity::by_coordinates;    ///< as in `relation`
+    progress_callback progress{};
+};
+
+/// Two meshes brought together.
+struct feature_mating {
+    /// `travel` is 0; `matrix` is a turn and a translation.
+    placement at{};
+    double turn_angle = 0.0;  ///< in degrees, of the turn that makes the directions agree
+    /// How far the center of the moving feature ended from that of the fixed one, along the
+    /// direction of the fixed one. Of planes: their distance.
+    double offset = 0.0;
+
+    explicit operator bool() const { return static_cast<bool>(at); }
+};
+
+/// Turns `moving` by the least angle that makes the two features' directions opposite (planes) or
+/// parallel (axes), puts center above center, and slides it from outside along the direction of the
+/// fixed feature until first contact with any of `fixed`, or the clearance, exactly as `slide`
+/// does. Planes come from the side that the fixed one looks to; axes from the side where `moving`
+/// is.
+///
+/// A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
+/// that penetrates nothing and keeps the clearance. The place is looked at exactly, in the
+/// coordinates returned.
+///
+/// \throws std::invalid_argument for features of two kinds, or with a direction that is not of
+///         length 1 or an origin that is not finite, and as `slide`
+/// \cost   that of `slide`, and two trees over `moving`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API feature_mating mate_features(const prepared_mesh& moving,
+                                                        std::span<const prepared_mesh> fixed,
+                                                        const mesh_feature& of_moving,
+                                                        const mesh_feature& of_fixed,
+                                                        const feature_mate_options& options = {});
+[[nodiscard]] TREEFORM_API feature_mating mate_features(mesh_view moving, mesh_view fixed,
+                                                        const mesh_feature& of_moving,
+                                                        const mesh_feature& of_fixed,
+                                                        const feature_mate_options& options = {});
 
 }  // namespace treeform

@@ -1,0 +1,219 @@
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/shape.hpp>
+#include <libmesh/place/turn_motion.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/slide.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace treeform {
+namespace {
+
+using detail::base::cross;
+using detail::base::dot;
+using detail::base::minus;
+using detail::base::plus;
+using detail::base::scaled;
+
+void check(const mesh_feature& a, const mesh_feature& b) {
+    const auto refuse = [](const char* what) {
+        throw std::invalid_argument(std::string("treeform::mate_features: ") + what);
+    };
+    if (a.kind != b.kind) refuse("the features are a plane and an axis");
+    for (const mesh_feature* f : {&a, &b}) {
+        if (!detail::base::is_finite(f->origin)) refuse("the origin of a feature is not finite");
+        if (!(std::abs(dot(f->direction, f->direction) - 1.0) < 1e-6))
+            refuse("the direction of a feature is not of length 1");
+    }
+}
+
+/// The least rotation that turns direction `a` to `b`, and its angle in radians.
+std::pair<transform<3>, double> turn_between(const point3& a, const point3& b) {
+    if (a == b) return {{}, 0.0};
+    const point3 n = cross(a, b);
+    const double sine = std::sqrt(dot(n, n)), cosine = dot(a, b);
+    // Opposite ones: about any line across.
+    point3 axis = n;
+    if (!(sine > 1e-12)) {
+        if (cosine > 0.0 && sine == 0.0) return {{}, 0.0};
+        const point3 other = std::abs(a.x) < 0.6 ? point3{1, 0, 0} : point3{0, 1, 0};
+        if (cosine < 0.0) axis = cross(a, other);
+    }
+    const double angle = std::atan2(sine, cosine);
+    return {detail::place::unit_axis({.origin = {}, .direction = axis}).by(angle), angle};
+}
+
+/// `first`, then what takes the point `from` to `to`.
+transform<3> carried(transform<3> first, const point3& from, const point3& to) {
+    const point3 there = first(from);
+    for (std::size_t k = 0; k < 3; ++k) first.rows[k][3] += to[k] - there[k];
+    return first;
+}
+
+class feature_mover {
+  public:
+    feature_mover(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
+                  const mesh_feature& from, const mesh_feature& to,
+                  const feature_mate_options& options)
+        : moving_(moving),
+          fixed_(fixed),
+          from_(from),
+          to_(to),
+          options_(options),
+          work_(options_.progress) {}
+
+    [[nodiscard]] feature_mating run() {
+        const placement start = measured(moving_, 0.0, 0.1);
+        if (work_.cancelled()) return {.at = start};
+        const bool plane = from_.kind == feature_kind::plane;
+        const bool alike = dot(from_.direction, to_.direction) >= 0.0;
+        const double sign =
+            plane ? (options_.flip ? 1.0 : -1.0) : (alike != options_.flip ? 1.0 : -1.0);
+        const auto [turn, angle] = turn_between(from_.direction, scaled(to_.direction, sign));
+        result_.turn_angle = angle * 180.0 / std::numbers::pi;
+        const transform<3> seat = carried(turn, from_.origin, to_.origin);
+
+        // From where it comes: a plane from before the other, an axis from its own side.
+        const bool before = plane || dot(minus(from_.origin, to_.origin), to_.direction) >= 0.0;
+        const point3 out = scaled(to_.direction, before ? 1.0 : -1.0);
+        const transform<3> away =
+            carried(seat, from_.origin, plus(to_.origin, scaled(out, pulled_out(seat, out))));
+        result_.at = slid(away, out);
+        if (result_.at.end == placement_end::nothing_met && !plane) result_.at = seated(seat);
+        result_.at.at_start = start.at_start;
+        result_.at.travel = 0.0;
+        result_.at.direction = {};
+        if (result_.at)
+            result_.offset = dot(minus(result_.at.matrix(from_.origin), to_.origin), to_.direction);
+        return std::move(result_);
+    }
+
+  private:
+    [[nodiscard]] placement measured(const prepared_mesh& mesh, double begin, double end) {
+        return measure_among(mesh, fixed_,
+                             {.clearance = options_.clearance,
+                              .limit = options_.limit,
+                              .vertices = options_.vertices,
+                              .progress = work_.part(begin, end)});
+    }
+
+    [[nodiscard]] mesh moved(const transform<3>& by) const {
+        const mesh_view here = moving_.view();
+        mesh there{{here.points.begin(), here.points.end()},
+                   {here.faces.begin(), here.faces.end()}};
+        for (point3& p : there.points) {
+            if (by != transform<3>{}) p = by(p);
+            if (options_.precision == precision::float32)
+                for (std::size_t k = 0; k < 3; ++k) p[k] = detail::base::nearest_float(p[k]);
+        }
+        return there;
+    }
+
+    [[nodiscard]] prepared_mesh prepared(mesh&& there) const {
+        return moving_.is_cloud() ? prepared_mesh::cloud(std::move(there.points))
+                                  : prepared_mesh(std::move(there));
+    }
+
+    /// How far to pull the seated mesh out, along `out`, until it is apart from all that is fixed.
+    [[nodiscard]] double pulled_out(const transform<3>& seat, const point3& out) const {
+        double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, size = 0.0;
+        for (const face& f : moving_.view().faces)
+            for (const std::uint32_t i : f) {
+                const double along = dot(seat(moving_.view().points[i]), out);
+                lowest = std::min(lowest, along);
+                size = std::max(size, std::abs(along));
+            }
+        for (const prepared_mesh& one : fixed_)
+            for (const face& f : one.view().faces)
+                for (const std::uint32_t i : f) {
+                    const double along = dot(one.view().points[i], out);
+                    highest = std::max(highest, along);
+                    size = std::max(size, std::abs(along));
+                }
+        const double distance = highest - lowest + 2.0 * options_.clearance + size * 0x1p-10;
+        return std::isfinite(distance) ? std::max(0.0, distance) : 0.0;
+    }
+
+    /// Slid from there against `out`; the move of all of it in `matrix`.
+    [[nodiscard]] placement slid(const transform<3>& from, const point3& out) {
+        const prepared_mesh there = prepared(moved(from));
+        placement at = slide(there, fixed_, scaled(out, -1.0),
+                             {.clearance = options_.clearance,
+                              .precision = options_.precision,
+                              .limit = options_.limit,
+                              .vertices = options_.vertices,
+                              .progress = work_.part(0.1, 0.8)});
+        if (at) {
+            at.matrix = after(at.matrix, from);
+            at.certificate.max_displacement =
+                max_displacement(moving_.view().points, at.matrix, at.points);
+        } else {
+            at.points.assign(moving_.view().points.begin(), moving_.view().points.end());
+        }
+        return at;
+    }
+
+    /// Where the centers agree, if it may be there.
+    [[nodiscard]] placement seated(const transform<3>& seat) {
+        mesh there = moved(seat);
+        std::vector<point3> points = there.points;
+        const prepared_mesh shape = prepared(std::move(there));
+        placement at = measured(shape, 0.8, 1.0);
+        if (work_.cancelled()) return at;
+        const bool near = options_.clearance > 0.0 && at.at_place != standing::clear;
+        at.certificate.precision = options_.precision;
+        if (at.at_place == standing::penetrating || near) {
+            at.end = near ? placement_end::starts_too_near : placement_end::starts_penetrating;
+            at.certificate.status = status::no_place;
+            at.points.assign(moving_.view().points.begin(), moving_.view().points.end());
+            return at;
+        }
+        at.end = placement_end::stays;
+        at.matrix = seat;
+        at.certificate.max_displacement = max_displacement(moving_.view().points, seat, points);
+        at.points = std::move(points);
+        return at;
+    }
+
+    const prepared_mesh& moving_;
+    std::span<const prepared_mesh> fixed_;
+    const mesh_feature& from_;
+    const mesh_feature& to_;
+    feature_mate_options options_;
+    detail::base::work_progress work_;
+    feature_mating result_{};
+};
+
+}  // namespace
+
+feature_mating mate_features(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
+                             const mesh_feature& of_moving, const mesh_feature& of_fixed,
+                             const feature_mate_options& options) {
+    check(of_moving, of_fixed);
+    detail::place::check_operand("mate_features", "moving", moving.view());
+    for (std::size_t i = 0; i < fixed.size(); ++i)
+        detail::place::check_operand("mate_features", "fixed " + std::to_string(i),
+                                     fixed[i].view());
+    if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
+        throw std::invalid_argument(
+            "treeform::mate_features: the clearance is negative or not finite");
+    return feature_mover(moving, fixed, of_moving, of_fixed, options).run();
+}
+
+feature_mating mate_features(mesh_view moving, mesh_view fixed, const mesh_feature& of_moving,
+                             const mesh_feature& of_fixed, const feature_mate_options& options) {
+    const prepared_mesh other = prepared_mesh::borrow(fixed);
+    return mate_features(prepared_mesh::borrow(moving), std::span(&other, 1), of_moving, of_fixed,
+                         options);
+}
+
+}  // namespace treeform

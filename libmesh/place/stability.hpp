@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// How firmly a mesh stands on the sides of its convex hull.
+
+#include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/lay_flat.hpp>
+#include <treeform/mesh/mesh.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::place {
+
+struct mass_center {
+    point3 at{};
+    mass_of what = mass_of::solid;
+};
+
+/// The center of mass; `ids` are the points that count of a mesh without faces. Of a closed mesh it
+/// does not depend on which way the faces look. One that encloses next to nothing, as two sheets
+/// back to back do, counts as its surface.
+///
+/// \pre  what is counted is not empty
+/// \cost O(F); rounded
+[[nodiscard]] mass_center center_of_mass(mesh_view mesh, std::span<const std::uint32_t> ids);
+
+/// Of each side of the hull of `points`; no overhang is known yet.
+[[nodiscard]] std::vector<side_stability> stabilities(points_view points,
+                                                      const convex_hull_result& hull,
+                                                      const point3& center);
+
+/// Area of the faces that look down by more than that, if the side is on the bed, and are not on
+/// it.
+[[nodiscard]] double overhang_of(mesh_view mesh, const hull_side& side, double angle,
+                                 double tolerance);
+
+}  // namespace treeform::detail::place

@@ -1,0 +1,209 @@
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/shape.hpp>
+#include <libmesh/place/surroundings.hpp>
+#include <libmesh/place/turn_motion.hpp>
+#include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace treeform {
+namespace {
+
+using detail::place::search_turn;
+using detail::place::shape;
+using detail::place::turn_search;
+using detail::place::unit_axis;
+
+constexpr double degrees_of_radian = 180.0 / std::numbers::pi;
+constexpr unsigned most_steps_back = 60;
+
+void check(const turn_axis& axis, const turn_options& o) {
+    const auto refuse = [](const char* what) {
+        throw std::invalid_argument(std::string("treeform::turn: ") + what);
+    };
+    if (!detail::base::is_finite(axis.direction) || axis.direction == point3{})
+        refuse("the axis is zero or not finite");
+    if (!detail::base::is_finite(axis.origin)) refuse("the origin of the axis is not finite");
+    if (!(o.clearance >= 0.0) || !std::isfinite(o.clearance))
+        refuse("the clearance is negative or not finite");
+    if (!(o.max_angle > 0.0 && o.max_angle <= 360.0))
+        refuse("the largest angle is not in (0, 360]");
+    if (o.tolerance && !(*o.tolerance > 0.0 && std::isfinite(*o.tolerance)))
+        refuse("the tolerance is not positive or not finite");
+}
+
+class turning {
+  public:
+    turning(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
+            const turn_axis& axis, const turn_options& options)
+        : moving_(moving),
+          fixed_(fixed),
+          axis_(axis),
+          options_(options),
+          work_(options_.progress) {}
+
+    [[nodiscard]] turn_result run() {
+        result_.at = measured(moving_, 0.0, 0.2);
+        if (cancelled() || moving_.view().faces.empty()) return ended(placement_end::nothing_met);
+        const standing start = result_.at.at_place;
+        if (start == standing::penetrating) return ended(placement_end::starts_penetrating);
+        if (start == standing::closer_than_clearance) return ended(placement_end::starts_too_near);
+        if (start == standing::touching && options_.clearance > 0.0)
+            return ended(placement_end::starts_touching);
+        if (start == standing::touching) return settle(0.0, placement_end::stays);
+        return search();
+    }
+
+  private:
+    [[nodiscard]] bool cancelled() const { return work_.cancelled(); }
+
+    [[nodiscard]] placement measured(const prepared_mesh& mesh, double begin, double end) {
+        return measure_among(mesh, fixed_,
+                             {.clearance = options_.clearance,
+                              .limit = options_.limit,
+                              .vertices = options_.vertices,
+                              .progress = work_.part(begin, end)});
+    }
+
+    [[nodiscard]] turn_result search() {
+        const auto ring = detail::place::ring_of(moving_.view(), axis_);
+        result_.tolerance = options_.tolerance.value_or(ring.radius * 0x1p-32);
+        const detail::place::surroundings among(fixed_, options_.vertices);
+        const auto near = among.around(ring.box, options_.clearance);
+        result_.at.statistics.fixed_culled = among.size() - near.parts.size();
+        if (near.parts.empty() || !(ring.radius > 0.0)) return ended(placement_end::nothing_met);
+        turn_search found = search_turn(shape(moving_, options_.vertices), near.parts, axis_,
+                                        {.clearance = options_.clearance,
+                                         .tolerance = result_.tolerance,
+                                         .radius = ring.radius,
+                                         .latest = options_.max_angle / degrees_of_radian,
+                                         .max_steps = options_.max_steps,
+                                         .limit = options_.limit,
+                                         .progress = work_.part(0.2, 0.8)});
+        result_.steps = found.steps;
+        result_.at.statistics.pairs_tested = found.pairs;
+        if (found.end == turn_search::end_of::gave_up) return ended(placement_end::too_many_steps);
+        if (found.end != turn_search::end_of::met) return ended(placement_end::nothing_met);
+        for (placement_contact& c : found.contacts) c.fixed = near.number[c.fixed];
+        contacts_ = std::move(found.contacts);
+        return settle(found.angle, placement_end::contact);
+    }
+
+    [[nodiscard]] std::vector<point3> points_at(const transform<3>& there) const {
+        std::vector<point3> points(moving_.view().points.begin(), moving_.view().points.end());
+        for (point3& p : points) {
+            p = there(p);
+            if (options_.precision == precision::float32)
+                for (std::size_t k = 0; k < 3; ++k) p[k] = detail::base::nearest_float(p[k]);
+        }
+        return points;
+    }
+
+    [[nodiscard]] bool good(const placement& there) const {
+        return there.at_place == standing::clear ||
+               (!(options_.clearance > 0.0) && there.at_place != standing::penetrating &&
+                there.at_place != standing::closer_than_clearance);
+    }
+
+    /// At the angle, or the first before it that is good in coordinates to be written.
+    [[nodiscard]] turn_result settle(double angle, placement_end end) {
+        double unit = 0.0;
+        for (unsigned tries = 0; tries < most_steps_back && !cancelled(); ++tries) {
+            const double at = std::max(0.0, angle - unit);
+            const transform<3> there = axis_.by(at);
+            std::vector<point3> points = points_at(there);
+            if (!detail::base::all_finite(points)) return ended(placement_end::out_of_range);
+            const prepared_mesh written =
+                moving_.is_cloud() ? prepared_mesh::borrow_cloud(points)
+                                   : prepared_mesh::borrow({points, moving_.view().faces});
+            placement now = measured(written, 0.8, 1.0);
+            if (good(now)) {
+                accept(std::move(now), std::move(points), there, at, end);
+                result_.at.statistics.backed_off = tries;
+                return std::move(result_);
+            }
+            if (at == 0.0) break;  // where it came from
+            unit = unit == 0.0 ? unit_of(points) : 2.0 * unit;
+        }
+        return ended(placement_end::no_coordinates);
+    }
+
+    /// The angle that moves the largest coordinate by about a unit in its last place.
+    [[nodiscard]] double unit_of(const std::vector<point3>& points) const {
+        double largest = 0.0, radius = 0.0;
+        for (const point3& p : points) {
+            largest = std::max(largest, detail::base::largest_of(p));
+            radius = std::max(radius, detail::base::largest_of(axis_.across(p)));
+        }
+        const double last = options_.precision == precision::float32 ? 0x1p-24 : 0x1p-53;
+        return radius > 0.0 ? largest * last / radius : last;
+    }
+
+    void accept(placement&& now, std::vector<point3>&& points, const transform<3>& there, double at,
+                placement_end end) {
+        now.at_start = result_.at.at_start;
+        now.statistics = result_.at.statistics;
+        now.end = end;
+        now.matrix = there;
+        now.certificate.precision = options_.precision;
+        now.certificate.max_displacement = max_displacement(moving_.view().points, there, points);
+        now.points = std::move(points);
+        if (now.contacts.empty()) {
+            now.contacts = std::move(contacts_);
+            now.contact_count = now.contacts.size();
+        }
+        result_.at = std::move(now);
+        result_.angle = at * degrees_of_radian;
+    }
+
+    /// No place, or cancelled.
+    [[nodiscard]] turn_result ended(placement_end end) {
+        placement& at = result_.at;
+        at.end = cancelled() ? placement_end::cancelled : end;
+        at.certificate.precision = options_.precision;
+        at.certificate.status = cancelled()                            ? status::cancelled
+                                : end == placement_end::no_coordinates ? status::not_certified
+                                : end == placement_end::out_of_range   ? status::out_of_range
+                                                                       : status::no_place;
+        return std::move(result_);
+    }
+
+    const prepared_mesh& moving_;
+    std::span<const prepared_mesh> fixed_;
+    unit_axis axis_;
+    turn_options options_;
+    detail::base::work_progress work_;
+    std::vector<placement_contact> contacts_;
+    turn_result result_{};
+};
+
+}  // namespace
+
+turn_result turn(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
+                 const turn_axis& axis, const turn_options& options) {
+    check(axis, options);
+    detail::place::check_operand("turn", "moving", moving.view());
+    for (std::size_t i = 0; i < fixed.size(); ++i)
+        detail::place::check_operand("turn", "fixed " + std::to_string(i), fixed[i].view());
+    return turning(moving, fixed, axis, options).run();
+}
+
+turn_result turn(const prepared_mesh& moving, const prepared_mesh& fixed, const turn_axis& axis,
+                 const turn_options& options) {
+    return turn(moving, std::span(&fixed, 1), axis, options);
+}
+
+turn_result turn(mesh_view moving, mesh_view fixed, const turn_axis& axis,
+                 const turn_options& options) {
+    return turn(prepared_mesh::borrow(moving), prepared_mesh::borrow(fixed), axis, options);
+}
+
+}  // namespace treeform

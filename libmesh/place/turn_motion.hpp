@@ -1,0 +1,61 @@
+#pragma once
+/// \file
+/// How far a mesh may turn about an axis before it meets others.
+
+#include <libmesh/place/shape.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
+#include <treeform/tree/transform.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::place {
+
+/// A line, its direction of length 1.
+struct unit_axis {
+    point3 origin;
+    point3 direction;
+
+    /// \pre `axis` is finite and not zero
+    explicit unit_axis(const turn_axis& axis);
+
+    [[nodiscard]] point3 across(const point3& p) const;    ///< from the nearest point of the line
+    [[nodiscard]] point3 velocity(const point3& p) const;  ///< a radian in a unit of time
+    [[nodiscard]] transform<3> by(double radians) const;
+};
+
+/// The box of all that `mesh` reaches in a full turn, and its largest distance from the axis.
+struct swept_ring {
+    box3 box;
+    double radius = 0.0;
+};
+/// \pre `mesh` has faces
+[[nodiscard]] swept_ring ring_of(mesh_view mesh, const unit_axis& axis);
+
+struct turn_search_options {
+    double clearance = 0.0;
+    double tolerance = 0.0;
+    double radius = 0.0;  ///< of `ring_of`
+    double latest = 0.0;  ///< radians
+    std::size_t max_steps = 0;
+    std::size_t limit = 0;
+    progress_callback progress{};
+};
+
+struct turn_search {
+    enum class end_of { met, free, gave_up, cancelled } end = end_of::free;
+    double angle = 0.0;  ///< radians; up to there nothing is met
+    std::uint64_t steps = 0;
+    std::uint64_t pairs = 0;
+    std::vector<placement_contact> contacts{};  ///< `fixed` is the number among `parts`
+};
+
+/// \pre at the start nothing is nearer than the clearance
+[[nodiscard]] turn_search search_turn(const shape& moving, std::span<const shape> parts,
+                                      const unit_axis& axis, const turn_search_options& options);
+
+}  // namespace treeform::detail::place
