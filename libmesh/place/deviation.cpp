@@ -1,4 +1,3 @@
-#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/point_locator.hpp>
@@ -194,7 +193,6 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
     const mesh_view from = a.view(), to = b.view();
     check_deviation(options);
     check_points(from.points);
-    const tree<3>& tree = build_face_tree(b, "deviation: b");
     if (from.points.empty() || to.faces.empty()) return std::nullopt;
     detail::base::work_progress work(options.progress);
     deviation_result r;
@@ -210,7 +208,9 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
     if (r.is_signed) {
         // Distances are within 16 u L of the true ones, L at most 4 times the largest coordinate.
         const double error = 0x1p-44 * std::max(largest_in(from.points), largest_in(to.points));
-        sides = detail::place::sides_in_order(to, tree, found.points, found.distance, error);
+        sides = detail::place::sides_in_order(
+            to, detail::nearness::closest_point_query_of(b).faces_tree(), found.points,
+            found.distance, error);
     }
     if (!work.reach(options.both_ways ? 0.55 : 0.95)) return stopped();
     r.winding_numbers = sides.winding_numbers;

@@ -11,6 +11,7 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/depth.hpp>
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
