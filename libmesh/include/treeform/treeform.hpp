@@ -9,6 +9,7 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/depth.hpp>
@@ -23,6 +24,7 @@
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/point_stream.hpp>
+#include <treeform/mesh/poses.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -35,6 +37,7 @@
 #include <treeform/mesh/solid.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/urdf.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/weld_stream.hpp>
