@@ -1,6 +1,9 @@
 #include <libmesh/attributes/class_colors.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/properties.hpp>
 
 #include <algorithm>
 #include <array>
@@ -15,8 +18,47 @@ namespace {
 
 using row_classes = std::vector<std::uint8_t>;
 
-/// Of none, penetrating, touching, near: gray, red, yellow, cyan.
-constexpr std::array<const char*, 4> colors_of_classes{"#b4bac2", "#e02020", "#ecd000", "#00a0c0"};
+/// Of none, penetrating, touching, near: gray, red, yellow, cyan; then tints of these three.
+constexpr std::array<const char*, 7> colors_of_classes{"#b4bac2", "#e02020", "#ecd000", "#00a0c0",
+                                                       "#ee9a9a", "#f6ec94", "#90d2e2"};
+constexpr std::uint8_t tint = 3;
+
+/// Gives triangles without a class the tint of the nearest with one, within `halo`: as a class
+/// beyond all. That of a triangle is measured from its corners, and its center.
+void add_halo(const mesh& mesh, double halo, row_classes& triangles) {
+    std::vector<std::uint32_t> marked, others;
+    for (std::uint32_t f = 0; f < triangles.size(); ++f)
+        (triangles[f] != 0 ? marked : others).push_back(f);
+    const auto finite = [&](std::uint32_t f) {
+        return detail::base::is_finite(mesh.points[mesh.faces[f][0]]) &&
+               detail::base::is_finite(mesh.points[mesh.faces[f][1]]) &&
+               detail::base::is_finite(mesh.points[mesh.faces[f][2]]);
+    };
+    std::erase_if(marked, [&](std::uint32_t f) { return !finite(f); });
+    std::erase_if(others, [&](std::uint32_t f) { return !finite(f); });
+    if (marked.empty() || others.empty()) return;
+    std::vector<point3> asked;
+    asked.reserve(4 * others.size());
+    for (const std::uint32_t f : others) {
+        const auto [a, b, c] = detail::base::triangle_of(mesh, f);
+        const double third = 1.0 / 3.0;
+        asked.insert(asked.end(), {a,
+                                   b,
+                                   c,
+                                   {third * a.x + third * b.x + third * c.x,
+                                    third * a.y + third * b.y + third * c.y,
+                                    third * a.z + third * b.z + third * c.z}});
+    }
+    const auto near = closest_point(select_faces(mesh, marked), asked, halo);
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        const auto first = near.begin() + static_cast<std::ptrdiff_t>(4 * i);
+        const auto found =
+            std::find_if(first, first + 4, [](const auto& one) { return one.has_value(); });
+        if (found == first + 4) continue;
+        const std::uint8_t one = triangles[marked[(*found)->face]];
+        triangles[others[i]] = static_cast<std::uint8_t>(one + tint);
+    }
+}
 
 /// The gravest class of the triangles of each face as stored.
 row_classes by_stored_face(const mesh_file& file, const row_classes& triangles) {
@@ -72,11 +114,13 @@ void color_contacts(mesh_file& file, std::span<const contact_class> classes,
     if (options.split_polygons && !cloud) split_polygons(file);
     row_classes of_row;
     for (const contact_class c : classes) of_row.push_back(static_cast<std::uint8_t>(c));
-    if (!cloud) of_row = by_stored_face(file, of_row);
     const bool colors = !(options.keep_colors && has_colors(file));
+    if (!cloud && colors && options.halo > 0.0) add_halo(file.mesh, options.halo, of_row);
+    if (!cloud) of_row = by_stored_face(file, of_row);
     element& rows = obtain_element(file.attributes, cloud ? "vertex" : "face", of_row.size());
     if (colors) detail::attribute::set_colors(rows, of_row, colors_of_classes);
-    const std::vector<std::int32_t> numbers(of_row.begin(), of_row.end());
+    std::vector<std::int32_t> numbers;
+    for (const std::uint8_t row : of_row) numbers.push_back(row > tint ? 0 : row);
     set_column(rows, make_column<std::int32_t>("tf_class", numbers));
 }
 
