@@ -35,6 +35,8 @@ void add_link(job& work, const tf::urdf_robot& robot, std::uint32_t link, movabl
         const tf::body_file& file = set.add(work.read(one.file.string(), about), one.file.string());
         about["faces"] = file.content.stored_faces;
         work.warn_of_non_finite(file.left_out, "face", "faces", file.label + ": ");
+        json& left_out = work.entry["skipped"]["non_finite"];
+        left_out = left_out.get<std::uint64_t>() + file.left_out;
         work.entry["inputs"].push_back(std::move(about));
         if (set.shapes.empty()) continue;
         const auto first = static_cast<std::uint32_t>(joined.points.size());
@@ -55,7 +57,11 @@ movable read_robot(job& work, const assembly_settings& settings) {
     for (const std::string& folder : settings.package_folders)
         options.package_folders.emplace_back(folder);
     all.robot = tf::read_urdf(work.path, options);
-    work.entry["inputs"].push_back({{"input", work.path}});
+    work.entry["inputs"].push_back({{"input", work.path},
+                                    {"format", nullptr},
+                                    {"sha256", nullptr},
+                                    {"precision_in", nullptr},
+                                    {"faces", nullptr}});
     for (const std::string& text : all.robot->skipped) work.warn("no-mesh", text);
     for (std::uint32_t link = 0; link < all.robot->links.size(); ++link)
         add_link(work, *all.robot, link, all);
@@ -162,7 +168,7 @@ exit_status check_all(job& work, const assembly_settings& settings) {
          {"parts", nullptr},
          {"clearance", {{"given", settings.clearance.given}, {"used", nullptr}}},
          {"poses", {{"count", nullptr}, {"clashing", nullptr}, {"list", json::array()}}},
-         {"skipped", json::object()},
+         {"skipped", {{"non_finite", 0}, {"pairs_culled_by_box", 0}}},
          {"results", or_null(!settings.results.empty(), settings.results.string())}});
     check_output(settings.results, work.options.force);
     const movable all = read_parts(work, settings);

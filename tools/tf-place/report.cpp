@@ -4,6 +4,7 @@
 #include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
 
+#include <string_view>
 #include <utility>
 
 namespace tools {
@@ -75,7 +76,9 @@ std::string sentence(const placing& p) {
         std::string text = "not placed: " + p.reason;
         if (at.at_place != tf::standing::penetrating || !at.nearest) return text;
         const std::string seen = "penetrating " + p.fixed.label(at.nearest->fixed);
-        return text.insert(std::min(text.find(" where it is"), text.size()),
+        constexpr std::string_view where = " where it is";
+        const std::size_t at_end = std::min(text.find(where), text.size() - where.size());
+        return text.insert(at_end + where.size(),
                            relation.substr(std::min(seen.size(), relation.size())));
     }
     if (p.settings.mode == place_mode::measure) return relation;
