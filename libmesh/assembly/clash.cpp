@@ -7,8 +7,8 @@
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/clash.hpp>
-#include <treeform/mesh/depth.hpp>
 #include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/measure.hpp>
 
 #include <algorithm>
 #include <atomic>

@@ -2,7 +2,8 @@
 #include <libmesh/assembly/part_boxes.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/shape.hpp>
-#include <treeform/mesh/poses.hpp>
+#include <treeform/mesh/clash.hpp>
+#include <treeform/mesh/distance.hpp>
 
 #include <algorithm>
 #include <atomic>

@@ -1,6 +1,6 @@
 #include <libmesh/io/number.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/urdf.hpp>
+#include <treeform/mesh/read.hpp>
 
 #include <pugixml.hpp>
 
@@ -252,10 +252,21 @@ transform<3> motion_of(const urdf_joint& joint, double value) {
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 2>> urdf_robot::adjacent() const {
+    std::vector<bool> has_mesh(links.size());
+    for (const urdf_mesh& mesh : meshes) has_mesh[mesh.link] = true;
+    // The link above each that has a mesh; parents come ahead of their children.
+    std::vector<std::optional<std::uint32_t>> above(links.size());
     std::vector<std::array<std::uint32_t, 2>> pairs;
-    for (const urdf_joint& joint : joints)
-        pairs.push_back({std::min(joint.parent, joint.child), std::max(joint.parent, joint.child)});
+    const auto add = [&](std::uint32_t a, std::uint32_t b) {
+        pairs.push_back({std::min(a, b), std::max(a, b)});
+    };
+    for (const urdf_joint& joint : joints) {
+        add(joint.parent, joint.child);
+        above[joint.child] = has_mesh[joint.parent] ? joint.parent : above[joint.parent];
+        if (above[joint.child] && has_mesh[joint.child]) add(*above[joint.child], joint.child);
+    }
     std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
 

@@ -2,7 +2,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/place/point_sides.hpp>
-#include <treeform/mesh/depth.hpp>
+#include <treeform/mesh/measure.hpp>
 #include <treeform/tree/detail/morton_order.hpp>
 
 #include <algorithm>

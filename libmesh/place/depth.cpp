@@ -6,7 +6,7 @@
 #include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/shape.hpp>
-#include <treeform/mesh/depth.hpp>
+#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/time_of_impact.hpp>

@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 HEADER_LINES = 250    # of a public header
-PUBLIC_HEADERS = 60
+PUBLIC_HEADERS = 62
 FILE_LINES = 500
 FUNCTION_LINES = 60   # from the opening brace to the closing one
 TOOL_LINES = 900      # of C++ in the folder of a tool: what more it needs belongs in the library

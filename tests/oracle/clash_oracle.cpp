@@ -5,10 +5,8 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/poses.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
-#include <treeform/mesh/urdf.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/AABB_traits.h>

@@ -4,8 +4,8 @@
 #include "tools/common/mesh_output.hpp"
 #include "tools/common/output_file.hpp"
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/poses.hpp>
-#include <treeform/mesh/urdf.hpp>
+#include <treeform/mesh/clash.hpp>
+#include <treeform/mesh/read.hpp>
 
 #include <algorithm>
 #include <utility>

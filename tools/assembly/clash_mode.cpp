@@ -13,15 +13,22 @@ namespace {
 using tf::standing;
 
 constexpr std::size_t most_lines = 20;
+constexpr std::size_t most_faces = 1000;  // listed of a region and part
+
+/// The first of them, as numbers in the file.
+json faces_entry(const tf::body_set& set, std::size_t body,
+                 const std::vector<std::uint32_t>& faces) {
+    json listed = json::array();
+    for (std::size_t i = 0; i < std::min(faces.size(), most_faces); ++i)
+        listed.push_back(set.stored_face(body, faces[i]));
+    return listed;
+}
 
 json regions_entry(const named_assembly& all, const tf::part_clash& one) {
     json regions = json::array();
     for (const tf::contact_region& region : one.regions) {
-        json faces_a = json::array(), faces_b = json::array();
-        for (const std::uint32_t f : region.faces_a)
-            faces_a.push_back(all.set.stored_face(one.a, f));
-        for (const std::uint32_t f : region.faces_b)
-            faces_b.push_back(all.set.stored_face(one.b, f));
+        const json faces_a = faces_entry(all.set, one.a, region.faces_a);
+        const json faces_b = faces_entry(all.set, one.b, region.faces_b);
         regions.push_back({{"box", region.box},
                            {"face_pairs", region.face_pairs},
                            {"faces_a", faces_a},

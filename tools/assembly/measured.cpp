@@ -3,8 +3,8 @@
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
 #include "tools/common/parse_value.hpp"
-#include <treeform/mesh/depth.hpp>
 #include <treeform/mesh/deviation.hpp>
+#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/write.hpp>
 
 #include <algorithm>

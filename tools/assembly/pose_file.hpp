@@ -2,7 +2,7 @@
 /// \file
 /// Files of poses: JSON lines, plain matrices, reports of tf-place.
 
-#include <treeform/mesh/urdf.hpp>
+#include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 
 #include <cstddef>

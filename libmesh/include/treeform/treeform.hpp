@@ -12,7 +12,6 @@
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/curves.hpp>
-#include <treeform/mesh/depth.hpp>
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -24,7 +23,6 @@
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/point_stream.hpp>
-#include <treeform/mesh/poses.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -37,7 +35,6 @@
 #include <treeform/mesh/solid.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/mesh/triangle.hpp>
-#include <treeform/mesh/urdf.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/weld_stream.hpp>

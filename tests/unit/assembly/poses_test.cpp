@@ -1,4 +1,5 @@
-#include <treeform/mesh/poses.hpp>
+#include <treeform/mesh/clash.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>

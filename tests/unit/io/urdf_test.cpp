@@ -1,5 +1,5 @@
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/urdf.hpp>
+#include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -149,6 +149,23 @@ TEST_CASE("urdf: meshes are found beside the file, in packages, and where it is 
     CHECK(r.skipped == std::vector<std::string>{"link a: a sphere is no mesh"});
     options.visual = true;
     CHECK(tf::read_urdf(folder.write(with("meshes/a.stl")), options).meshes.empty());
+}
+
+TEST_CASE("urdf: links are adjacent across links without meshes") {
+    const scratch folder;
+    const auto link = [](const std::string& name, bool mesh) {
+        return "<link name=\"" + name + "\">" +
+               (mesh ? "<collision><geometry><mesh "
+                       "filename=\"meshes/a.stl\"/></geometry></collision>"
+                     : "") +
+               "</link>";
+    };
+    const auto r = tf::read_urdf(
+        folder.write(robot(link("a", true) + link("b", false) + link("c", true) + link("d", true) +
+                           joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "c") +
+                           joint("l", "continuous", "c", "d"))));
+    using pairs = std::vector<std::array<std::uint32_t, 2>>;
+    CHECK(r.adjacent() == pairs{{0, 1}, {0, 2}, {1, 2}, {2, 3}});
 }
 
 TEST_CASE("urdf: what is wrong is named") {

@@ -1,4 +1,4 @@
-#include <treeform/mesh/depth.hpp>
+#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
