@@ -23,41 +23,25 @@ constexpr std::array<const char*, 7> colors_of_classes{"#b4bac2", "#e02020", "#e
                                                        "#ee9a9a", "#f6ec94", "#90d2e2"};
 constexpr std::uint8_t tint = 3;
 
-/// Gives triangles without a class the tint of the nearest with one, within `halo`: as a class
-/// beyond all. That of a triangle is measured from its corners, and its center.
+/// Gives triangles without a class whose corners are all within `halo` of triangles with one the
+/// tint of what is nearest to the first: as a class beyond all.
 void add_halo(const mesh& mesh, double halo, row_classes& triangles) {
     std::vector<std::uint32_t> marked, others;
-    for (std::uint32_t f = 0; f < triangles.size(); ++f)
-        (triangles[f] != 0 ? marked : others).push_back(f);
-    const auto finite = [&](std::uint32_t f) {
-        return detail::base::is_finite(mesh.points[mesh.faces[f][0]]) &&
-               detail::base::is_finite(mesh.points[mesh.faces[f][1]]) &&
-               detail::base::is_finite(mesh.points[mesh.faces[f][2]]);
-    };
-    std::erase_if(marked, [&](std::uint32_t f) { return !finite(f); });
-    std::erase_if(others, [&](std::uint32_t f) { return !finite(f); });
+    for (std::uint32_t f = 0; f < triangles.size(); ++f) {
+        const auto corners = detail::base::triangle_of(mesh, f);
+        if (std::all_of(corners.begin(), corners.end(), detail::base::is_finite))
+            (triangles[f] != 0 ? marked : others).push_back(f);
+    }
     if (marked.empty() || others.empty()) return;
     std::vector<point3> asked;
-    asked.reserve(4 * others.size());
-    for (const std::uint32_t f : others) {
-        const auto [a, b, c] = detail::base::triangle_of(mesh, f);
-        const double third = 1.0 / 3.0;
-        asked.insert(asked.end(), {a,
-                                   b,
-                                   c,
-                                   {third * a.x + third * b.x + third * c.x,
-                                    third * a.y + third * b.y + third * c.y,
-                                    third * a.z + third * b.z + third * c.z}});
-    }
+    asked.reserve(3 * others.size());
+    for (const std::uint32_t f : others)
+        for (const point3& corner : detail::base::triangle_of(mesh, f)) asked.push_back(corner);
     const auto near = closest_point(select_faces(mesh, marked), asked, halo);
-    for (std::size_t i = 0; i < others.size(); ++i) {
-        const auto first = near.begin() + static_cast<std::ptrdiff_t>(4 * i);
-        const auto found =
-            std::find_if(first, first + 4, [](const auto& one) { return one.has_value(); });
-        if (found == first + 4) continue;
-        const std::uint8_t one = triangles[marked[(*found)->face]];
-        triangles[others[i]] = static_cast<std::uint8_t>(one + tint);
-    }
+    for (std::size_t i = 0; i < others.size(); ++i)
+        if (near[3 * i] && near[3 * i + 1] && near[3 * i + 2])
+            triangles[others[i]] =
+                static_cast<std::uint8_t>(triangles[marked[near[3 * i]->face]] + tint);
 }
 
 /// The gravest class of the triangles of each face as stored.

@@ -13,6 +13,7 @@ FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in
         "matrix": (list, NULL), "contacts": list, "contact_count": int, "sides": list,
         "chosen": (int, NULL), "corrected": (*NUMBER, NULL), "tolerance": dict, "fit": (dict, NULL),
         "fits": (bool, NULL), "parts": list, "not_placed": list, "rounding": (dict, NULL), "matrix_file": (str, NULL),
+        "depth": (dict, NULL), "points": (dict, NULL), "deviation": (dict, NULL),
         "output": (dict, NULL), "warnings": list, "exit": int}
 
 

@@ -129,7 +129,7 @@ void write_picture(job& work, const named_assembly& all, const tf::clash_result&
         const tf::contact_classes classes{{}, classes_of(all, r)};
         const tf::box3 box = tf::bounding_box(file.mesh.points).value_or(tf::box3{});
         tf::color_contacts(file, tf::classes_in_files(classes, {}, all.set),
-                           {.split_polygons = true, .halo = 0.005 * tf::diagonal(box)});
+                           {.split_polygons = true, .halo = 0.02 * tf::diagonal(box)});
     }
     std::vector<const tf::mesh_file*> inputs;
     for (const tf::body_file& one : all.set.files) inputs.push_back(&one.content);

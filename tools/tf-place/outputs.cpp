@@ -73,8 +73,7 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
                   : tf::classes_in_files(classes, moving),
             {.split_polygons = picture && !scene,
              .keep_colors = !picture && !scene,
-             .halo =
-                 0.005 * tf::diagonal(tf::bounding_box(file.mesh.points).value_or(tf::box3{}))});
+             .halo = 0.02 * tf::diagonal(tf::bounding_box(file.mesh.points).value_or(tf::box3{}))});
     }
     const auto written =
         write_mesh(work, file, {.format = form.format, .ascii = form.ascii, .precision = precision},

@@ -94,7 +94,7 @@ struct deviation_result {
 /// \throws std::invalid_argument for a point of `a` that is not finite, a face of `b` as
 ///         `closest_point`, a band that is NaN or the wrong way round, or more bins than 2^20
 /// \cost   `closest_point` for each point, in an order of space; and for signs a winding number for
-///         one point in 256, and the faces between neighbors for the others
+///         one point in 1024, and the faces between neighbors for the others
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<deviation_result> deviation(
     const prepared_mesh& a, const prepared_mesh& b, const deviation_options& options = {});
