@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -23,14 +25,24 @@ constexpr std::array<const char*, 7> colors_of_classes{"#b4bac2", "#e02020", "#e
                                                        "#ee9a9a", "#f6ec94", "#90d2e2"};
 constexpr std::uint8_t tint = 3;
 
-/// Gives triangles without a class whose corners are all within `halo` of triangles with one the
-/// tint of what is nearest to the first: as a class beyond all.
+/// Whether no edge is longer than this, which a NaN is.
+bool is_small(const std::array<point3, 3>& t, double longest) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const point3 edge = detail::base::minus(t[(i + 1) % 3], t[i]);
+        if (!(std::hypot(edge.x, edge.y, edge.z) <= longest)) return false;
+    }
+    return true;
+}
+
+/// Gives small triangles without a class whose corners are all within `halo` of triangles with one
+/// the tint of what is nearest to the first: as a class beyond all.
 void add_halo(const mesh& mesh, double halo, row_classes& triangles) {
     std::vector<std::uint32_t> marked, others;
     for (std::uint32_t f = 0; f < triangles.size(); ++f) {
-        const auto corners = detail::base::triangle_of(mesh, f);
-        if (std::all_of(corners.begin(), corners.end(), detail::base::is_finite))
-            (triangles[f] != 0 ? marked : others).push_back(f);
+        const bool classed = triangles[f] != 0;
+        const double longest = classed ? std::numeric_limits<double>::max() : 2.0 * halo;
+        if (is_small(detail::base::triangle_of(mesh, f), longest))
+            (classed ? marked : others).push_back(f);
     }
     if (marked.empty() || others.empty()) return;
     std::vector<point3> asked;

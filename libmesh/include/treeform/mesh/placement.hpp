@@ -220,8 +220,8 @@ struct contact_color_options {
     /// the worst class of their triangles.
     bool split_polygons = false;
     bool keep_colors = false;  ///< keep the colors that the file has
-    /// Faces all of whose corners are within this length of faces with a class have a tint of their
-    /// color, so that contacts of a few small faces are seen. Their class stays none.
+    /// Faces with no edge longer than twice this length, and all corners within it of faces with a
+    /// class, have a tint of that: contacts of a few small faces are seen. Their class stays none.
     double halo = 0.0;
 };
 
