@@ -236,14 +236,14 @@ TEST_CASE("bodies: what is around a contact has a tint, but no class") {
         tf::color_contacts(colored, classes, {.halo = halo});
         const tf::element* const rows = tf::find_element(colored.attributes, "face");
         REQUIRE(rows != nullptr);
-        std::size_t yellow = 0, classed = 0;
+        std::size_t tinted = 0, classed = 0;
         for (std::size_t f = 0; f < classes.size(); ++f) {
-            yellow += tf::number_at(*tf::find_column(*rows, "blue"), f) <
+            tinted += tf::number_at(*tf::find_column(*rows, "blue"), f) <
                       tf::number_at(*tf::find_column(*rows, "red"), f);
             classed += tf::number_at(*tf::find_column(*rows, "tf_class"), f) != 0.0;
         }
         CHECK(classed == 1);
-        return yellow;
+        return tinted;
     };
     CHECK(yellow(0.0) == 1);
     CHECK(yellow(0.2) > 8);
