@@ -1,11 +1,16 @@
 #include <libmesh/attributes/class_colors.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/properties.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -15,8 +20,41 @@ namespace {
 
 using row_classes = std::vector<std::uint8_t>;
 
-/// Of none, penetrating, touching, near: gray, red, yellow, cyan.
-constexpr std::array<const char*, 4> colors_of_classes{"#b4bac2", "#e02020", "#ecd000", "#00a0c0"};
+/// Of none, penetrating, touching, near: gray, red, yellow, cyan; then tints of these three.
+constexpr std::array<const char*, 7> colors_of_classes{"#b4bac2", "#e02020", "#ecd000", "#00a0c0",
+                                                       "#ee9a9a", "#f6ec94", "#90d2e2"};
+constexpr std::uint8_t tint = 3;
+
+/// Whether no edge is longer than this, which a NaN is.
+bool is_small(const std::array<point3, 3>& t, double longest) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const point3 edge = detail::base::minus(t[(i + 1) % 3], t[i]);
+        if (!(std::hypot(edge.x, edge.y, edge.z) <= longest)) return false;
+    }
+    return true;
+}
+
+/// Gives small triangles without a class whose corners are all within `halo` of triangles with one
+/// the tint of what is nearest to the first: as a class beyond all.
+void add_halo(const mesh& mesh, double halo, row_classes& triangles) {
+    std::vector<std::uint32_t> marked, others;
+    for (std::uint32_t f = 0; f < triangles.size(); ++f) {
+        const bool classed = triangles[f] != 0;
+        const double longest = classed ? std::numeric_limits<double>::max() : 2.0 * halo;
+        if (is_small(detail::base::triangle_of(mesh, f), longest))
+            (classed ? marked : others).push_back(f);
+    }
+    if (marked.empty() || others.empty()) return;
+    std::vector<point3> asked;
+    asked.reserve(3 * others.size());
+    for (const std::uint32_t f : others)
+        for (const point3& corner : detail::base::triangle_of(mesh, f)) asked.push_back(corner);
+    const auto near = closest_point(select_faces(mesh, marked), asked, halo);
+    for (std::size_t i = 0; i < others.size(); ++i)
+        if (near[3 * i] && near[3 * i + 1] && near[3 * i + 2])
+            triangles[others[i]] =
+                static_cast<std::uint8_t>(triangles[marked[near[3 * i]->face]] + tint);
+}
 
 /// The gravest class of the triangles of each face as stored.
 row_classes by_stored_face(const mesh_file& file, const row_classes& triangles) {
@@ -72,11 +110,13 @@ void color_contacts(mesh_file& file, std::span<const contact_class> classes,
     if (options.split_polygons && !cloud) split_polygons(file);
     row_classes of_row;
     for (const contact_class c : classes) of_row.push_back(static_cast<std::uint8_t>(c));
-    if (!cloud) of_row = by_stored_face(file, of_row);
     const bool colors = !(options.keep_colors && has_colors(file));
+    if (!cloud && colors && options.halo > 0.0) add_halo(file.mesh, options.halo, of_row);
+    if (!cloud) of_row = by_stored_face(file, of_row);
     element& rows = obtain_element(file.attributes, cloud ? "vertex" : "face", of_row.size());
     if (colors) detail::attribute::set_colors(rows, of_row, colors_of_classes);
-    const std::vector<std::int32_t> numbers(of_row.begin(), of_row.end());
+    std::vector<std::int32_t> numbers;
+    for (const std::uint8_t row : of_row) numbers.push_back(row > tint ? 0 : row);
     set_column(rows, make_column<std::int32_t>("tf_class", numbers));
 }
 

@@ -34,8 +34,9 @@ std::string meeting_in_words(const placement& at, const body_set& moving, const 
     const nearest_fixed& near = *at.nearest;
     std::string text = name_of(at.at_place) + (" " + fixed.label(near.fixed));
     const mesh_relation_result& how = near.how.relation;
-    if (how.a_inside_b) return text + ", inside it";
-    if (how.b_inside_a) return text + ", which is inside";
+    // Of a cloud it says only that some of the points are.
+    if (how.a_inside_b) return text + (moving.file_of(0).cloud ? "" : ", inside it");
+    if (how.b_inside_a) return text + (fixed.file_of(near.fixed).cloud ? "" : ", which is inside");
     if (at.contacts.empty() || !at.contacts[0].fixed_face) return text;
     const placement_contact& first = at.contacts[0];
     const bool cloud = moving.file_of(0).cloud, to_cloud = fixed.file_of(first.fixed).cloud;

@@ -64,14 +64,19 @@ class Documents(ToolTest):
 
     def test_every_option_shown_is_one(self):
         help_of = {name: self.run_line(f"tf-{name} --help").stdout for name in TOOLS}
+        own_help = {mode: self.run_line(f"tf-place {mode} --help").stdout
+                    for mode in ("clash", "check")}
         texts = {document: lines_of(document) for document in DOCUMENTS}
         for name, text in help_of.items():
             texts["help of tf-" + name] = text[text.index("Examples:"):].splitlines()
+        for mode, text in own_help.items():
+            texts["help of tf-place " + mode] = text[text.index("Examples:"):].splitlines()
         count = 0
         for where, lines in texts.items():
             for words in commands_in(lines):
                 self.assertIn(words[0][3:], help_of, msg=where)
-                options = re.findall(r"(?<!\S)--?[a-z][a-z-]*", help_of[words[0][3:]])
+                text = own_help.get(words[1], help_of[words[0][3:]])
+                options = re.findall(r"(?<!\S)--?[a-z][a-z-]*", text)
                 for word in words[1:]:
                     if re.match(r"--?[a-z]", word):
                         count += 1

@@ -29,7 +29,9 @@ class Clouds(PlaceTest):
             self.cloud("one.xyz", (9, 9, 9), (2, 3, z))
             entry = self.entry("measure", "one.xyz", "--fixed", "floor.obj", status=0)
             self.assertEqual(entry["status"], status)
-            self.assertEqual(entry["inside"], None if status != "penetrating" else "moving")
+            self.assertIsNone(entry["inside"])
+            self.assertEqual(entry["points"]["inside"], 1 if status == "penetrating" else 0)
+            self.assertEqual(entry["points"]["on"], 1 if status == "touching" else 0)
         entry = self.entry("measure", "cloud.xyz", "--fixed", "floor.obj", "--clearance", "2")
         self.assertEqual(entry["status"], "closer-than-clearance")
 

@@ -10,6 +10,9 @@ PAGE = os.path.join(HOME, "tools", "REPORTS.md")
 NAMES = {"tf-selfintersect": TOOL, "tf-boolean": BOOLEAN, "tf-place": PLACE, "tf-repair": MEND,
          "tf-weld": WELD}
 
+# Modes whose entries have keys of their own.
+OWN_MODES = ["tf-place clash", "tf-place check"]
+
 # What rounding breaks is mended: no small mesh is known of which faces still meet then.
 NOT_SEEN = {("tf-selfintersect", "repair.meeting[].faces"),
             ("tf-selfintersect", "repair.meeting[].near"),
@@ -102,7 +105,7 @@ class Reports(PlaceTest):
         cls.sections = sections = page_sections()
         cls.head = keys_of(sections["Head"])
         cls.common = keys_of(sections["Every entry"])
-        cls.own = {tool: keys_of(sections[tool]) for tool in NAMES}
+        cls.own = {tool: keys_of(sections[tool]) for tool in [*NAMES, *OWN_MODES]}
         cls.codes = {kind: set(re.findall(r"`([a-z-]+)`", "".join(sections[kind])))
                      for kind in ("Errors", "Warnings")}
 
@@ -145,7 +148,8 @@ class Reports(PlaceTest):
                           False)
         self.assertLessEqual({k for k in self.head if "." not in k}, set(report), msg=where)
         self.head["files"].seen.add("list of objects")
-        keys = {**self.common, **self.own[tool]}
+        mode = " ".join([tool, *report["command"][1:2]])
+        keys = {**self.common, **self.own[mode if mode in OWN_MODES else tool]}
         for entry in report["files"]:
             self.look_at_keys(keys, entry, "", where, entry["error"] is None)
             if entry["error"]:
@@ -253,6 +257,8 @@ class Reports(PlaceTest):
                 (["measure", "cloud.xyz", "--fixed", "cloud.xyz"], 0),
                 (["measure", "nan.obj", "--fixed", "nan.obj"], 0),
                 (["measure", "in.obj", "--fixed", "outer.obj"], 0),
+                (["measure", "in.obj", *fixed, "--distances", "d.ply"], 0),
+                (["measure", "cloud.xyz", *fixed, "--tolerance-band", "-1,1"], 1),
                 (["lay", "part.obj", "-n"], 0),
                 (["lay", "fine.stl", "--stable", "-n"], 0),
                 (["turn", "part.obj", *fixed, "--axis", "1,0,0", "--origin", "0,0,3", "-n"], 0),
@@ -261,6 +267,30 @@ class Reports(PlaceTest):
                 (["fit", "part.obj", *fixed, "-n"], (0, 1)),
                 (["arrange", "part.obj", "nan.obj", "--size", "9,9", "-o", "plate.stl"], 0),
                 (["arrange", "part.obj", "floor.obj", "--size", "4,3", "-n"], 1)]:
+            yield arguments, status
+
+    def assemblies(self):
+        self.mesh("near.obj", box((0, 0, 1.05), (4, 4, 2)))
+        self.mesh("inside.obj", box((1, 1, 0.25), (2, 2, 0.5)))
+        with open(self.path("robot.urdf"), "w") as file:
+            file.write("<robot name='r'>" + "".join(
+                f"<link name='{name}'><collision><geometry><mesh filename='{name}.obj'/></geometry>"
+                "</collision></link>" for name in ("floor", "part", "in")) + "".join(
+                f"<joint name='j{name}' type='prismatic'><parent link='floor'/><child link='{name}'/>"
+                "<axis xyz='0 0 1'/></joint>" for name in ("part", "in")) + "</robot>")
+        self.put("poses.jsonl", '{"jpart": -5}\n{"jpart": -4.5, "jin": 0.5}\n')
+        self.put("moves.jsonl", '{"part": [1,0,0,0,0,1,0,0,0,0,1,-5,0,0,0,1]}\n{}\n')
+        for arguments, status in [
+                (["clash", "floor.obj", "in.obj", "nan.obj", "-o", "clash.ply"], 1),
+                (["clash", "floor.obj", "near.obj", "--clearance", "0.1"], 1),
+                (["clash", "floor.obj", "inside.obj"], 1),
+                (["clash", "inside.obj", "floor.obj", "--ignore", "in*:fl*"], 0),
+                (["clash", "inside.obj", "floor.obj", "--no-depth"], 1),
+                (["clash", "part.obj", "floor.obj", "missing.obj"], 3),
+                (["check", "robot.urdf", "--poses", "poses.jsonl"], 1),
+                (["check", "floor.obj", "part.obj", "--poses", "moves.jsonl", "--results",
+                  "results.jsonl"], 1),
+                (["check", "floor.obj", "--poses", "missing.jsonl"], 3)]:
             yield arguments, status
 
     def weld(self):
@@ -310,7 +340,8 @@ class Reports(PlaceTest):
     def test_page_and_reports_have_the_same_keys_of_the_same_types(self):
         self.mesh("outer.obj", box((-9, -9, -9), (9, 9, 9)))
         for tool, runs in (("tf-selfintersect", self.selfintersect), ("tf-boolean", self.boolean),
-                           ("tf-place", self.place), ("tf-repair", self.mend),
+                           ("tf-place", self.place), ("tf-place", self.assemblies),
+                           ("tf-repair", self.mend),
                            ("tf-weld", self.weld)):
             for arguments, status in runs():
                 self.compare(self.run_report(tool, *arguments, status=status))

@@ -1,6 +1,7 @@
 /// \file
 /// tf-place: finds where to put one mesh with respect to others.
 
+#include "tools/assembly/assembly.hpp"
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
 #include "tools/common/mesh_output.hpp"
@@ -45,6 +46,7 @@ const char* const epilogue =
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (const auto status = tools::run_assembly(argc, argv)) return *status;
     tools::command_line line(
         "tf-place", "MODE [OPTIONS] MOVING...",
         "Find where to put one mesh (or point set) with respect to others.\n"

@@ -71,7 +71,9 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
             file,
             scene ? tf::classes_in_files(classes, moving, fixed)
                   : tf::classes_in_files(classes, moving),
-            {.split_polygons = picture && !scene, .keep_colors = !picture && !scene});
+            {.split_polygons = picture && !scene,
+             .keep_colors = !picture && !scene,
+             .halo = 0.02 * tf::diagonal(tf::bounding_box(file.mesh.points).value_or(tf::box3{}))});
     }
     const auto written =
         write_mesh(work, file, {.format = form.format, .ascii = form.ascii, .precision = precision},

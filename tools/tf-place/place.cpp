@@ -253,11 +253,14 @@ exit_status place_one(job& work, const place_settings& settings, fixed_meshes& f
     enter_place(work.entry, p);
     say_place(work, p);
     if (!p.at) return found;
+    exit_status status = p.aligned && !p.aligned->converged ? found : done;
+    if (settings.mode == place_mode::measure)
+        status = enter_measured(work, settings.deviation, p.moving, p.fixed, p.at);
     const auto timing = work.time("write");
     write_matrix(work, settings.matrix, matrix_text(p.matrix));
     write_result(work, settings, p.moving, {{0, p.at.points, p.at.matrix, p.matrix}}, p.fixed,
                  p.at);
-    return p.aligned && !p.aligned->converged ? found : done;
+    return status;
 }
 
 exit_status arrange_all(job& work, const place_settings& settings) {

@@ -2,6 +2,7 @@
 /// \file
 /// What a user of tf-place asks for, where MOVING goes, and what that is written to.
 
+#include "tools/assembly/measured.hpp"
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
 #include "tools/common/parse_value.hpp"
@@ -34,6 +35,7 @@ struct place_settings {
     std::string start{};
     std::filesystem::path matrix{};
     bool scene = false;
+    deviation_settings deviation{};
     tf::align_options fit{};
     std::optional<distance> max_distance{};
     arrange_settings arrange{};

@@ -1,8 +1,10 @@
+#include "tools/assembly/contact_entries.hpp"
 #include "tools/common/align_options.hpp"
 #include "tools/common/console.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
 
+#include <string_view>
 #include <utility>
 
 namespace tools {
@@ -19,45 +21,10 @@ constexpr const char* blank_report = R"({
     "surface_distance": null, "closest": null, "direction": null, "travel": null,
     "backed_off": null, "matrix": null, "contacts": [], "contact_count": null, "sides": [],
     "chosen": null, "corrected": null, "center_of_mass": null, "fit": null, "turn": null,
-    "features": null, "fits": null, "tries": null,
-    "plates": null, "density": null, "tolerance": {"given": null, "used": null}, "parts": [], "not_placed": [], "rounding": null,
-    "matrix_file": null, "output": null})";
-
-/// A point of a body: of a mesh on a face, of a cloud a vertex.
-json side_entry(const tf::body_set& set, std::size_t body, const tf::surface_point& at) {
-    const bool cloud = set.file_of(body).cloud;
-    const json number = set.bodies[body].triangle(at.face);
-    return {{"point", at.point},
-            {"face", or_null(!cloud, set.stored_face(body, at.face))},
-            {"triangle", or_null(!cloud, number)},
-            {"barycentric", or_null(!cloud, at.barycentric)},
-            {"vertex", or_null(cloud, number)}};
-}
-
-json name_entry(const tf::file_body& body) { return or_null(!body.name.empty(), body.name); }
-
-/// How MOVING lies to what is nearest to it.
-void enter_nearest(json& entry, const placing& p, const tf::nearest_fixed& near) {
-    const tf::file_body& body = p.fixed.bodies[near.fixed];
-    json there = side_entry(p.fixed, near.fixed, near.how.on_b);
-    there.update(
-        {{"file", p.settings.fixed[body.file]}, {"part", body.file}, {"name", name_entry(body)}});
-    entry["distance"] = near.how.distance;
-    entry["surface_distance"] = near.how.surface_distance;
-    entry["closest"] = {{"moving", side_entry(p.moving, 0, near.how.on_a)}, {"fixed", there}};
-    const tf::mesh_relation_result& how = near.how.relation;
-    if (how.a_inside_b || how.b_inside_a) entry["inside"] = how.a_inside_b ? "moving" : "fixed";
-}
-
-json contact_entry(const placing& p, const tf::placement_contact& c) {
-    const tf::file_body* const body = c.fixed_face ? &p.fixed.bodies[c.fixed] : nullptr;
-    return {{"point", c.point},
-            {"normal", c.normal},
-            {"moving", p.moving.stored_face(0, c.moving)},
-            {"fixed", body ? json(p.fixed.stored_face(c.fixed, *c.fixed_face)) : json(nullptr)},
-            {"part", body ? json(body->file) : json("bed")},
-            {"name", body ? name_entry(*body) : json(nullptr)}};
-}
+    "features": null, "fits": null, "tries": null, "plates": null, "density": null,
+    "tolerance": {"given": null, "used": null}, "parts": [], "not_placed": [], "rounding": null,
+    "matrix_file": null, "depth": null, "points": null,
+    "deviation": null, "output": null})";
 
 /// The faces were not looked at: nothing is said of how they lie to each other.
 void enter_fit(json& entry, const tf::align_result& fit) {
@@ -103,8 +70,13 @@ std::string sentence(const placing& p) {
     const tf::placement& at = p.at;
     std::string relation = tf::relation_in_words(at, p.moving, p.fixed);
     if (!at) {
-        const bool why = at.at_place == tf::standing::penetrating && at.nearest;
-        return "not placed: " + p.reason + (why ? " (" + relation + ")" : "");
+        std::string text = "not placed: " + p.reason;
+        if (at.at_place != tf::standing::penetrating || !at.nearest) return text;
+        const std::string seen = "penetrating " + p.fixed.label(at.nearest->fixed);
+        constexpr std::string_view where = " where it is";
+        const std::size_t at_end = std::min(text.find(where), text.size() - where.size());
+        return text.insert(at_end + where.size(),
+                           relation.substr(std::min(seen.size(), relation.size())));
     }
     if (p.settings.mode == place_mode::measure) return relation;
     if (p.aligned) return align_sentence(*p.aligned);
@@ -154,9 +126,9 @@ void enter_place(json& entry, const placing& p) {
     entry["status_at_start"] = name_of(at.at_start);
     entry["status"] = name_of(at.at_place);
     for (const tf::placement_contact& c : at.contacts)
-        entry["contacts"].push_back(contact_entry(p, c));
+        entry["contacts"].push_back(contact_entry(p.moving, p.fixed, c));
     entry["contact_count"] = at.contact_count;
-    if (at.nearest) enter_nearest(entry, p, *at.nearest);
+    if (at.nearest) enter_nearest(entry, p.moving, p.fixed, p.settings.fixed, *at.nearest);
     if (p.turned) entry["turn"] = turn_entry(p.settings.turn, *p.turned);
     if (p.mated) entry["features"] = mating_entry(*p.mated);
     if (!at) {

@@ -40,7 +40,9 @@ void add_modes(command_line& line) {
          "short translation, the shortest of many tried"},
         {"arrange, pack", "put all MOVING on plates, or in a box, without overlap"},
         {"fit, align", "align by ICP from the present position"},
-        {"measure", "move nothing; report distance, contact or\npenetration"}};
+        {"measure", "move nothing; report distance, contact,\npenetration, deviation"},
+        {"clash", "all pairs of parts of assemblies: see clash --help"},
+        {"check", "parts or a robot in many poses: see check --help"}};
     line.group("Modes");
     for (const auto& [names, text] : described) line.mention({.names = names, .text = text});
 }
@@ -52,6 +54,7 @@ void add_options_of_modes(command_line& line, place_settings& s) {
     add_arrange_options(line, s.arrange);
     line.option(s.max_distance, {"--max-distance", "DIST", "fit: ignore pairs further apart"});
     add_align_options(line, s.fit);
+    add_deviation_options(line, s.deviation);
 }
 
 }  // namespace
@@ -134,6 +137,7 @@ void check_settings(const command_line& line, place_settings& s, common_options&
         {!is(drop, slide) && s.direction, "--direction: " + mode + " finds its own"},
         {s.has_bed() && s.direction && !(s.direction->z < 0.0),
          "--direction: does not lead down to the bed"},
+        {!is(measure) && s.deviation.wanted(), "--distances and --tolerance-band are for measure"},
         {is(measure) && s.max_travel, "--max-travel: measure moves nothing"},
         {is(measure) && !s.matrix.empty(), "--matrix: measure moves nothing"},
         {is(measure) && o.in_place, "--in-place: measure moves nothing"},

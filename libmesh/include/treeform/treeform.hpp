@@ -9,8 +9,10 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/lay_flat.hpp>

@@ -225,3 +225,28 @@ TEST_CASE("rounding effects: far away float32 folds what it has not folded befor
     CHECK_THROWS_AS(static_cast<void>(tf::effects_of_rounding(ball, away, {})),
                     std::invalid_argument);
 }
+
+TEST_CASE("bodies: what is around a contact has a tint, but no class") {
+    tf::mesh_file file;
+    file.mesh = test::ball(4, 1.0);
+    std::vector<tf::contact_class> classes(file.mesh.faces.size());
+    classes[0] = tf::contact_class::touching;
+    const auto yellow = [&](double halo) {
+        tf::mesh_file colored = file;
+        tf::color_contacts(colored, classes, {.halo = halo});
+        const tf::element* const rows = tf::find_element(colored.attributes, "face");
+        REQUIRE(rows != nullptr);
+        std::size_t tinted = 0, classed = 0;
+        for (std::size_t f = 0; f < classes.size(); ++f) {
+            tinted += tf::number_at(*tf::find_column(*rows, "blue"), f) <
+                      tf::number_at(*tf::find_column(*rows, "red"), f);
+            classed += tf::number_at(*tf::find_column(*rows, "tf_class"), f) != 0.0;
+        }
+        CHECK(classed == 1);
+        return tinted;
+    };
+    CHECK(yellow(0.0) == 1);
+    CHECK(yellow(0.2) > 8);
+    CHECK(yellow(0.2) < yellow(0.5));
+    CHECK(yellow(3.0) == classes.size());
+}

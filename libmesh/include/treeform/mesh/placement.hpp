@@ -221,11 +221,14 @@ struct contact_color_options {
     /// the worst class of their triangles.
     bool split_polygons = false;
     bool keep_colors = false;  ///< keep the colors that the file has
+    /// Faces with no edge longer than twice this length, and all corners within it of faces with a
+    /// class, have a tint of that: contacts of a few small faces are seen. Their class stays none.
+    double halo = 0.0;
 };
 
 /// Gives the rows of the element "face" of `file` (of a cloud, "vertex") the property tf_class, a
 /// number of `contact_class`, and the colors red, green and blue: gray for none, red for
-/// penetrating, yellow for touching, cyan for near.
+/// penetrating, yellow for touching, cyan for near, and tints of these around them (`halo`).
 ///
 /// `classes` has one entry for each triangle of `file.mesh`; for a cloud, for each point.
 ///

@@ -1,0 +1,165 @@
+#include <libmesh/assembly/moved_part.hpp>
+#include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/intersect/point_locator.hpp>
+#include <libmesh/nearness/closest_point_query.hpp>
+#include <libmesh/place/relation_of.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/properties.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace treeform::detail::assembly {
+namespace {
+
+/// Bounds how far a moved point, as computed, is from where it is moved to: in each coordinate
+/// three products and three sums, each rounded by 2^-53 of what is at most `size`.
+double rounding_of(const transform<3>& move, double largest) {
+    double size = 0.0;
+    for (const auto& row : move.rows)
+        size = std::max(size, (std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2])) * largest +
+                                  std::abs(row[3]));
+    return size * 0x1p-49 + 0x1p-1000;
+}
+
+double largest_in(const box3& box) {
+    return std::max(base::largest_of(box.min), base::largest_of(box.max));
+}
+
+/// Whether the columns are of length 1 and at right angles, to 2^-10: no length changes by more
+/// than 2^-8 of itself.
+bool is_motion(const transform<3>& move) {
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            double sum = i == j ? -1.0 : 0.0;
+            for (const auto& row : move.rows) sum += row[i] * row[j];
+            if (!(std::abs(sum) < 0x1p-10)) return false;
+        }
+    return true;
+}
+
+}  // namespace
+
+resting_part::resting_part(const prepared_mesh& mesh, vertex_identity vertices)
+    : shape_(mesh, vertices),
+      box_(place::box_of_faces(mesh.view())),
+      solid_(box_ && !mesh.is_cloud() && shape_.closed()) {
+    if (!box_) return;
+    const mesh_view joined = shape_.joined();
+    const auto component = face_components(joined.points.size(), joined.faces);
+    for (std::size_t f = 0; f < joined.faces.size(); ++f)
+        if (component[f] == corners_.size()) corners_.push_back(joined.points[joined.faces[f][0]]);
+}
+
+moved_part::moved_part(const resting_part& part, const transform<3>& move)
+    : part_(&part), move_(move) {
+    if (!part.box()) return;
+    const box3& at = *part.box();
+    const double error = rounding_of(move, largest_in(at)) * 4.0;
+    box_.emplace();
+    for (std::size_t k = 0; k < 3; ++k) {
+        double middle = move.rows[k][3], half = error;
+        for (std::size_t j = 0; j < 3; ++j) {
+            middle += move.rows[k][j] * (0.5 * at.min[j] + 0.5 * at.max[j]);
+            half += std::abs(move.rows[k][j]) * (0.5 * at.max[j] - 0.5 * at.min[j]);
+        }
+        box_->min[k] = middle - half;
+        box_->max[k] = middle + half;
+    }
+}
+
+bool moved_part::near(const moved_part& other, double distance) const {
+    if (!box_ || !other.box_) return false;
+    // Not finite where coordinates are huge: then the boxes keep nothing apart.
+    for (std::size_t k = 0; k < 3; ++k)
+        if (box_->min[k] - other.box_->max[k] > distance ||
+            other.box_->min[k] - box_->max[k] > distance)
+            return false;
+    return true;
+}
+
+std::vector<point3> moved_part::points() const {
+    const points_view at = part_->shape().mesh().points;
+    std::vector<point3> moved(at.begin(), at.end());
+    for (point3& p : moved) p = move_(p);
+    return moved;
+}
+
+part_standing moved_part::as_moved(const moved_part& other) const {
+    const std::vector<point3> a = points(), b = other.points();
+    const place::shape &of_a = part_->shape(), &of_b = other.part_->shape();
+    const tree<3> tree_a = build_face_tree(mesh_view{a, of_a.mesh().faces}),
+                  tree_b = build_face_tree(mesh_view{b, of_b.mesh().faces});
+    const auto how = place::relation_of(place::shape(of_a.whose(), a, tree_a, of_a.vertices()),
+                                        place::shape(of_b.whose(), b, tree_b, of_b.vertices()));
+    return {how.relation == mesh_relation::penetrating ? standing::penetrating
+            : how.relation == mesh_relation::touching  ? standing::touching
+                                                       : standing::separate};
+}
+
+/// Whether `p` is inside the solid that is moved; none where rounding might have a say.
+std::optional<bool> moved_part::holds(const point3& p) const {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (p[k] < box_->min[k] || p[k] > box_->max[k]) return false;
+    if (!is_motion(move_)) return std::nullopt;
+    // q is about where p is before the motion: M q + t is within `miss` of p, as found by moving it
+    // again. The corners as moved are within `moved` of where M v + t is. So along straight ways p
+    // goes to M q + t, and each corner to M v + t, and on no such way the point meets the surface,
+    // and the winding number does not change, if M q + t is further than both from the surface
+    // moved exactly: if q is further than 1.01 times that from the surface at rest.
+    const point3 q = detail::unchecked_inverse(move_)(p);
+    if (!base::is_finite(q)) return std::nullopt;
+    const point3 again = move_(q);
+    const point3 off = base::minus(again, p);
+    const double miss = base::largest_of(off) + rounding_of(move_, base::largest_of(q));
+    const double moved = rounding_of(move_, largest_in(*part_->box()));
+    const double margin = 2.0 * (miss + moved) * 1.7320508075688774;
+    if (!std::isfinite(margin)) return std::nullopt;
+    const place::shape& solid = part_->shape();
+    if (nearness::closest_point_query_of(solid.whose()).nearest(q, 2.0 * margin))
+        return std::nullopt;
+    return intersect::point_locator(solid.joined(), solid.faces()).locate(q).where ==
+           location::inside;
+}
+
+/// Whether a component of `other`, of which no face meets this, is inside this.
+std::optional<bool> moved_part::holds_part_of(const moved_part& other) const {
+    if (!part_->solid()) return false;
+    bool told = true;
+    for (const point3& corner : other.part_->corners()) {
+        const auto inside = holds(other.move_(corner));
+        if (inside && *inside) return true;
+        told = told && inside.has_value();
+    }
+    if (!told) return std::nullopt;
+    return false;
+}
+
+part_standing moved_part::standing_to(const moved_part& other, double clearance) const {
+    const place::shape &a = part_->shape(), &b = other.part_->shape();
+    if (intersects(a.whose(), b.whose(), {move_, other.move_})) {
+        mesh_intersection_options crossing;
+        crossing.move_a = move_;
+        crossing.move_b = other.move_;
+        crossing.first_only = true;
+        crossing.kinds = pair_kind::crossing;
+        const auto through = mesh_intersections(a.whose(), b.whose(), crossing);
+        if (!through.pairs.empty()) return {standing::penetrating};
+        return as_moved(other);
+    }
+    const auto inside = holds_part_of(other), around = other.holds_part_of(*this);
+    if ((inside && *inside) || (around && *around)) return {standing::penetrating};
+    if (!inside || !around) {
+        const part_standing how = as_moved(other);
+        if (how.standing != standing::separate) return how;
+    }
+    if (clearance == 0.0) return {standing::separate};
+    const double apart = treeform::distance(a.whose(), b.whose(), {move_, other.move_, clearance});
+    return apart < clearance ? part_standing{standing::closer_than_clearance, apart}
+                             : part_standing{standing::clear};
+}
+
+}  // namespace treeform::detail::assembly

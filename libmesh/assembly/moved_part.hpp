@@ -1,0 +1,62 @@
+#pragma once
+/// \file
+/// A part of an assembly, moved, against another one.
+
+#include <libmesh/place/shape.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/tree/transform.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace treeform::detail::assembly {
+
+/// What is known of a part before it is moved.
+class resting_part {
+  public:
+    resting_part(const prepared_mesh& mesh, vertex_identity vertices);
+
+    [[nodiscard]] const place::shape& shape() const { return shape_; }
+    [[nodiscard]] const std::optional<box3>& box() const { return box_; }
+    [[nodiscard]] bool solid() const { return solid_; }
+    /// A corner of each component: no face of another mesh meets it, so all of it is where that is.
+    [[nodiscard]] const std::vector<point3>& corners() const { return corners_; }
+
+  private:
+    place::shape shape_;
+    std::optional<box3> box_;
+    bool solid_;
+    std::vector<point3> corners_;
+};
+
+struct part_standing {
+    treeform::standing standing = standing::separate;
+    double distance = 0.0;
+};
+
+/// \pre the part outlives it, the transform is finite
+class moved_part {
+  public:
+    moved_part(const resting_part& part, const transform<3>& move);
+
+    /// Whether the boxes are within `distance` along each axis.
+    [[nodiscard]] bool near(const moved_part& other, double distance) const;
+
+    /// Exactly, for the corners as moved; a distance only with a clearance.
+    [[nodiscard]] part_standing standing_to(const moved_part& other, double clearance) const;
+
+  private:
+    [[nodiscard]] std::optional<bool> holds(const point3& p) const;
+    [[nodiscard]] std::optional<bool> holds_part_of(const moved_part& other) const;
+    [[nodiscard]] part_standing as_moved(const moved_part& other) const;
+    [[nodiscard]] std::vector<point3> points() const;
+
+    const resting_part* part_;
+    transform<3> move_;
+    std::optional<box3> box_{};  ///< around the corners as moved
+};
+
+}  // namespace treeform::detail::assembly

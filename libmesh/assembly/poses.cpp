@@ -1,0 +1,151 @@
+#include <libmesh/assembly/moved_part.hpp>
+#include <libmesh/assembly/part_boxes.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/shape.hpp>
+#include <treeform/mesh/clash.hpp>
+#include <treeform/mesh/distance.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace treeform {
+namespace {
+
+using detail::assembly::moved_part;
+using detail::assembly::resting_part;
+
+constexpr std::size_t positions_per_chunk = 8;
+
+/// Of one pose.
+struct looked_at {
+    std::vector<pose_clash> clashes;
+    std::uint64_t boxes_apart = 0;
+};
+
+bool is_clash(const pose_clash& one, double clearance) {
+    return one.how != standing::touching || clearance > 0.0;
+}
+
+class pose_inspection {
+  public:
+    pose_inspection(std::span<const prepared_mesh> parts, const pose_options& options)
+        : options_(options),
+          ignored_(detail::assembly::sorted_pairs("check_poses", options.ignored, parts.size())) {
+        parts_.reserve(parts.size());
+        for (const prepared_mesh& part : parts) parts_.emplace_back(part, options.vertices);
+    }
+
+    [[nodiscard]] looked_at look_at(std::span<const transform<3>> pose) const {
+        looked_at found;
+        std::vector<moved_part> moved;
+        moved.reserve(parts_.size());
+        for (std::size_t i = 0; i < parts_.size(); ++i) moved.emplace_back(parts_[i], pose[i]);
+        for (std::uint32_t i = 0; i < moved.size(); ++i)
+            for (std::uint32_t j = i + 1; j < moved.size(); ++j) {
+                if (!moved[i].near(moved[j], options_.clearance)) {
+                    ++found.boxes_apart;
+                    continue;
+                }
+                if (std::binary_search(ignored_.begin(), ignored_.end(), part_pair{i, j})) continue;
+                const auto how = moved[i].standing_to(moved[j], options_.clearance);
+                if (how.standing == standing::separate || how.standing == standing::clear) continue;
+                const pose_clash one{i, j, how.standing, how.distance};
+                if (options_.first_only && !is_clash(one, options_.clearance)) continue;
+                found.clashes.push_back(one);
+                if (options_.first_only) return found;
+            }
+        return found;
+    }
+
+  private:
+    const pose_options& options_;
+    std::vector<part_pair> ignored_;
+    std::vector<resting_part> parts_;
+};
+
+void check_pose_input(std::span<const prepared_mesh> parts, std::span<const transform<3>> poses,
+                      const pose_options& options) {
+    const std::string name = "treeform::check_poses: ";
+    if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
+        throw std::invalid_argument(name + "the clearance is negative or not finite");
+    if (parts.empty() ? !poses.empty() : poses.size() % parts.size() != 0)
+        throw std::invalid_argument(name + std::to_string(poses.size()) +
+                                    " transforms are no multiple of " +
+                                    std::to_string(parts.size()) + " parts");
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        if (!poses[i].finite())
+            throw std::invalid_argument(name + "pose " + std::to_string(i / parts.size()) +
+                                        ": the transform of part " +
+                                        std::to_string(i % parts.size()) + " is not finite");
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        detail::place::check_operand("check_poses", "part " + std::to_string(i), parts[i]);
+}
+
+}  // namespace
+
+pose_result check_poses(std::span<const prepared_mesh> parts, std::span<const transform<3>> poses,
+                        const pose_options& options) {
+    check_pose_input(parts, poses, options);
+    const std::size_t count = parts.empty() ? 0 : poses.size() / parts.size();
+    const pose_inspection inspection(parts, options);
+    detail::base::work_progress work(options.progress);
+    std::vector<looked_at> found(count);
+    std::atomic<std::size_t> done{0};
+    for_chunks(count, positions_per_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t p = begin; p < end && !work.cancelled(); ++p) {
+            found[p] = inspection.look_at(poses.subspan(p * parts.size(), parts.size()));
+            work.reach(static_cast<double>(++done) / static_cast<double>(count));
+        }
+    });
+    pose_result result;
+    if (work.cancelled()) {
+        result.cancelled = true;
+        return result;
+    }
+    for (looked_at& one : found) {
+        result.clashing += std::any_of(
+            one.clashes.begin(), one.clashes.end(),
+            [&](const pose_clash& clash) { return is_clash(clash, options.clearance); });
+        result.boxes_apart += one.boxes_apart;
+        result.poses.push_back(std::move(one.clashes));
+    }
+    return result;
+}
+
+std::vector<bool> intersects(const prepared_mesh& a, const prepared_mesh& b,
+                             std::span<const mesh_positions> positions) {
+    std::vector<std::uint8_t> found(positions.size());
+    for_chunks(positions.size(), positions_per_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i)
+                       found[i] = intersects(a, b, positions[i]) ? 1 : 0;
+               });
+    return {found.begin(), found.end()};
+}
+
+std::vector<bool> intersects(mesh_view a, mesh_view b, std::span<const mesh_positions> positions) {
+    return intersects(prepared_mesh::borrow(a), prepared_mesh::borrow(b), positions);
+}
+
+std::vector<double> distance(const prepared_mesh& a, const prepared_mesh& b,
+                             std::span<const mesh_positions> positions, double radius) {
+    std::vector<double> found(positions.size());
+    for_chunks(
+        positions.size(), positions_per_chunk,
+        [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end; ++i)
+                found[i] = distance(a, b, {positions[i].move_a, positions[i].move_b, radius});
+        });
+    return found;
+}
+
+std::vector<double> distance(mesh_view a, mesh_view b, std::span<const mesh_positions> positions,
+                             double radius) {
+    return distance(prepared_mesh::borrow(a), prepared_mesh::borrow(b), positions, radius);
+}
+
+}  // namespace treeform

@@ -1,0 +1,308 @@
+#include <libmesh/io/number.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/read.hpp>
+
+#include <pugixml.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+
+namespace treeform {
+namespace {
+
+using links_by_name = std::map<std::string, std::uint32_t, std::less<>>;
+
+/// Names folders up: where a file's own packages may be.
+constexpr int most_folders_up = 64;
+
+class urdf_reader {
+  public:
+    urdf_reader(const std::filesystem::path& path, const urdf_options& options)
+        : path_(path), options_(options) {}
+
+    [[nodiscard]] urdf_robot read() {
+        std::ifstream in(path_, std::ios::binary);
+        if (!in) fail("cannot be read");
+        std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+        const pugi::xml_parse_result parsed =
+            document_.load_buffer_inplace(text.data(), text.size(), pugi::parse_default);
+        if (parsed.status == pugi::status_out_of_memory) throw std::bad_alloc();
+        if (!parsed)
+            fail("byte " + std::to_string(parsed.offset) + ": no XML: " + parsed.description());
+        const pugi::xml_node root = document_.child("robot");
+        if (!root) fail("no <robot>: is it a URDF file? (xacro has to be run first)");
+        robot_.name = root.attribute("name").value();
+        for (const pugi::xml_node link : root.children("link")) read_link(link);
+        if (robot_.links.empty()) fail("the robot has no link");
+        for (const pugi::xml_node joint : root.children("joint")) read_joint(joint);
+        order_joints();
+        return std::move(robot_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& why) const {
+        throw io_error(path_.string() + ": " + why);
+    }
+
+    [[nodiscard]] std::string name_of(pugi::xml_node node, const std::string& what) const {
+        std::string name = node.attribute("name").value();
+        if (name.empty()) fail("a " + what + " has no name");
+        return name;
+    }
+
+    /// As many numbers as there are defaults.
+    template <std::size_t N>
+    [[nodiscard]] std::array<double, N> numbers(pugi::xml_node node, const char* attribute,
+                                                std::array<double, N> values,
+                                                const std::string& whose) const {
+        const pugi::xml_attribute given = node.attribute(attribute);
+        if (!given) return values;
+        const std::string_view text(given.value());
+        const char *at = text.data(), *const end = text.data() + text.size();
+        const auto skip_blanks = [&] {
+            while (at != end && detail::io::is_space(*at)) ++at;
+        };
+        const auto refuse = [&] {
+            fail(whose + ": " + attribute + "=\"" + std::string(text.substr(0, 60)) +
+                 "\": expected " + std::to_string(N) + " finite numbers");
+        };
+        for (double& value : values) {
+            skip_blanks();
+            const auto number = detail::io::parse_number(at, end);
+            if (number.end == nullptr || !std::isfinite(number.value)) refuse();
+            value = number.value;
+            at = number.end;
+        }
+        skip_blanks();
+        if (at != end) refuse();
+        return values;
+    }
+
+    [[nodiscard]] point3 vector(pugi::xml_node node, const char* attribute, const point3& value,
+                                const std::string& whose) const {
+        const auto v = numbers<3>(node, attribute, {value.x, value.y, value.z}, whose);
+        return {v[0], v[1], v[2]};
+    }
+
+    /// The child <origin>: first about x, then y, then z, then the translation.
+    [[nodiscard]] transform<3> origin_of(pugi::xml_node node, const std::string& whose) const {
+        const pugi::xml_node origin = node.child("origin");
+        const point3 t = vector(origin, "xyz", {}, whose), a = vector(origin, "rpy", {}, whose);
+        const double sx = std::sin(a.x), cx = std::cos(a.x), sy = std::sin(a.y), cy = std::cos(a.y),
+                     sz = std::sin(a.z), cz = std::cos(a.z);
+        transform<3> at;
+        at.rows = {{{cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx, t.x},
+                    {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx, t.y},
+                    {-sy, cy * sx, cy * cx, t.z}}};
+        return at;
+    }
+
+    void read_link(pugi::xml_node node) {
+        const std::string name = name_of(node, "link");
+        const auto number = static_cast<std::uint32_t>(robot_.links.size());
+        if (!numbers_.emplace(name, number).second) fail("two links have the name " + name);
+        robot_.links.push_back(name);
+        for (const pugi::xml_node one : node.children(options_.visual ? "visual" : "collision"))
+            read_shape(one, number, "link " + name);
+    }
+
+    void read_shape(pugi::xml_node node, std::uint32_t link, const std::string& whose) {
+        const pugi::xml_node geometry = node.child("geometry"), mesh = geometry.child("mesh");
+        if (!mesh) {
+            const std::string kind = geometry.first_child().name();
+            robot_.skipped.push_back(
+                whose + ": " + (kind.empty() ? "empty geometry" : "a " + kind) + " is no mesh");
+            return;
+        }
+        const point3 s = vector(mesh, "scale", {1.0, 1.0, 1.0}, whose);
+        transform<3> scale;
+        for (std::size_t k = 0; k < 3; ++k) scale.rows[k][k] = s[k];
+        robot_.meshes.push_back({link, mesh_file_of(mesh.attribute("filename").value(), whose),
+                                 after(origin_of(node, whose), scale)});
+    }
+
+    [[nodiscard]] std::filesystem::path mesh_file_of(const std::string& name,
+                                                     const std::string& whose) const {
+        if (name.empty()) fail(whose + ": a mesh has no filename");
+        const std::filesystem::path folder =
+            std::filesystem::absolute(path_).lexically_normal().parent_path();
+        std::vector<std::filesystem::path> tried;
+        constexpr std::string_view package = "package://", file = "file://";
+        if (name.starts_with(package)) {
+            const std::filesystem::path full = name.substr(package.size());
+            const std::filesystem::path rest = full.lexically_relative(*full.begin());
+            for (const auto& in : options_.package_folders)
+                tried.insert(tried.end(), {in / full, in / rest});
+            std::filesystem::path up = folder;
+            for (int i = 0; i < most_folders_up; ++i) {
+                tried.insert(tried.end(), {up / full, up / rest});
+                if (up == up.parent_path()) break;
+                up = up.parent_path();
+            }
+        } else {
+            const std::filesystem::path given =
+                name.starts_with(file) ? name.substr(file.size()) : name;
+            tried.push_back(given.is_absolute() ? given : folder / given);
+        }
+        std::error_code ignored;
+        for (const auto& one : tried)
+            if (std::filesystem::is_regular_file(one, ignored)) return one.lexically_normal();
+        fail(whose + ": its mesh " + name + " is not found" +
+             (name.starts_with(package) ? "; where are its packages?" : ""));
+    }
+
+    [[nodiscard]] std::uint32_t link_of(pugi::xml_node joint, const char* end,
+                                        const std::string& whose) const {
+        const std::string_view name = joint.child(end).attribute("link").value();
+        const auto found = numbers_.find(name);
+        if (found == numbers_.end())
+            fail(whose + ": its " + end + " link \"" + std::string(name) + "\" is not there");
+        return found->second;
+    }
+
+    void read_joint(pugi::xml_node node) {
+        constexpr std::array<std::string_view, 4> kinds{"fixed", "revolute", "continuous",
+                                                        "prismatic"};
+        urdf_joint joint{.name = name_of(node, "joint")};
+        const std::string whose = "joint " + joint.name;
+        if (!joint_names_.emplace(joint.name, 0).second)
+            fail("two joints have the name " + joint.name);
+        const std::string_view kind = node.attribute("type").value();
+        const auto at = std::find(kinds.begin(), kinds.end(), kind);
+        if (at == kinds.end())
+            fail(whose + ": of type \"" + std::string(kind) +
+                 "\"; only fixed, revolute, continuous and prismatic joints are read");
+        joint.kind = static_cast<urdf_joint_kind>(at - kinds.begin());
+        joint.parent = link_of(node, "parent", whose);
+        joint.child = link_of(node, "child", whose);
+        joint.origin = origin_of(node, whose);
+        joint.axis = vector(node.child("axis"), "xyz", {1.0, 0.0, 0.0}, whose);
+        const double length = std::hypot(joint.axis.x, joint.axis.y, joint.axis.z);
+        if (joint.kind != urdf_joint_kind::fixed && !(length > 0.0 && std::isfinite(length)))
+            fail(whose + ": its axis has no direction");
+        if (length > 0.0)
+            joint.axis = {joint.axis.x / length, joint.axis.y / length, joint.axis.z / length};
+        if (const pugi::xml_node limit = node.child("limit");
+            limit &&
+            (joint.kind == urdf_joint_kind::revolute || joint.kind == urdf_joint_kind::prismatic))
+            joint.limits = {numbers<1>(limit, "lower", {0.0}, whose)[0],
+                            numbers<1>(limit, "upper", {0.0}, whose)[0]};
+        if (const pugi::xml_node mimic = node.child("mimic")) {
+            joint.mimics = mimic.attribute("joint").value();
+            joint.mimic_line = {numbers<1>(mimic, "multiplier", {1.0}, whose)[0],
+                                numbers<1>(mimic, "offset", {0.0}, whose)[0]};
+        }
+        robot_.joints.push_back(std::move(joint));
+    }
+
+    /// Parents ahead of their children; joints of one link in the order of the file.
+    void order_joints() {
+        const std::size_t links = robot_.links.size();
+        std::vector<std::vector<std::size_t>> below(links);
+        std::vector<bool> has_parent(links);
+        for (std::size_t i = 0; i < robot_.joints.size(); ++i) {
+            const urdf_joint& joint = robot_.joints[i];
+            if (has_parent[joint.child])
+                fail("link " + robot_.links[joint.child] + " is the child of two joints");
+            has_parent[joint.child] = true;
+            below[joint.parent].push_back(i);
+        }
+        std::vector<std::uint32_t> reached;
+        for (std::uint32_t link = 0; link < links; ++link)
+            if (!has_parent[link]) reached.push_back(link);
+        std::vector<urdf_joint> ordered;
+        for (std::size_t next = 0; next < reached.size(); ++next)
+            for (const std::size_t i : below[reached[next]]) {
+                reached.push_back(robot_.joints[i].child);
+                ordered.push_back(robot_.joints[i]);
+            }
+        if (reached.size() != links) fail("joints lead from a link back to it");
+        robot_.joints = std::move(ordered);
+        for (const urdf_joint& joint : robot_.joints)
+            if (!joint.mimics.empty() && !joint_names_.contains(joint.mimics))
+                fail("joint " + joint.name + ": mimics " + joint.mimics + ", which is not there");
+    }
+
+    std::filesystem::path path_;
+    const urdf_options& options_;
+    pugi::xml_document document_{};
+    urdf_robot robot_{};
+    links_by_name numbers_{}, joint_names_{};
+};
+
+/// The motion of a joint with this value.
+transform<3> motion_of(const urdf_joint& joint, double value) {
+    const point3& u = joint.axis;
+    if (joint.kind == urdf_joint_kind::prismatic)
+        return translation<3>(point3{u.x * value, u.y * value, u.z * value});
+    if (joint.kind == urdf_joint_kind::fixed) return {};
+    const double s = std::sin(value), c = std::cos(value), r = 1.0 - c;
+    transform<3> turn;
+    turn.rows = {{{c + u.x * u.x * r, u.x * u.y * r - u.z * s, u.x * u.z * r + u.y * s, 0.0},
+                  {u.y * u.x * r + u.z * s, c + u.y * u.y * r, u.y * u.z * r - u.x * s, 0.0},
+                  {u.z * u.x * r - u.y * s, u.z * u.y * r + u.x * s, c + u.z * u.z * r, 0.0}}};
+    return turn;
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 2>> urdf_robot::adjacent() const {
+    std::vector<bool> has_mesh(links.size());
+    for (const urdf_mesh& mesh : meshes) has_mesh[mesh.link] = true;
+    // The link above each that has a mesh; parents come ahead of their children.
+    std::vector<std::optional<std::uint32_t>> above(links.size());
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    const auto add = [&](std::uint32_t a, std::uint32_t b) {
+        pairs.push_back({std::min(a, b), std::max(a, b)});
+    };
+    for (const urdf_joint& joint : joints) {
+        add(joint.parent, joint.child);
+        above[joint.child] = has_mesh[joint.parent] ? joint.parent : above[joint.parent];
+        if (above[joint.child] && has_mesh[joint.child]) add(*above[joint.child], joint.child);
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+}
+
+urdf_robot read_urdf(const std::filesystem::path& path, const urdf_options& options) {
+    return urdf_reader(path, options).read();
+}
+
+std::vector<transform<3>> link_transforms(const urdf_robot& robot,
+                                          std::span<const joint_value> values) {
+    const std::string name = "treeform::link_transforms: ";
+    std::map<std::string_view, std::optional<double>> value_of;
+    std::map<std::string_view, const urdf_joint*> joint_of;
+    for (const urdf_joint& joint : robot.joints) joint_of[joint.name] = &joint;
+    for (const joint_value& one : values) {
+        const auto found = joint_of.find(one.joint);
+        if (found == joint_of.end())
+            throw std::invalid_argument(name + "there is no joint " + one.joint);
+        if (found->second->kind == urdf_joint_kind::fixed)
+            throw std::invalid_argument(name + "joint " + one.joint + " is fixed");
+        if (!std::isfinite(one.value))
+            throw std::invalid_argument(name + "the value of joint " + one.joint +
+                                        " is not finite");
+        value_of[one.joint] = one.value;
+    }
+    const auto value = [&](const urdf_joint& joint) {
+        if (const auto own = value_of.find(joint.name); own != value_of.end()) return *own->second;
+        if (joint.mimics.empty()) return 0.0;
+        const auto other = value_of.find(joint.mimics);
+        const double followed = other == value_of.end() ? 0.0 : *other->second;
+        return joint.mimic_line[0] * followed + joint.mimic_line[1];
+    };
+    std::vector<transform<3>> at(robot.links.size());
+    for (const urdf_joint& joint : robot.joints)
+        at[joint.child] =
+            after(at[joint.parent], after(joint.origin, motion_of(joint, value(joint))));
+    return at;
+}
+
+}  // namespace treeform

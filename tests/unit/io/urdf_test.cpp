@@ -1,0 +1,225 @@
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+/// A folder that goes away.
+class scratch {
+  public:
+    scratch() {
+        path_ = std::filesystem::temp_directory_path() /
+                ("treeform_urdf_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
+        std::filesystem::create_directories(path_ / "arm" / "meshes");
+        std::ofstream(path_ / "arm" / "meshes" / "a.stl") << "solid\nendsolid\n";
+    }
+    ~scratch() { std::filesystem::remove_all(path_); }
+    scratch(const scratch&) = delete;
+    scratch& operator=(const scratch&) = delete;
+
+    [[nodiscard]] std::filesystem::path write(const std::string& text,
+                                              const std::string& name = "arm/robot.urdf") const {
+        std::ofstream(path_ / name) << text;
+        return path_ / name;
+    }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+std::string robot(const std::string& inside) {
+    return "<?xml version=\"1.0\"?><robot name=\"r\">" + inside + "</robot>";
+}
+
+std::string joint(const std::string& name, const std::string& type, const std::string& from,
+                  const std::string& to, const std::string& more = {}) {
+    return "<joint name=\"" + name + "\" type=\"" + type + "\"><parent link=\"" + from +
+           "\"/><child link=\"" + to + "\"/>" + more + "</joint>";
+}
+
+const std::string three = "<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/>";
+
+void check_near(const tf::point3& p, const tf::point3& q) {
+    for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(p[k] - q[k]) < 1e-15);
+}
+
+/// What `read_urdf` says of this text, without the path.
+std::string refusal(const std::string& text) {
+    const scratch folder;
+    const auto path = folder.write(text);
+    try {
+        static_cast<void>(tf::read_urdf(path));
+    } catch (const tf::io_error& error) {
+        return std::string(error.what()).substr(path.string().size() + 2);
+    }
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("urdf: a chain of joints of each kind puts links where the joints say") {
+    const scratch folder;
+    const auto path = folder.write(
+        robot("<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/><link name=\"d\"/><link "
+              "name=\"e\"/>" +
+              joint("slide", "prismatic", "b", "c",
+                    "<axis xyz=\"0 2 0\"/><limit lower=\"-1\" upper=\"3\"/>") +
+              joint("turn", "revolute", "a", "b",
+                    "<origin xyz=\"1 0 0\" rpy=\"0 0 1.5707963267948966\"/><axis xyz=\"0 0 1\"/>") +
+              joint("weld", "fixed", "c", "d", "<origin xyz=\"0 0 5\"/>") +
+              joint("spin", "continuous", "d", "e")));
+    const tf::urdf_robot r = tf::read_urdf(path);
+    CHECK(r.name == "r");
+    CHECK(r.links == std::vector<std::string>{"a", "b", "c", "d", "e"});
+    CHECK(r.joints[0].name == "turn");  // parents come ahead
+    CHECK((*r.joints[1].limits)[1] == 3.0);
+    using pairs = std::vector<std::array<std::uint32_t, 2>>;
+    CHECK(r.adjacent() == pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}});
+    const auto rest = tf::link_transforms(r, {});
+    CHECK(rest[0] == tf::transform<3>{});
+    check_near(rest[1](tf::point3{1, 0, 0}), {1, 1, 0});
+    check_near(rest[3](tf::point3{0, 0, 0}), {1, 0, 5});
+    const std::vector<tf::joint_value> values{
+        {"slide", 2.0}, {"turn", -0.5 * std::numbers::pi}, {"spin", 0.5 * std::numbers::pi}};
+    const auto moved = tf::link_transforms(r, values);
+    check_near(moved[1](tf::point3{1, 0, 0}), {2, 0, 0});
+    check_near(moved[2](tf::point3{0, 0, 0}), {1, 2, 0});
+    check_near(moved[4](tf::point3{0, 1, 0}), {1, 2, 6});
+}
+
+TEST_CASE("urdf: roll, pitch and yaw are about the fixed axes x, y and z, in this order") {
+    const scratch folder;
+    const auto path =
+        folder.write(robot("<link name=\"a\"/><link name=\"b\"/>" +
+                           joint("j", "fixed", "a", "b",
+                                 "<origin rpy=\"1.5707963267948966 1.5707963267948966 0\"/>")));
+    const auto at = tf::link_transforms(tf::read_urdf(path), {});
+    check_near(at[1](tf::point3{0, 1, 0}), {1, 0, 0});  // about x to z, then about y to x
+    check_near(at[1](tf::point3{1, 0, 0}), {0, 0, -1});
+}
+
+TEST_CASE("urdf: a joint that mimics another follows it, unless it has a value of its own") {
+    const scratch folder;
+    const auto path = folder.write(robot(
+        three + joint("p", "prismatic", "a", "b") +
+        joint("q", "prismatic", "a", "c", "<mimic joint=\"p\" multiplier=\"-2\" offset=\"1\"/>")));
+    const auto r = tf::read_urdf(path);
+    const auto x = [&](const std::vector<tf::joint_value>& values) {
+        return tf::link_transforms(r, values)[2].rows[0][3];
+    };
+    CHECK(x({}) == 1.0);
+    CHECK(x({{"p", 3.0}}) == -5.0);
+    CHECK(x({{"p", 3.0}, {"q", 7.0}}) == 7.0);
+}
+
+TEST_CASE("urdf: meshes are found beside the file, in packages, and where it is said") {
+    const scratch folder;
+    const auto with = [&](const std::string& name, const std::string& more = {}) {
+        return robot(
+            "<link name=\"a\"><collision><origin xyz=\"0 0 1\"/><geometry><mesh filename=\"" +
+            name + "\" scale=\"2 2 -1\"/></geometry></collision>" + more + "</link>");
+    };
+    for (const std::string name :
+         {"meshes/a.stl", "package://arm/meshes/a.stl", "package://other/meshes/a.stl"}) {
+        CAPTURE(name);
+        const auto r = tf::read_urdf(folder.write(with(name)));
+        REQUIRE(r.meshes.size() == 1);
+        CHECK(r.meshes[0].file.filename() == "a.stl");
+        CHECK(r.meshes[0].place(tf::point3{1, 1, 1}) == tf::point3{2, 2, 0});
+    }
+    std::filesystem::create_directories(folder.path() / "elsewhere");
+    const auto away = folder.write(with("package://meshes/a.stl"), "elsewhere/robot.urdf");
+    CHECK_THROWS_AS(static_cast<void>(tf::read_urdf(away)), tf::io_error);
+    tf::urdf_options options;
+    options.package_folders = {folder.path() / "arm"};
+    CHECK(tf::read_urdf(away, options).meshes.size() == 1);
+    const auto r = tf::read_urdf(folder.write(with(
+        "meshes/a.stl", "<collision><geometry><sphere radius=\"1\"/></geometry></collision>")));
+    CHECK(r.skipped == std::vector<std::string>{"link a: a sphere is no mesh"});
+    options.visual = true;
+    CHECK(tf::read_urdf(folder.write(with("meshes/a.stl")), options).meshes.empty());
+}
+
+TEST_CASE("urdf: links are adjacent across links without meshes") {
+    const scratch folder;
+    const auto link = [](const std::string& name, bool mesh) {
+        return "<link name=\"" + name + "\">" +
+               (mesh ? "<collision><geometry><mesh "
+                       "filename=\"meshes/a.stl\"/></geometry></collision>"
+                     : "") +
+               "</link>";
+    };
+    const auto r = tf::read_urdf(
+        folder.write(robot(link("a", true) + link("b", false) + link("c", true) + link("d", true) +
+                           joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "c") +
+                           joint("l", "continuous", "c", "d"))));
+    using pairs = std::vector<std::array<std::uint32_t, 2>>;
+    CHECK(r.adjacent() == pairs{{0, 1}, {0, 2}, {1, 2}, {2, 3}});
+}
+
+TEST_CASE("urdf: what is wrong is named") {
+    CHECK(refusal("<robot").starts_with("byte "));
+    CHECK(refusal("<a/>") == "no <robot>: is it a URDF file? (xacro has to be run first)");
+    CHECK(refusal(robot("")) == "the robot has no link");
+    CHECK(refusal(robot("<link/>")) == "a link has no name");
+    CHECK(refusal(robot("<link name=\"a\"/><link name=\"a\"/>")) == "two links have the name a");
+    CHECK(
+        refusal(robot(three + joint("j", "floating", "a", "b"))) ==
+        "joint j: of type \"floating\"; only fixed, revolute, continuous and prismatic joints are "
+        "read");
+    CHECK(refusal(robot(three + joint("j", "fixed", "a", "x"))) ==
+          "joint j: its child link \"x\" is not there");
+    CHECK(refusal(robot(three + joint("j", "fixed", "a", "b") + joint("j", "fixed", "a", "c"))) ==
+          "two joints have the name j");
+    CHECK(refusal(robot(three + joint("j", "fixed", "a", "b") + joint("k", "fixed", "c", "b"))) ==
+          "link b is the child of two joints");
+    CHECK(refusal(robot(three + joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "a"))) ==
+          "joints lead from a link back to it");
+    CHECK(refusal(robot(three + joint("j", "revolute", "a", "b", "<axis xyz=\"0 0 0\"/>"))) ==
+          "joint j: its axis has no direction");
+    CHECK(refusal(robot(three + joint("j", "fixed", "a", "b", "<origin xyz=\"1 nan 0\"/>"))) ==
+          "joint j: xyz=\"1 nan 0\": expected 3 finite numbers");
+    CHECK(refusal(robot(three + joint("j", "fixed", "a", "b", "<origin xyz=\"1 2 3 4\"/>"))) ==
+          "joint j: xyz=\"1 2 3 4\": expected 3 finite numbers");
+    CHECK(refusal(robot("<link name=\"a\"><collision><geometry><mesh filename=\"no.stl\"/>"
+                        "</geometry></collision></link>")) ==
+          "link a: its mesh no.stl is not found");
+    CHECK_THROWS_AS(static_cast<void>(tf::read_urdf("/no/such.urdf")), tf::io_error);
+}
+
+TEST_CASE("urdf: values of joints that are not there, fixed or not finite are refused") {
+    const scratch folder;
+    const auto r = tf::read_urdf(folder.write(
+        robot(three + joint("j", "fixed", "a", "b") + joint("k", "continuous", "a", "c"))));
+    const auto with = [&](const tf::joint_value& one) {
+        static_cast<void>(tf::link_transforms(r, {&one, 1}));
+    };
+    CHECK_THROWS_WITH_AS(with({"x", 1.0}), "treeform::link_transforms: there is no joint x",
+                         std::invalid_argument);
+    CHECK_THROWS_AS(with({"j", 1.0}), std::invalid_argument);
+    CHECK_THROWS_AS(with({"k", std::nan("")}), std::invalid_argument);
+    CHECK_NOTHROW(with({"k", 1.0}));
+}
+
+TEST_CASE("urdf: every prefix of a file is read or refused, none ends the program") {
+    const scratch folder;
+    const std::string whole = robot(
+        "<link name=\"a\"><collision><geometry><mesh filename=\"meshes/a.stl\"/></geometry>"
+        "</collision></link><link name=\"b\"/>" +
+        joint("j", "revolute", "a", "b", "<origin xyz=\"1 2 3\"/><limit lower=\"1\"/>"));
+    for (std::size_t length = 0; length < whole.size(); ++length)
+        CHECK_THROWS_AS(static_cast<void>(tf::read_urdf(folder.write(whole.substr(0, length)))),
+                        tf::io_error);
+    CHECK(tf::read_urdf(folder.write(whole)).joints.size() == 1);
+}

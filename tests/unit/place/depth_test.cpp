@@ -1,0 +1,168 @@
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/random.hpp>
+#include <support/solids.hpp>
+#include <support/soups.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+using test::ball;
+using test::box;
+using test::moved;
+
+constexpr int many = 10000;
+
+/// Direction `i` of many that are spread over the sphere.
+tf::point3 direction(int i) {
+    const double n = i + 0.25, z = 1.0 - 2.0 * n / many, r = std::sqrt(1.0 - z * z);
+    const double at = std::numbers::pi * (3.0 - std::sqrt(5.0)) * n;
+    return {r * std::cos(at), r * std::sin(at), z};
+}
+
+double along(const tf::point3& p, const tf::point3& d) { return p.x * d.x + p.y * d.y + p.z * d.z; }
+
+/// How far `a` goes this way until a plane separates it from `b`.
+double to_separation(const tf::mesh& a, const tf::mesh& b, const tf::point3& d) {
+    double last = std::numeric_limits<double>::infinity(), first = -last;
+    for (const tf::point3& p : a.points) last = std::min(last, along(p, d));
+    for (const tf::point3& p : b.points) first = std::max(first, along(p, d));
+    return first - last;
+}
+
+double least_separation(const tf::mesh& a, const tf::mesh& b) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < many; ++i) least = std::min(least, to_separation(a, b, direction(i)));
+    return least;
+}
+
+/// The least way, of many directions, from where a plane separates them back to the first contact.
+double least_exit(const tf::mesh& a, const tf::mesh& b) {
+    const auto pa = tf::prepared_mesh::borrow(a), pb = tf::prepared_mesh::borrow(b);
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < many; ++i) {
+        const tf::point3 d = direction(i);
+        const double out = to_separation(a, b, d) * (1.0 + 1e-9);
+        tf::impact_options options;
+        options.move_a = tf::translation<3>(tf::point3{d.x * out, d.y * out, d.z * out});
+        const auto back = tf::time_of_impact(pa, pb, {-d.x, -d.y, -d.z}, options);
+        least = std::min(least, back.end == tf::motion_end::contact ? out - back.time : out);
+    }
+    return least;
+}
+
+/// Verified: it takes `a` out. Returns the depth.
+double depth_of(const tf::mesh& a, const tf::mesh& b) {
+    const auto found = tf::penetration_depth(a, b);
+    REQUIRE(found.has_value());
+    REQUIRE(found->status == tf::status::ok);
+    CHECK(found->depth == std::hypot(found->move.x, found->move.y, found->move.z));
+    CHECK(tf::relation(moved(a, found->move), b).relation != tf::mesh_relation::penetrating);
+    return found->depth;
+}
+
+/// Two bars at a right angle.
+tf::mesh l_shape() { return test::together(box(3, 1, 1), moved(box(1, 3, 1), {0, 1, 0})); }
+
+}  // namespace
+
+TEST_CASE("depth: there is none apart, touching, of open sheets side by side, or of a cloud") {
+    const tf::mesh a = box(1, 1, 1);
+    CHECK_FALSE(tf::penetration_depth(a, moved(a, {2, 0, 0})).has_value());
+    CHECK_FALSE(tf::penetration_depth(a, moved(a, {1, 0, 0})).has_value());
+    CHECK_FALSE(tf::penetration_depth(a, {}).has_value());
+    CHECK_FALSE(tf::penetration_depth({}, a).has_value());
+    const auto cloud = tf::prepared_mesh::cloud({{0.5, 0.5, 0.5}});
+    CHECK_FALSE(tf::penetration_depth(cloud, tf::prepared_mesh::borrow(a)).has_value());
+}
+
+TEST_CASE("depth: of two boxes it is their least overlap, also of one inside the other") {
+    const tf::mesh big = box(4, 5, 6);
+    CHECK(depth_of(moved(box(1, 1, 1), {3.75, 2, 2}), big) == 0.25);
+    CHECK(depth_of(moved(box(2, 2, 2), {1, -1.5, 1}), big) == 0.5);
+    CHECK(depth_of(moved(box(1, 1, 1), {1, 2, 2.5}), big) == 2.0);
+    CHECK(depth_of(big, moved(box(1, 1, 1), {1, 2, 2.5})) == 2.0);
+    CHECK(depth_of(big, big) == 4.0);
+}
+
+TEST_CASE("depth: of convex bodies it is not above the best of 10^4 directions") {
+    test::random source(3);
+    for (int round = 0; round < 12; ++round) {
+        CAPTURE(round);
+        const tf::mesh a = round % 2 == 0 ? test::random_tetrahedron(source, 2.0) : ball(2, 1.0);
+        const tf::mesh b =
+            moved(round % 3 == 0 ? ball(2, 1.0) : test::turned(box(1, 2, 1.5), {1, 2, 3}, 0.7),
+                  {source.in(-0.3, 0.3), source.in(-0.3, 0.3), source.in(-0.3, 0.3)});
+        if (tf::relation(a, b).relation != tf::mesh_relation::penetrating) continue;
+        CHECK(depth_of(a, b) <= least_separation(a, b) * (1.0 + 1e-12));
+    }
+}
+
+TEST_CASE(
+    "depth: of L shapes that hook into each other it is not above the best of 10^4 directions") {
+    test::random source(4);
+    for (int round = 0; round < 4; ++round) {
+        CAPTURE(round);
+        const tf::mesh a = l_shape();
+        const tf::mesh b = moved(test::turned(l_shape(), {0, 0, 1}, 3.0 + 0.1 * round),
+                                 {source.in(1.5, 2.5), source.in(1.5, 2.5), source.in(-0.4, 0.4)});
+        if (tf::relation(a, b).relation != tf::mesh_relation::penetrating) continue;
+        CHECK(depth_of(a, b) <= least_exit(a, b) * (1.0 + 1e-9));
+    }
+}
+
+TEST_CASE("depth: it stops when told to, and names a bad face") {
+    const tf::mesh a = ball(3, 1.0), b = moved(a, {0.5, 0, 0});
+    const auto pa = tf::prepared_mesh::borrow(a), pb = tf::prepared_mesh::borrow(b);
+    int asked = 0;
+    tf::depth_options options;
+    options.progress = [&](double) { return ++asked < 8; };
+    CHECK(tf::penetration_depth(pa, pb, options)->status == tf::status::cancelled);
+    tf::mesh bad = a;
+    bad.points[0].x = std::nan("");
+    CHECK_THROWS_AS(static_cast<void>(tf::penetration_depth(bad, b)), std::invalid_argument);
+}
+
+TEST_CASE("sides: points are counted inside, on and outside of several solids") {
+    std::vector<tf::prepared_mesh> solids;
+    solids.emplace_back(box(1, 1, 1));
+    solids.emplace_back(moved(box(1, 1, 1), {0.5, 0, 0}));
+    tf::mesh open = moved(box(1, 1, 1), {9, 0, 0});
+    open.faces.pop_back();
+    solids.emplace_back(tf::mesh(open));
+    const std::vector<tf::point3> points{{0.25, 0.5, 0.5}, {1, 0.5, 0.5}, {0, 0.5, 0.5},
+                                         {1.5, 0.5, 0.5},  {5, 5, 5},     {9.5, 0.5, 0.5}};
+    const auto counts = tf::count_sides(points, solids);
+    CHECK(counts.inside == 2);  // the second is on the first box and inside the other
+    CHECK(counts.on == 2);
+    CHECK(counts.outside == 2);
+    CHECK(tf::count_sides({}, solids).inside == 0);
+    const std::vector<tf::point3> bad{{0, 0, 0}, {0, std::nan(""), 0}};
+    CHECK_THROWS_WITH_AS(static_cast<void>(tf::count_sides(bad, solids)),
+                         "treeform::count_sides: point 1 is not finite", std::invalid_argument);
+}
+
+TEST_CASE("sides: the counts are those of the points one by one") {
+    test::random source(6);
+    std::vector<tf::prepared_mesh> solid;
+    solid.emplace_back(ball(4, 1.0));
+    std::vector<tf::point3> points;
+    for (int i = 0; i < 5000; ++i)
+        points.push_back({source.in(-1.2, 1.2), source.in(-1.2, 1.2), source.in(-1.2, 1.2)});
+    const auto each = tf::locate(solid[0], points);
+    const auto inside = std::count_if(each.begin(), each.end(), [](const auto& one) {
+        return one.where == tf::location::inside;
+    });
+    CHECK(tf::count_sides(points, solid).inside == static_cast<std::uint64_t>(inside));
+}

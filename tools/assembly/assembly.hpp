@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// The modes of tf-place that look at all parts of an assembly: clash and check.
+
+#include "tools/common/command_line.hpp"
+#include "tools/common/common_options.hpp"
+#include "tools/common/exit_status.hpp"
+#include "tools/common/parse_value.hpp"
+#include "tools/common/run.hpp"
+#include <treeform/mesh/clash.hpp>
+#include <treeform/tf.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+struct assembly_settings {
+    std::vector<std::string> ignored{};  ///< "A:B"
+    distance clearance{};
+    bool no_depth = false;
+    std::string poses{};
+    std::filesystem::path results{};
+    bool first_only = false;
+    std::vector<std::string> package_folders{};
+};
+
+/// The parts of all inputs, with names for people and for --ignore.
+struct named_assembly {
+    tf::body_set set{};
+    std::vector<std::string> names{};  ///< [B] of the part; with the file's where there are several
+};
+
+/// Does all that `tf-place clash ...` or `tf-place check ...` asks for; none for other modes.
+[[nodiscard]] std::optional<int> run_assembly(int argc, const char* const* argv);
+
+/// Reads all inputs. \throws failure (bad_input) when there is no part
+[[nodiscard]] named_assembly read_assembly(job& work);
+
+/// The pairs that --ignore names; says which of them name nothing. \throws failure (bad_usage)
+[[nodiscard]] std::vector<tf::part_pair> ignored_pairs(job& work, const assembly_settings& settings,
+                                                       const std::vector<std::string>& names);
+
+[[nodiscard]] exit_status clash_all(job& work, const assembly_settings& settings);
+[[nodiscard]] exit_status check_all(job& work, const assembly_settings& settings);
+
+}  // namespace tools

@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// What `measure` says beyond contact and distance: how deep, how many points inside, and how far
+/// each point is from the fixed surface.
+
+#include "tools/common/command_line.hpp"
+#include "tools/common/exit_status.hpp"
+#include "tools/common/run.hpp"
+#include <treeform/mesh/placement.hpp>
+#include <treeform/tf.hpp>
+
+#include <array>
+#include <filesystem>
+#include <optional>
+
+namespace tools {
+
+struct deviation_settings {
+    std::filesystem::path distances{};
+    std::optional<std::array<double, 2>> band{};
+
+    [[nodiscard]] bool wanted() const { return !distances.empty() || band.has_value(); }
+};
+
+void add_deviation_options(command_line& line, deviation_settings& settings);
+
+/// Enters depth, points inside and deviation, where there are any or they are asked for, says them,
+/// and writes the distances. \returns found where a point is out of the tolerance band
+[[nodiscard]] exit_status enter_measured(job& work, const deviation_settings& settings,
+                                         const tf::body_set& moving, const tf::body_set& fixed,
+                                         const tf::placement& at);
+
+}  // namespace tools
