@@ -109,7 +109,8 @@ void refuse_unless_text(const source& in) {
     if (extension == "obj") return file_kind::obj;
     if (extension == "off") return file_kind::off;
     if (extension == "csv") return file_kind::csv;
-    constexpr std::array<std::string_view, 4> tables{"xyz", "txt", "pts", "asc"};
+    if (extension == "pts") return file_kind::pts;
+    constexpr std::array<std::string_view, 3> tables{"xyz", "txt", "asc"};
     if (std::find(tables.begin(), tables.end(), extension) != tables.end()) return file_kind::xyz;
     return std::nullopt;
 }

@@ -19,6 +19,7 @@ enum class file_kind : std::uint8_t {
     pcd,
     las,  ///< or LAZ
     xyz,
+    pts,  ///< as xyz, with the number of points first
     csv,
     package_3mf,
     scene

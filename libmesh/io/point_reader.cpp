@@ -24,6 +24,8 @@ namespace {
             return detail::io::open_las_points(in);
         case detail::io::file_kind::xyz:
             return detail::io::open_xyz_points(in, "xyz");
+        case detail::io::file_kind::pts:
+            return detail::io::open_xyz_points(in, "pts");
         case detail::io::file_kind::csv:
             return detail::io::open_xyz_points(in, "csv");
         default:

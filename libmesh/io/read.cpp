@@ -30,6 +30,8 @@ namespace {
             return detail::io::read_las(in);
         case detail::io::file_kind::xyz:
             return detail::io::read_xyz(in, "xyz");
+        case detail::io::file_kind::pts:
+            return detail::io::read_xyz(in, "pts");
         case detail::io::file_kind::csv:
             return detail::io::read_xyz(in, "csv");
         case detail::io::file_kind::package_3mf:

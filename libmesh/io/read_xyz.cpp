@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace treeform::detail::io {
@@ -19,7 +22,7 @@ namespace {
 /// another order where a heading names the columns.
 class xyz_reader {
   public:
-    explicit xyz_reader(const source& in) : text_(in) {
+    xyz_reader(const source& in, std::string_view format) : text_(in), pts_(format == "pts") {
         skip_heading();
         if (done()) text_.file.fail("no point found");
         learn_columns();
@@ -48,10 +51,20 @@ class xyz_reader {
             more_.clear();
             text_.file.release_before(text_.at);
         }
+        check_count(count);
         text_.file.rewind();
         text_.at = start;
         if (!keep_more_) drop_columns();
         return count;
+    }
+
+    /// \pre all lines were read, `count` of them
+    void check_count(std::uint64_t count) {
+        if (!promised_ || count == *promised_) return;
+        const std::string both =
+            std::to_string(*promised_) + " points promised, " + std::to_string(count) + " there";
+        if (count < *promised_) text_.fail("the file ends in the points: " + both);
+        warnings_.push_back({"count", both});
     }
 
     /// As `point_rows::append`. The columns are of no use once lines are not `even`.
@@ -102,7 +115,8 @@ class xyz_reader {
                               first.find_first_of(",;") == std::string_view::npos;
         heading_ = starts_with_number ? named_comment() : first;
         if (!starts_with_number || one_word) {
-            if (starts_with_number || !find_axes(split_heading(heading_)))
+            if (pts_ && starts_with_number) promised_ = whole_number(first);
+            if (!promised_ && (starts_with_number || !find_axes(split_heading(heading_))))
                 warnings_.push_back({"heading", "the first line is no point and was left out"});
             if (done()) return;
             start = text_.at;
@@ -110,6 +124,13 @@ class xyz_reader {
         }
         text_.at = start;
         learn_separator(first);
+    }
+
+    [[nodiscard]] static std::optional<std::uint64_t> whole_number(std::string_view word) {
+        std::uint64_t value = 0;
+        const auto end = std::from_chars(word.data(), word.data() + word.size(), value);
+        const bool whole = end.ec == std::errc() && end.ptr == word.data() + word.size();
+        return whole ? std::optional(value) : std::nullopt;
     }
 
     /// A comma separates columns only where no blank does the same without one: in "1,5 2,5 3,5" it
@@ -141,7 +162,15 @@ class xyz_reader {
         text_.at = start;
         width_ = more_.size();
         more_.clear();
-        declare_columns(names);
+        declare_columns(promised_ && !axes ? names_in_pts(*width_ + 3) : names);
+    }
+
+    /// Of so many columns in a PTS file; empty where these have no usual meaning.
+    [[nodiscard]] static std::vector<std::string> names_in_pts(std::size_t count) {
+        if (count == 4) return {"x", "y", "z", "intensity"};
+        if (count == 6) return {"x", "y", "z", "red", "green", "blue"};
+        if (count == 7) return {"x", "y", "z", "intensity", "red", "green", "blue"};
+        return {};
     }
 
     void declare_columns(const std::vector<std::string>& names) {
@@ -222,6 +251,8 @@ class xyz_reader {
     static inline const std::vector<std::size_t> axes_in_order{0, 1, 2};
 
     text text_;
+    bool pts_;
+    std::optional<std::uint64_t> promised_{};  ///< number of points that the first line says
     std::string_view comment_{};
     std::string_view heading_{};
     char separator_ = ' ';
@@ -236,9 +267,9 @@ class xyz_reader {
 }  // namespace
 
 mesh_file read_xyz(const source& in, std::string_view format) {
-    xyz_reader reader(in);
+    xyz_reader reader(in, format);
     mesh_file file;
-    file.format = format;
+    file.format = format == "pts" ? "xyz" : format;
     file.attributes.elements = reader.elements();
     element none{.name = "vertex"};
     element& vertices = file.attributes.elements.empty() ? none : file.attributes.elements[0];
@@ -246,6 +277,7 @@ mesh_file read_xyz(const source& in, std::string_view format) {
     vertices.rows = file.mesh.points.size();
     if (vertices.rows > std::numeric_limits<std::uint32_t>::max())
         in.fail("more points than 32-bit numbers can name");
+    reader.check_count(vertices.rows);
     file.warnings = reader.warnings();
     if (!reader.even()) {
         file.warnings.push_back({"columns", xyz_reader::uneven});
@@ -256,10 +288,10 @@ mesh_file read_xyz(const source& in, std::string_view format) {
 }
 
 point_rows open_xyz_points(const source& in, std::string_view format) {
-    auto reader = std::make_shared<xyz_reader>(in);
+    auto reader = std::make_shared<xyz_reader>(in, format);
     point_rows rows;
     rows.count = reader->survey();
-    rows.head.format = format;
+    rows.head.format = format == "pts" ? "xyz" : format;
     rows.head.warnings = reader->warnings();
     rows.head.attributes.elements = reader->elements();
     rows.append = [reader](std::vector<point3>& points, element& vertices, std::size_t most,

@@ -19,7 +19,7 @@ namespace treeform::detail::io {
 /// LAS and LAZ.
 [[nodiscard]] mesh_file read_las(const source& in);
 [[nodiscard]] mesh_file read_3mf(const source& in);
-/// `format` is "xyz" or "csv", which are read alike.
+/// `format` is "xyz" or "csv", which are read alike, or "pts", where a count may come first.
 [[nodiscard]] mesh_file read_xyz(const source& in, std::string_view format);
 
 /// True when the library behind `read_scene` knows files of this extension (no dot).

@@ -105,6 +105,21 @@ file_weld_result weld(const mesh_file& file, const weld_options& options) {
     return result;
 }
 
+void withhold(mesh_file& file, const file_weld_result& welded) {
+    const std::vector<std::uint32_t>& group_of = welded.groups.group_of_point;
+    if (group_of.size() != file.mesh.points.size())
+        throw std::invalid_argument("treeform::withhold: the result of another number of points");
+    element& vertices = obtain_element(file.attributes, "vertex", group_of.size());
+    const column* const before = find_column(vertices, "withheld");
+    const bool has_flags = before != nullptr && !before->list_length;
+    std::vector<std::uint8_t> flags(group_of.size());
+    for (std::uint32_t p = 0; p < flags.size(); ++p) {
+        const bool was = has_flags && number_at(*before, p) != 0.0;
+        flags[p] = was || welded.point_of_group[group_of[p]] != p ? 1 : 0;
+    }
+    set_column(vertices, make_column<std::uint8_t>("withheld", flags));
+}
+
 std::optional<std::uint64_t> count_still_within(const mesh_file& welded,
                                                 const weld_options& options, precision written_as) {
     if (options.only_borders || options.keep_manifold) return std::nullopt;
@@ -124,7 +139,8 @@ std::optional<std::uint64_t> count_still_within(const mesh_file& welded,
     again.keep_seams = false;
     attributes properties;
     if (const element* vertices = find_element(welded.attributes, "vertex"))
-        if (!again.same.empty()) properties.elements.push_back(*vertices);
+        if (!again.same.empty() || again.order != weld_order::given)
+            properties.elements.push_back(*vertices);
     const cloud_weld_result twice = weld(points, properties, again);
     if (twice.status == status::cancelled) return std::nullopt;
     return points.size() - twice.points.size();

@@ -60,6 +60,12 @@ std::vector<std::string> required(const attributes& properties, option where,
     return columns;
 }
 
+std::string required_column(const attributes& properties, option where, const std::string& name) {
+    auto columns = required(properties, where, name);
+    if (columns.size() > 1) throw weld_property_error(where, fault::is_several, name);
+    return std::move(columns.front());
+}
+
 std::vector<weld_condition> kept_seams(const attributes& properties,
                                        const std::vector<std::string>& across) {
     std::vector<weld_condition> seams = seam_conditions(properties);
@@ -127,10 +133,12 @@ std::vector<weld_condition> seam_conditions(const attributes& properties) {
 
 std::string detail::weld::column_to_keep_by(const attributes& properties,
                                             const weld_options& options) {
-    const auto columns = required(properties, option::keep_by, options.keep_by);
-    if (columns.size() > 1)
-        throw weld_property_error(option::keep_by, fault::is_several, options.keep_by);
-    return columns.front();
+    return required_column(properties, option::keep_by, options.keep_by);
+}
+
+std::string detail::weld::column_to_order_by(const attributes& properties,
+                                             const weld_options& options) {
+    return required_column(properties, option::order_by, options.order_by);
 }
 
 }  // namespace treeform

@@ -8,9 +8,11 @@
 
 namespace treeform::detail::weld {
 
-/// The column that `options.keep_by` stands for.
+/// The columns that `options.keep_by` and `options.order_by` stand for.
 /// \throws weld_property_error when it stands for none, for several, or for one of lists
 [[nodiscard]] std::string column_to_keep_by(const attributes& properties,
                                             const weld_options& options);
+[[nodiscard]] std::string column_to_order_by(const attributes& properties,
+                                             const weld_options& options);
 
 }  // namespace treeform::detail::weld

@@ -2,6 +2,7 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -65,6 +66,15 @@ vertex_values::vertex_values(points_view points, const attributes& properties,
         std::memcpy(&value, c->values.data() + i * sizeof value, sizeof value);
         return is_signed ? value ^ std::uint64_t{1} << 63 : value;
     });
+}
+
+std::uint64_t vertex_values::ascending_key(std::size_t i) const {
+    if (whole_.size() > 0) return whole_[i];
+    if (is_nan(i)) return ~std::uint64_t{0};  // above the key of infinity
+    // Magnitudes of positive doubles are ordered as their bits, of negative ones the other way.
+    const auto bits = std::bit_cast<std::uint64_t>(number_[i] + 0.0);  // -0 + 0 = +0
+    constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+    return (bits & sign) != 0 ? ~bits : bits | sign;
 }
 
 bool vertex_values::agree(std::size_t i, std::size_t j, double tolerance) const {

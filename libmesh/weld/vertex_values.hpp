@@ -26,6 +26,12 @@ class vertex_values {
     [[nodiscard]] bool is_nan(std::size_t i) const {
         return whole_.size() == 0 && number_[i] != number_[i];
     }
+    /// Less where the value is less, equal where it is equal (-0 to +0); NaN comes last.
+    [[nodiscard]] std::uint64_t ascending_key(std::size_t i) const;
+    /// Less where the value is greater; otherwise the same.
+    [[nodiscard]] std::uint64_t descending_key(std::size_t i) const {
+        return is_nan(i) ? ascending_key(i) : ~ascending_key(i);
+    }
     /// Whether the values differ by at most `tolerance`, finite and not negative; NaN differs from
     /// all but NaN.
     [[nodiscard]] bool agree(std::size_t i, std::size_t j, double tolerance) const;

@@ -8,25 +8,30 @@
 #include <libmesh/weld/kept_values.hpp>
 #include <libmesh/weld/manifold_groups.hpp>
 #include <libmesh/weld/moves.hpp>
+#include <libmesh/weld/ordered_groups.hpp>
 #include <libmesh/weld/property_groups.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace treeform {
 namespace {
 
 [[nodiscard]] point_groups find_groups(mesh_view mesh, const attributes& properties,
-                                       const weld_options& options) {
+                                       const weld_options& options,
+                                       std::span<const std::uint32_t> order) {
     const auto asked = weld_conditions(properties, !mesh.faces.empty(), options);
     detail::buffer<std::uint8_t> border;
     if (options.only_borders) border = detail::weld::border_points(mesh.points.size(), mesh.faces);
     const detail::weld::conditions conditions(mesh.points, properties, options, asked,
                                               border.span());
-    return detail::weld::find_groups("weld", mesh.points, conditions.options());
+    const weld_options all = conditions.options();
+    return order.empty() ? detail::weld::find_groups("weld", mesh.points, all)
+                         : detail::weld::find_groups_in_order("weld", mesh.points, all, order);
 }
 
 std::uint64_t count_non_finite(points_view points) {
@@ -107,14 +112,17 @@ weld_result weld(mesh_view mesh, const attributes& properties, const weld_option
     const bool by_property =
         options.keep == weld_keep::lowest || options.keep == weld_keep::highest;
     if (by_property) static_cast<void>(detail::weld::column_to_keep_by(properties, options));
+    const std::vector<std::uint32_t> order =
+        detail::weld::points_in_order(mesh.points, properties, options);
     weld_result result;
     weld_statistics& statistics = result.statistics;
-    result.groups = find_groups(mesh, properties, options);
+    result.groups = find_groups(mesh, properties, options, order);
     result.status = result.groups.status;
     if (result.status == status::cancelled) return result;
     if (options.keep_manifold && !mesh.faces.empty()) {
         detail::weld::manifold_groups split = detail::weld::split_to_manifold(mesh, result.groups);
         result.groups = std::move(split.groups);
+        if (!order.empty()) detail::weld::put_earliest_first(order, result.groups);
         statistics.left_alone = split.split_up;
     }
     statistics.groups = detail::weld::count_groups_of_several(result.groups);

@@ -54,6 +54,26 @@ class Groups(WeldTest):
                 self.assertAlmostEqual(got, value, places=12, msg=which)
             self.assertEqual(kept[1], (9, 9, 9, 1))
 
+    def test_an_order_says_which_point_stays_and_keeps_the_promise(self):
+        line = [(0, 0, 0, 5), (1, 0, 0, 3), (2, 0, 0, 4), (3, 0, 0, 9), (4, 0, 0, "nan")]
+        for order, expected in (("column_4", (1, 3)), ("min:column_4", (1, 3)),
+                                ("max:column_4", (0, 3)), ("x", (0, 2, 4)), ("max:x", (0, 2, 4))):
+            kept = self.kept(line, "-t", "1", "--order", order)
+            self.assertEqual(tuple(p[0] for p in kept), expected, msg=order)
+        kept = self.kept(line, "-t", "1", "--rule", "chain", "--order", "max:column_4")
+        self.assertEqual(kept, [(3, 0, 0, 9)])
+
+    def test_map_label_and_removed_go_by_the_order(self):
+        self.cloud("in.xyz", [(0, 0, 0, 5), (9, 0, 0, 1), (0, 0, 0, 2), (0, 0, 0, 7)])
+        entry = self.entry("in.xyz", "--order", "column_4", "-o", "out.xyz", "--map", "map.csv",
+                           "--removed", "gone.xyz", status=0)
+        self.assertEqual(entry["order"], "min:column_4")
+        self.assertEqual(self.numbers("out.xyz"), [(9, 0, 0, 1), (0, 0, 0, 2)])
+        self.assertEqual(self.numbers("gone.xyz"), [(0, 0, 0, 5), (0, 0, 0, 7)])
+        self.assertEqual(self.read("map.csv").split(), ["input,output", "0,1", "1,0", "2,1", "3,1"])
+        self.run_tool("in.xyz", "--order", "column_4", "-o", "all.xyz", "--label", "g", status=0)
+        self.assertEqual([row[4] for row in self.numbers("all.xyz")], [1, 0, 1, 1])
+
     def test_same_keeps_points_with_other_values_apart(self):
         points = [(0, 0, 0, 1, 5), (0, 0, 0, 2, 5), (0, 0, 0, 1.25, 5)]
         self.assertEqual(len(self.kept(points)), 1)
@@ -73,6 +93,7 @@ class Groups(WeldTest):
     def test_a_property_that_is_not_there_is_an_input_error_that_names_those_that_are(self):
         self.cloud("in.xyz", [(0, 0, 0, 1)])
         for options in (["--same", "intensity"], ["--keep", "min:intensity"],
+                        ["--order", "intensity"], ["--order", "max:intensity"],
                         ["--across", "intensity"], ["--same", "normal"]):
             run = self.run_tool("in.xyz", *options, "-o", "out.xyz", status=3)
             self.assertIn("the points have column_4", run.err)

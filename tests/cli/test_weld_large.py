@@ -132,8 +132,8 @@ class Large(WeldTest):
 
     def test_what_only_memory_can_do_is_refused_in_words(self):
         self.write("in.ply", ply(cloud(200), ascii=False))
-        for more in (["--keep", "mean"], ["--same", "number"], ["--keep-manifold"],
-                     ["--precision", "float"]):
+        for more in (["--keep", "mean"], ["--order", "number"], ["--same", "number"],
+                     ["--keep-manifold"], ["--precision", "float"]):
             run = self.run_tool("in.ply", "-t", "0.02", "-o", "out.ply", "--tile-points", 50,
                                 *more, status=2)
             self.assertIn("memory", run.err)

@@ -68,6 +68,44 @@ class Las(WeldTest):
         entry = self.entry("a.las", "b.las", "--join", "-t", "0.3", "-o", "out.ply", status=0)
         self.assertEqual((entry["points"]["out"], entry["warnings"]), (2, []))
 
+    def test_withheld_points_stay_with_a_flag(self):
+        entry = self.entry("in.las", "-t", "0.3", "--withhold", "-o", "out.las", status=0)
+        data = self.read_bytes("out.las")
+        self.assertEqual(las_points(data), POINTS)
+        first, = struct.unpack_from("<I", data, 96)
+        classes = [data[first + 20 * i + 15] for i in range(5)]
+        self.assertEqual(classes, [2, 2, 2 | 0x80, 2, 2 | 0x80])
+        self.assertEqual((entry["points"]["out"], entry["points"]["removed"]), (5, 0))
+        self.assertEqual((entry["withheld"], entry["label"]), (2, None))
+        self.assertIsNone(entry["output"]["within_tolerance"])
+        # Flags that were there stay; the records are the same but for the flags.
+        self.run_tool("out.las", "-t", "0", "--withhold", "-o", "again.laz", status=0)
+        self.run_tool("again.laz", "-o", "again.csv", "--same", "x,intensity", status=0)
+        rows = [line.split(",") for line in self.read("again.csv").splitlines()]
+        flags = [row[rows[0].index("withheld")] for row in rows[1:]]
+        self.assertEqual(flags, ["0", "0", "1", "0", "1"])
+        # With an order, the brighter of two stays.
+        self.run_tool("in.las", "-t", "0.3", "--withhold", "--order", "max:intensity", "-o",
+                      "bright.las", status=0)
+        data = self.read_bytes("bright.las")
+        self.assertEqual([data[first + 20 * i + 15] >> 7 for i in range(5)], [1, 0, 1, 0, 0])
+
+    def test_points_of_another_format_are_withheld_too(self):
+        self.write("in.csv", "x,y,z\n0,0,0\n0,0,0\n1,0,0\n")
+        self.run_tool("in.csv", "--withhold", "-o", "out.las", status=0)
+        self.run_tool("out.las", "-t", "0", "--label", "g", "-o", "out.csv", status=0)
+        rows = [line.split(",") for line in self.read("out.csv").splitlines()]
+        self.assertEqual([row[rows[0].index("withheld")] for row in rows[1:]], ["0", "1", "0"])
+
+    def test_withhold_is_refused_where_it_means_nothing(self):
+        for more in (["-o", "out.ply"], ["-o", "out.las", "--label", "g"], ["--check"],
+                     ["-o", "out.las", "--removed", "gone.las"],
+                     ["-o", "out.las", "--keep", "mean"],
+                     ["-o", "out.las", "--tile-points", 2]):
+            run = self.run_tool("in.las", "--withhold", *more, status=2)
+            self.assertIn("withhold", run.err)
+        self.assertEqual(self.listing(), ["in.las"])
+
     def test_means_are_checked_as_they_are_written(self):
         entry = self.entry("in.las", "-t", "0.3", "--keep", "mean", "-o", "out.las", status=0)
         self.assertEqual(len(las_points(self.read_bytes("out.las"))), 3)

@@ -10,10 +10,10 @@ HEAD = {"schema": str, "tool": str, "version": str, "command": list, "exit": int
         "files": list, "seconds": dict, "threads": int, "peak_rss": int}
 FILE = {"input": str, "exit": int, "error": type(None), "format": str, "sha256": str,
         "precision_in": str, "sources": list, "points": dict, "faces": dict, "polygons": dict,
-        "box": dict, "skipped": dict, "tolerance": dict, "rule": str, "keep": str, "same": list,
-        "displacement": dict, "nonmanifold_edges": dict, "left_alone": type(None),
+        "box": dict, "skipped": dict, "tolerance": dict, "rule": str, "keep": str, "order": str,
+        "same": list, "displacement": dict, "nonmanifold_edges": dict, "left_alone": type(None),
         "output": (dict, type(None)), "map": type(None), "removed": type(None),
-        "label": type(None), "warnings": list}
+        "label": type(None), "withheld": type(None), "warnings": list}
 
 
 class Report(WeldTest):

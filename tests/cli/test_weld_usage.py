@@ -21,8 +21,9 @@ class Usage(WeldTest):
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
         for word in ("What is merged:", "Which one stays:", "What to give back:", "Meshes:",
                      "Common options:", "Examples:", "Exit status:", "--join", "--tolerance",
-                     "--rule", "--same", "--across", "--borders", "--keep", "--map", "--removed",
-                     "--label", "--check", "--keep-degenerate", "--keep-manifold", "--in-place"):
+                     "--rule", "--same", "--across", "--borders", "--keep", "--order", "--map",
+                     "--removed", "--label", "--withhold", "--check", "--keep-degenerate",
+                     "--keep-manifold", "--in-place"):
             self.assertIn(word, run.text)
         self.assertNotIn("--html", run.text)
 
@@ -37,6 +38,7 @@ class Usage(WeldTest):
     def test_values_are_checked(self):
         for options in (["-t", "-1"], ["-t", "x"], ["-t", "1%%"], ["-t", "nan"], ["-t", "inf"],
                         ["--rule", "nearest"], ["--keep", "best"], ["--keep", "min:"],
+                        ["--order", "min:"], ["--order", ""], ["--order", "x", "--keep", "last"],
                         ["--keep", "min"], ["--same", ""], ["--same", "a,,b"], ["--same", "a=x"],
                         ["--same", "a=-1"], ["--same", "=1"], ["--across", ",a"],
                         ["--label", "x"], ["--label", "a b"], ["-j", "0"]):

@@ -113,12 +113,13 @@ exit_status weld_in_memory(job& work, const weld_request& request, const std::st
         write_map(*map, w, map_is_csv(asked.map));
     }
     if (!asked.removed.empty() && !o.dry_run) write_removed(work, outputs, file, w, asked.removed);
-    const bool labeled = !asked.label.empty();
-    if (labeled)
+    if (asked.withhold)
+        tf::withhold(file, w.result);
+    else if (!asked.label.empty())
         label(work, file, w, asked.label);
     else
         file = std::move(w.result.file);
-    if (!labeled && request.settings.options.keep == tf::weld_keep::mean)
+    if (!asked.drops_nothing() && request.settings.options.keep == tf::weld_keep::mean)
         fit_to_las(work, file, "means");
     work.entry["polygons"] = {{"in", w.polygons}, {"out", file.stored_faces}};
     if (path && !o.dry_run) write_result(work, outputs, file, w, request, *path);

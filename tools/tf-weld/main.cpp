@@ -57,6 +57,9 @@ void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_opt
     line.output(outputs.removed,
                 {"--removed", "FILE", "the points that were dropped, in a format of points"});
     line.option(outputs.label, {"--label", "P", "drop nothing; write group numbers to property P"});
+    line.flag(outputs.withhold, {"--withhold", "",
+                                 "drop nothing; set the flag \"withheld\" of points\n"
+                                 "that would be dropped (output in LAS or LAZ)"});
     line.flag(outputs.check, {"--check", "", "only count; exit 1 if anything would be merged"});
 }
 
@@ -100,12 +103,19 @@ const char* const epilogue =
     "In tiles, a cloud is read three times: to look at it (the box that a DIST in\n"
     "percent needs, how many points, a sample that says where to cut), to give each\n"
     "tile its points, and to write what is kept. Meshes, --join, --keep other than\n"
-    "first, --same, --borders and --keep-manifold need all of it in memory.\n"
+    "first, --order, --same, --withhold, --borders and --keep-manifold need all of it\n"
+    "in memory.\n"
+    "\n"
+    "With --order and rule first, no two kept points are within DIST, and every\n"
+    "dropped point is within DIST of a kept one that comes earlier in that order.\n"
+    "--keep other than first promises neither: kept points may lie within DIST of\n"
+    "each other, and a point may move by up to twice DIST.\n"
     "\n"
     "Examples:\n"
     "  tf-weld in.stl -o out.obj                       index a soup, lossless\n"
     "  tf-weld scan.ply -t 0.5 -o thin.ply --removed gone.ply --map map.csv\n"
-    "  tf-weld tile*.ply --join -t 0.001 --keep min:range -o all.ply\n"
+    "  tf-weld tile*.ply --join -t 0.001 --order min:range -o all.ply\n"
+    "  tf-weld scan.laz -t 0.05 --order max:intensity --withhold -o marked.laz\n"
     "  tf-weld part.obj -t 0.01% --borders --keep-manifold -o stitched.obj\n"
     "  gen | tf-weld --format stl - -o - --output-format ply | view -\n"
     "\n"
@@ -113,12 +123,15 @@ const char* const epilogue =
     "  5 stopped (memory, timeout, signal); 70 bug. Of several inputs, the highest.\n";
 
 /// Options that would do nothing are refused rather than passed over.
-void check_label(const weld_outputs& outputs, const weld_settings& s, const common_options& o) {
-    if (outputs.label.empty()) return;
-    if (!tools::wants_mesh(o)) refuse("--label needs -o, --output-dir or --in-place");
-    if (!outputs.removed.empty()) refuse("--label drops nothing; it excludes --removed");
+void check_what_is_marked(const weld_outputs& outputs, const weld_settings& s,
+                          const common_options& o) {
+    if (!outputs.drops_nothing()) return;
+    const std::string option = outputs.withhold ? "--withhold" : "--label";
+    if (!tools::wants_mesh(o)) refuse(option + " needs -o, --output-dir or --in-place");
+    if (!outputs.removed.empty()) refuse(option + " drops nothing; it excludes --removed");
     if (s.options.keep != tf::weld_keep::first || s.options.keep_degenerate)
-        refuse("--label drops nothing; it excludes --keep and --keep-degenerate");
+        refuse(option + " drops nothing; it excludes --keep and --keep-degenerate");
+    if (outputs.withhold && !outputs.label.empty()) refuse("--withhold excludes --label");
     for (const char* axis : {"x", "y", "z"})
         if (outputs.label == axis) refuse("--label " + outputs.label + ": is a coordinate");
     if (outputs.label.find_first_of(" \t\r\n,;\"") != std::string::npos)
@@ -140,7 +153,11 @@ void check_request(const command_line& line, const tools::weld_request& r,
     for (const auto& condition : r.settings.options.same)
         for (const auto& name : r.settings.options.across)
             if (condition.property == name) refuse(name + " is named by --same and by --across");
-    check_label(outputs, r.settings, o);
+    const tf::weld_options& options = r.settings.options;
+    if (options.order != tf::weld_order::given && options.keep != tf::weld_keep::first)
+        refuse("--order says which point stays; it excludes --keep " +
+               tools::keep_in_words(options));
+    check_what_is_marked(outputs, r.settings, o);
 }
 
 }  // namespace
@@ -155,14 +172,20 @@ int main(int argc, char** argv) {
     options.suffix = "-weld";
     bool exact = true;
     line.inputs(options.inputs,
-                "points: PLY PCD LAS LAZ XYZ CSV; meshes: STL OBJ\n"
-                "PLY OFF GLB/glTF 3MF; or folders; \"-\" = stdin");
+                "points: PLY PCD LAS LAZ XYZ PTS CSV; meshes: STL\n"
+                "OBJ PLY OFF GLB/glTF 3MF; or folders; \"-\" = stdin");
     options.content = tf::file_content::meshes_and_points;
     line.flag(options.joined, {"--join", "", "treat all INPUTs as one set", "each on its own"});
     add_what_is_merged(line, r.settings, exact);
     line.group("Which one stays");
     line.option({"--keep", "WHICH", "first | last | mean | min:P | max:P", "first"},
                 [&](std::string_view text) { tools::parse_keep(text, r.settings.options); });
+    line.option({"--order", "P",
+                 "P or min:P | max:P: go through points from the\n"
+                 "least or greatest P on; ties, NaN last, in file\n"
+                 "order",
+                 "file order"},
+                [&](std::string_view text) { tools::parse_order(text, r.settings.options); });
     add_what_to_give_back(line, r.outputs, options);
     add_meshes(line, r.settings);
     add_large_clouds(line, tiles);

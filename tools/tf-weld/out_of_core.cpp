@@ -24,6 +24,8 @@ std::string what_needs_memory(const job& work, const weld_request& request,
                               const tf::mesh_file& header) {
     const tf::weld_options& o = request.settings.options;
     if (o.keep != tf::weld_keep::first) return "--keep " + keep_in_words(o);
+    if (request.outputs.withhold) return "--withhold";
+    if (o.order != tf::weld_order::given) return "--order " + order_in_words(o);
     if (o.only_borders) return "--borders";
     if (o.keep_manifold) return "--keep-manifold";
     try {

@@ -6,8 +6,8 @@
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 #include <vector>
 
@@ -47,23 +47,15 @@ void look_for_folds(job& work, const tf::mesh& welded) {
     warn_of_folds(work, defects, tf::precision::float32);
 }
 
-void put_number(std::string& text, std::uint64_t number) {
-    std::array<char, 20> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-    text.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
-}
-
 std::array<char, 8> little_endian(std::uint64_t number) {
     std::array<char, 8> bytes;
     for (std::size_t i = 0; i < 8; ++i) bytes[i] = static_cast<char>(number >> (8 * i) & 255U);
     return bytes;
 }
 
-void refuse_label_format(const std::filesystem::path& path, const std::string& format) {
-    if (format == "stl" || format == "obj" || format == "off" || format == "glb" || format == "3mf")
-        throw failure(bad_usage, "usage",
-                      path.string() +
-                          ": --label needs a format with properties: ply, pcd, las, laz, xyz, csv");
+bool is_of_points(const std::string& format) {
+    constexpr std::array known{"ply", "pcd", "las", "laz", "xyz", "csv"};
+    return std::find(known.begin(), known.end(), format) != known.end();
 }
 
 }  // namespace
@@ -71,8 +63,12 @@ void refuse_label_format(const std::filesystem::path& path, const std::string& f
 void check_formats(const job& work, const weld_request& request, const tf::mesh_file& file) {
     const auto path = mesh_output(work.options, work.path);
     if (!path) return;
-    const written_form form = form_of(work, file, *path);
-    if (!request.outputs.label.empty()) refuse_label_format(*path, form.format);
+    const std::string format = form_of(work, file, *path).format;
+    if (!request.outputs.label.empty() && !is_of_points(format))
+        refuse(path->string() +
+               ": --label needs a format with properties: ply, pcd, las, laz, xyz, csv");
+    if (request.outputs.withhold && format != "las" && format != "laz")
+        refuse(path->string() + ": --withhold needs the format las or laz");
 }
 
 const std::filesystem::path& pending_outputs::add(const std::filesystem::path& path, bool force) {
@@ -100,10 +96,8 @@ void pending_outputs::commit() {
 std::string check_points_format(const std::filesystem::path& path) {
     std::string format = extension_of(path);
     if (format == "txt" || format == "asc") format = "xyz";
-    constexpr std::array known{"ply", "pcd", "las", "laz", "xyz", "csv"};
-    if (std::find(known.begin(), known.end(), format) == known.end())
-        throw failure(bad_usage, "usage",
-                      path.string() + ": points can be written as ply, pcd, las, laz, xyz or csv");
+    if (!is_of_points(format))
+        refuse(path.string() + ": points can be written as ply, pcd, las, laz, xyz or csv");
     return format;
 }
 
@@ -119,18 +113,19 @@ void enter_blank_report(job& work, const weld_request& request) {
     entry["tolerance"] = {{"given", request.settings.tolerance.given}, {"used", nullptr}};
     entry["rule"] = name_of(request.settings.options.rule);
     entry["keep"] = keep_in_words(request.settings.options);
+    entry["order"] = order_in_words(request.settings.options);
     entry["same"] = json::array();
     entry["displacement"] = {{"max", nullptr}};
     entry["nonmanifold_edges"] = {{"before", nullptr}, {"after", nullptr}};
     entry["left_alone"] = nullptr;
     entry["output"] = nullptr;
-    for (const char* key : {"map", "removed", "label"}) entry[key] = nullptr;
+    for (const char* key : {"map", "removed", "label", "withheld"}) entry[key] = nullptr;
 }
 
 void enter_report(job& work, const welding& w, const weld_request& request) {
     json& entry = work.entry;
     const tf::weld_statistics& r = w.result.statistics;
-    const bool all_kept = !request.outputs.label.empty();
+    const bool all_kept = request.outputs.drops_nothing();
     entry["points"] = {{"in", w.points},
                        {"out", all_kept ? w.points : w.distinct()},
                        {"removed", all_kept ? 0 : w.removed()},
@@ -151,7 +146,8 @@ void enter_report(job& work, const welding& w, const weld_request& request) {
     entry["left_alone"] = or_null(request.settings.options.keep_manifold, r.left_alone);
     entry["map"] = path_entry(request.outputs.map);
     entry["removed"] = work.options.dry_run ? json(nullptr) : path_entry(request.outputs.removed);
-    if (all_kept) entry["label"] = request.outputs.label;
+    if (!request.outputs.label.empty()) entry["label"] = request.outputs.label;
+    entry["withheld"] = or_null(request.outputs.withhold, w.removed());
 }
 
 bool map_is_csv(const std::filesystem::path& path) {
@@ -164,9 +160,9 @@ void put_map_row(std::string& text, std::uint64_t input, std::uint64_t output, b
         text.append(bytes.data(), bytes.size());
         return;
     }
-    put_number(text, input);
+    text += std::to_string(input);
     text += ',';
-    put_number(text, output);
+    text += std::to_string(output);
     text += '\n';
 }
 
@@ -207,7 +203,7 @@ void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& weld
     const tf::write_result written = write_file(outputs, path, o.force || o.in_place, welded,
                                                 write_options_for(o, form_of(work, welded, path)));
     std::optional<std::uint64_t> again;
-    if (request.outputs.label.empty())
+    if (!request.outputs.drops_nothing())
         again = still_within(work, welded, w, request.settings, written.written_as);
     enter_output(work, path, written);
     work.entry["output"]["within_tolerance"] = again;

@@ -3,6 +3,8 @@
 #include "tools/common/exit_status.hpp"
 #include <treeform/tf.hpp>
 
+#include <array>
+
 namespace tools {
 namespace {
 
@@ -60,20 +62,23 @@ void parse_keep(std::string_view text, tf::weld_options& options) {
     options.keep_by = text.substr(4);
 }
 
+void parse_order(std::string_view text, tf::weld_options& options) {
+    const bool greatest = text.starts_with("max:");
+    const std::string_view name = greatest || text.starts_with("min:") ? text.substr(4) : text;
+    if (name.empty())
+        refuse("--order " + std::string(text) + ": expected P, min:P or max:P for a property P");
+    options.order = greatest ? tf::weld_order::highest : tf::weld_order::lowest;
+    options.order_by = name;
+}
+
+std::string order_in_words(const tf::weld_options& options) {
+    if (options.order == tf::weld_order::given) return "file";
+    return (options.order == tf::weld_order::lowest ? "min:" : "max:") + options.order_by;
+}
+
 std::string keep_in_words(const tf::weld_options& options) {
-    switch (options.keep) {
-        case tf::weld_keep::first:
-            return "first";
-        case tf::weld_keep::last:
-            return "last";
-        case tf::weld_keep::mean:
-            return "mean";
-        case tf::weld_keep::lowest:
-            return "min:" + options.keep_by;
-        case tf::weld_keep::highest:
-            return "max:" + options.keep_by;
-    }
-    return {};
+    constexpr std::array words{"first", "last", "mean", "min:", "max:"};
+    return words[static_cast<std::size_t>(options.keep)] + options.keep_by;
 }
 
 const char* name_of(tf::weld_rule rule) { return rule == tf::weld_rule::first ? "first" : "chain"; }
@@ -81,9 +86,10 @@ const char* name_of(tf::weld_rule rule) { return rule == tf::weld_rule::first ? 
 failure property_failure(const tf::weld_property_error& error, const tf::attributes& known) {
     using enum tf::weld_property_error::option;
     using enum tf::weld_property_error::fault;
-    const char* const option = error.where() == same     ? "--same "
-                               : error.where() == across ? "--across "
-                                                         : "--keep ";
+    const char* const option = error.where() == same       ? "--same "
+                               : error.where() == across   ? "--across "
+                               : error.where() == order_by ? "--order "
+                                                           : "--keep ";
     std::string why =
         error.what_is_wrong() == is_list ? "has lists of values" : "is more than one property";
     if (error.what_is_wrong() == missing) {

@@ -25,7 +25,10 @@ struct weld_outputs {
     std::filesystem::path map{};
     std::filesystem::path removed{};
     std::string label{};
+    bool withhold = false;
     bool check = false;
+
+    [[nodiscard]] bool drops_nothing() const { return withhold || !label.empty(); }
 };
 
 struct weld_request {
@@ -41,7 +44,11 @@ struct weld_request {
 /// "first", "last", "mean", "min:P", "max:P"
 void parse_keep(std::string_view text, tf::weld_options& options);
 
-/// As typed.
+/// "P", "min:P", "max:P"
+void parse_order(std::string_view text, tf::weld_options& options);
+
+/// As typed; an order of "P" is "min:P", and none "file".
+[[nodiscard]] std::string order_in_words(const tf::weld_options& options);
 [[nodiscard]] std::string keep_in_words(const tf::weld_options& options);
 [[nodiscard]] const char* name_of(tf::weld_rule rule);
 

@@ -46,6 +46,9 @@ std::string verdict(const welding& w, const weld_request& request) {
                " would stay";
     else if (!request.outputs.label.empty())
         text = all + " labeled, in " + counted(w.distinct(), "group", "groups");
+    else if (request.outputs.withhold)
+        text = grouped(w.removed()) + " of " + all + " withheld, " + grouped(w.distinct()) +
+               " left as they are";
     else
         text = grouped(w.removed()) + " of " + all + " merged, " + grouped(w.distinct()) + " kept";
     text += " (" + reach(w, request.settings);

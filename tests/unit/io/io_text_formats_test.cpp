@@ -194,6 +194,43 @@ TEST_CASE("xyz: separators, headings, further columns") {
     CHECK(holds(complaint("1 2 3\nabc\n", "a.xyz"), "a.xyz:2: 'abc'"));
 }
 
+TEST_CASE("pts: a count comes first, and columns have their usual names") {
+    const auto names = [](std::string_view text, std::string_view name = "a.PTS") {
+        const tf::mesh_file file = read(text, name);
+        CHECK(file.warnings.empty());
+        CHECK(file.format == "xyz");
+        std::string all;
+        if (const tf::element* e = tf::find_element(file.attributes, "vertex"))
+            for (const tf::column& c : e->columns) all += c.name + " ";
+        return all;
+    };
+    CHECK(names("1\n1 2 3\n").empty());
+    CHECK(names("1\n1 2 3 -17\n") == "intensity ");
+    CHECK(names("2 \r\n1 2 3 0.5\r\n4 5 6 0.25\r\n") == "intensity ");
+    CHECK(names("1\n1 2 3 10 20 30\n") == "red green blue ");
+    CHECK(names("1\n1 2 3 5 10 20 30\n") == "intensity red green blue ");
+    CHECK(names("1\n1 2 3 5 10\n") == "column_4 column_5 ");
+    CHECK(names("1 2 3 4\n") == "column_4 ");
+    CHECK(names("1 2 3 4\n", "a.xyz") == "column_4 ");
+    const tf::mesh_file file = read("2\n1 2 3 5 10 20 30\n4 5 6 7 40 50 60\n", "a.pts");
+    CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
+    CHECK(tf::number_at(column_of(file, "vertex", "intensity"), 1) == 7);
+    CHECK(tf::number_at(column_of(file, "vertex", "blue"), 0) == 30);
+}
+
+TEST_CASE("pts: a wrong count is a warning, and an error where points are missing") {
+    const tf::mesh_file more = read("1\n1 2 3\n4 5 6\n", "a.pts");
+    CHECK(more.mesh.points.size() == 2);
+    REQUIRE(more.warnings.size() == 1);
+    CHECK(more.warnings[0].code == "count");
+    CHECK(more.warnings[0].text == "1 points promised, 2 there");
+    CHECK(holds(complaint("3\n1 2 3\n4 5 6\n", "a.pts"), "3 points promised, 2 there"));
+    CHECK(holds(complaint("99999999999999999\n1 2 3\n", "a.pts"), "promised, 1 there"));
+    CHECK(holds(complaint("2\n", "a.pts"), "no point found"));
+    CHECK(read("1.5\n1 2 3\n", "a.pts").warnings.at(0).code == "heading");
+    CHECK(read("7\n1 2 3\n", "a.xyz").warnings.at(0).code == "heading");
+}
+
 TEST_CASE("csv: a heading names the columns, x y z are found by name, and text comes back") {
     const tf::mesh_file file =
         read("id,\"Z\",y,\"a \"\"b\"\", c\",x\n7,3,2,0.5,1\n8,6,5,-1,4\n", "a.csv");

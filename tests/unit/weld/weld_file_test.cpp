@@ -135,6 +135,28 @@ TEST_CASE("weld: an error says which option names which property") {
             fault::is_several);
 }
 
+TEST_CASE("withhold: flags what is not kept and leaves other flags and points as they are") {
+    const std::vector<tf::point3> points{{0, 0, 0}, {5, 0, 0}, {0, 0, 0}, {5, 0, 0}, {9, 0, 0}};
+    const auto flags = [&](const tf::attributes& properties) {
+        tf::mesh_file file = cloud_of(points, properties);
+        tf::withhold(file, tf::weld(file));
+        CHECK(file.mesh.points == points);
+        const tf::column* const c =
+            tf::find_column(*tf::find_element(file.attributes, "vertex"), "withheld");
+        REQUIRE(c != nullptr);
+        CHECK(c->type == tf::scalar_type::uint8);
+        std::vector<double> values;
+        for (std::size_t i = 0; i < tf::value_count(*c); ++i)
+            values.push_back(tf::number_at(*c, i));
+        return values;
+    };
+    CHECK(flags({}) == std::vector<double>{0, 0, 1, 1, 0});
+    CHECK(flags(vertex_columns({{"withheld", {1, 0, 0, 1, 0}}})) ==
+          std::vector<double>{1, 0, 1, 1, 0});
+    tf::mesh_file other = cloud_of({{0, 0, 0}});
+    CHECK_THROWS_AS(tf::withhold(other, tf::weld(cloud_of(points))), std::invalid_argument);
+}
+
 TEST_CASE("count_still_within: rounding and the choice of what is kept bring points together") {
     const double step = std::numeric_limits<float>::epsilon();
     tf::mesh_file file = cloud_of({{1.0, 0, 0}, {1.0 + step / 4, 0, 0}});

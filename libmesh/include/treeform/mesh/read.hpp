@@ -35,6 +35,9 @@ namespace treeform {
 ///   corner, or none. Lines `comment TextureFile NAME` are in `attributes::texture_files`.
 /// - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
 ///   any columns.
+/// - PTS: as XYZ. Where the first line is the number of points, 4 columns are x y z intensity, 6 are
+///   x y z red green blue, and 7 have both. More points than it says are read with a warning; fewer
+///   are an error. The format is then called "xyz".
 /// - PCD: a field of several values becomes columns "name[0]", "name[1]", ... WIDTH, HEIGHT and
 ///   VIEWPOINT of an organized cloud become lines of `attributes::obj_info`: "num_cols 640",
 ///   "num_rows 480", "viewpoint 0 0 0 1 0 0 0".

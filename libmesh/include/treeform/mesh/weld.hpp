@@ -21,8 +21,8 @@ namespace treeform {
 /// Which points become one: each group of points.
 struct point_groups {
     std::vector<std::uint32_t> group_of_point{};  ///< [V] groups in the order of their first points
-    std::vector<std::uint32_t>
-        first_of_group{};                  ///< [G] the lowest-numbered point of each, ascending
+    /// [G] the first point of each, ascending: the lowest-numbered, unless `order` asks for another
+    std::vector<std::uint32_t> first_of_group{};
     treeform::status status = status::ok;  ///< or cancelled; then the rest is empty
 };
 
@@ -109,12 +109,13 @@ struct file_weld_result {
 ///
 /// \throws std::invalid_argument for a tolerance that is negative or not finite, when there is not
 ///         one label for each point, for more than 2^32 - 2 points, a corner out of range, a
-///         property that is missing or is a list (`weld_property_error`), or more than 2^32 / 3
-///         faces with `keep_manifold`; all name the lowest element of the arrays given
+///         property that is missing or is a list (`weld_property_error`), `order` with another
+///         `keep` than `first`, or more than 2^32 / 3 faces with `keep_manifold`; all name the
+///         lowest element of the arrays given
 /// \cost   O(V log V + F log F) for any tolerance and any number of equal points, as long as
 ///         `may_merge` is empty or nearly always true; parallel, except for rule `first` where most
 ///         points have several others within the tolerance. Groups take up to 36 bytes a point (50
-///         for chains in dense places, 110 by `tree`); faces 24 each besides the result, 100 with
+///         for chains in dense places, 110 by `tree`), 40 more in an `order`; faces 24 each besides the result, 100 with
 ///         `keep_manifold`; conditions 8 a point and property
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API weld_result weld(mesh_view mesh, const weld_options& options = {});
@@ -144,6 +145,12 @@ struct file_weld_result {
 /// still one fan.
 [[nodiscard]] TREEFORM_API file_weld_result weld(const mesh_file& file,
                                                  const weld_options& options = {});
+
+/// Sets the flag "withheld" of LAS (a column of "vertex", made where there is none) at the points of
+/// `file` that `welded` does not keep; others keep theirs. `welded` is what `weld` made of `file`.
+///
+/// \throws std::invalid_argument when it is of another number of points
+TREEFORM_API void withhold(mesh_file& file, const file_weld_result& welded);
 
 /// How many points of `welded` would be merged if it were written with precision `written_as`, read
 /// and welded again. Rounding, or `options.keep`, can bring points together again. `welded` is what

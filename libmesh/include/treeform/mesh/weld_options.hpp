@@ -47,6 +47,13 @@ enum class weld_keep : std::uint8_t {
     highest  ///< the one with the greatest value of `keep_by`, otherwise as `lowest`
 };
 
+/// In which order the rules go through the points: which is the first of several.
+enum class weld_order : std::uint8_t {
+    given,   ///< as they are numbered
+    lowest,  ///< by `order_by`, the least value first, NaN last; of equal ones the lowest-numbered
+    highest  ///< by `order_by`, the greatest value first, otherwise as `lowest`
+};
+
 /// A vertex property that must agree for two points to become one.
 struct weld_condition {
     /// A column of the element "vertex" with one value a row; "x", "y" or "z" for a coordinate;
@@ -74,7 +81,11 @@ struct weld_options {
     bool keep_seams = false;
     std::vector<std::string> across{};
     weld_keep keep = weld_keep::first;
-    std::string keep_by{};       ///< for `lowest` and `highest`: a property as in `weld_condition`
+    std::string keep_by{};  ///< for `lowest` and `highest`: a property as in `weld_condition`
+    /// Except for `given`, needs `weld_keep::first`: the point that is first in this order is kept.
+    /// What the rules promise holds for it. Points that are kept stay in the order of numbers.
+    weld_order order = weld_order::given;
+    std::string order_by{};      ///< for `lowest` and `highest`: a property as in `weld_condition`
     bool only_borders = false;   ///< merge only points on edges of exactly one face
     bool keep_manifold = false;  ///< split groups that would make non-manifold edges or points
     bool keep_degenerate = false;  ///< keep faces that repeat a corner
@@ -84,7 +95,7 @@ struct weld_options {
 /// `weld_options` names a property that the vertices do not have, or not in a usable form.
 class TREEFORM_API weld_property_error : public std::invalid_argument {
   public:
-    enum class option : std::uint8_t { same, across, keep_by };
+    enum class option : std::uint8_t { same, across, keep_by, order_by };
     enum class fault : std::uint8_t { missing, is_list, is_several };
 
     weld_property_error(option where, fault what, std::string name);
