@@ -31,9 +31,11 @@ def left_over(moving, fixed, matrix):
 
 def by_treeform(tool, moving, fixed, *options):
     with tempfile.NamedTemporaryFile(suffix=".json") as report:
-        subprocess.run([tool, "fit", moving, "--fixed", fixed, "-n", "-f", "-o", "x.ply", "-q",
-                        *options, "-r", report.name], check=False)
-        entry = json.load(open(report.name))["files"][0]
+        subprocess.run([tool, "fit", moving, "--fixed", fixed, "-n", "-o", "x.ply", "-q", *options,
+                        "-f", "-r", report.name], check=False)
+        said = json.load(open(report.name))
+    entry = said["files"][0]
+    seconds = said["seconds"]["prepare"] + said["seconds"]["search"]
     return seconds, numpy.array(entry["matrix"]).reshape(4, 4)
 
 
