@@ -307,6 +307,7 @@ class Reports(PlaceTest):
                   "map.csv", "--removed", "gone.xyz"], 0),
                 (["cloud.ply", "-t", "0.2", "--same", "range=5", "--check"], 1),
                 (["cloud.ply", "-t", "20%", "--label", "group", "-o", "labeled.ply"], 0),
+                (["cube.stl", "--withhold", "-o", "withheld.las"], 0),
                 (["cloud.ply", "-t", "0.2", "-n", "--tile-points", "2"], 0),
                 (["cube.stl", "cube.obj", "--join", "--keep-manifold", "-o", "all.obj"], 0),
                 (["cube.stl", "missing.stl", "--check"], 3),
