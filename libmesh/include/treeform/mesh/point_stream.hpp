@@ -22,8 +22,8 @@ struct point_block {
     element properties{.name = "vertex"};  ///< a row a point
 };
 
-/// Reads PLY without faces, PCD, LAS, LAZ, XYZ and CSV from the first point to the last. All blocks together
-/// are what `read` gives for the whole file.
+/// Reads PLY without faces, PCD, LAS, LAZ, XYZ and CSV from the first point to the last. All blocks
+/// together are what `read` gives for the whole file.
 class TREEFORM_API point_reader {
   public:
     /// Reads the header. `path` and `format` as for `read`. Input that cannot be mapped (standard
