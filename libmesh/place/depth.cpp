@@ -3,6 +3,7 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/intersect/point_locator.hpp>
+#include <libmesh/place/length_of.hpp>
 #include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/shape.hpp>
@@ -29,8 +30,6 @@ using detail::place::shape;
 /// Where rounding leaves a mesh just inside another, it is out a little further on.
 constexpr std::array<double, 5> stretches{1.0, 1.0 + 0x1p-51, 1.0 + 0x1p-48, 1.0 + 0x1p-43,
                                           1.0 + 0x1p-36};
-
-double length_of(const point3& v) { return std::hypot(v.x, v.y, v.z); }
 
 /// A corner of each component of the mesh.
 std::vector<point3> corner_of_each_part(mesh_view mesh) {

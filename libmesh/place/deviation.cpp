@@ -26,7 +26,7 @@ void check_deviation(const deviation_options& o) {
         throw std::invalid_argument("treeform::deviation: the band is NaN or the wrong way round");
 }
 
-void check_points(points_view points) {
+void check_finite_points(points_view points) {
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!detail::base::is_finite(points[i]))
             throw std::invalid_argument("treeform::deviation: point " + std::to_string(i) +
@@ -192,7 +192,7 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
                                                bool solid, const deviation_options& options) {
     const mesh_view from = a.view(), to = b.view();
     check_deviation(options);
-    check_points(from.points);
+    check_finite_points(from.points);
     if (from.points.empty() || to.faces.empty()) return std::nullopt;
     detail::base::work_progress work(options.progress);
     deviation_result r;

@@ -1,5 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/place/contacts.hpp>
+#include <libmesh/place/length_of.hpp>
 #include <libmesh/place/mate_motion.hpp>
 #include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/placing.hpp>
@@ -15,8 +16,6 @@
 
 namespace treeform::detail::place {
 namespace {
-
-double length(const point3& v) { return std::hypot(v.x, v.y, v.z); }
 
 /// The same direction, exactly: along an axis of length 1, else scaled by a power of two.
 point3 in_range_of_doubles(const point3& direction) {
@@ -174,9 +173,9 @@ void placing::settle(const chosen_parts& known, const point3& motion, double tim
     result_.points = std::move(settled.points);
     for (std::size_t k = 0; k < 3; ++k)
         result_.matrix.rows[k][3] = settled.time * motion[k] + 0.0;  // no -0
-    result_.travel = settled.time * length(motion);
+    result_.travel = settled.time * length_of(motion);
     if (result_.travel > 0.0) {
-        const double size = length(motion);
+        const double size = length_of(motion);
         result_.direction = {motion.x / size, motion.y / size, motion.z / size};
     }
 }
@@ -193,7 +192,7 @@ void placing::slide(const point3& direction) {
         bed_time = above / -motion.z;
     }
     if (stuck_at_start()) return;
-    const double allowed = longest_ / length(motion);
+    const double allowed = longest_ / length_of(motion);
     const double latest = std::min(bed_time, allowed);
     const chosen_parts parts = among_.on_the_way(*box_, motion, latest, options_.clearance);
     result_.statistics.fixed_culled = among_.size() - parts.parts.size();
@@ -230,7 +229,7 @@ void placing::lift(const point3& motion, double above) {
         return;
     }
     const double time = above / motion.z;
-    if (time > longest_ / length(motion)) {
+    if (time > longest_ / length_of(motion)) {
         result_.end = placement_end::too_far;
         return;
     }
@@ -258,7 +257,7 @@ void placing::mate() {
     result_.statistics.predicates = found.met.predicates;
     result_.contacts = contacts_of(moving_, parts, found.met, way);
     result_.contact_count = found.met.contact_count;
-    if (found.time * length(way) > longest_) {
+    if (found.time * length_of(way) > longest_) {
         result_.end = placement_end::too_far;
         return;
     }

@@ -1,6 +1,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/place/length_of.hpp>
 #include <libmesh/place/turn_motion.hpp>
 #include <treeform/tree/nearness_pair.hpp>
 #include <treeform/tree/tree.hpp>
@@ -23,8 +24,6 @@ using base::triangle_of;
 
 constexpr double widest_step = 0.25;  // radians
 constexpr std::size_t fewest_pairs = 64, most_pairs = 16'384;
-
-double length(const point3& v) { return std::hypot(v.x, v.y, v.z); }
 
 /// What the rounding of moved corners and of distances may come to: some 20 units in the last place
 /// of the largest coordinate, or distance from the axis, taken together.
@@ -61,7 +60,7 @@ struct gap_across {
 };
 
 void take_wider(gap_across& best, point3 u, const triangle3& a, const triangle3& b) {
-    const double size = length(u);
+    const double size = length_of(u);
     if (!(size > 0.0) || !std::isfinite(size)) return;
     u = scaled(u, 1.0 / size);
     double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -211,7 +210,7 @@ class turn_searching {
         std::vector<placement_contact> contacts;
         for (const near_faces& pair : near) {
             const point3 way = minus(pair.at.on_a, pair.at.on_b);
-            const double size = length(way);
+            const double size = length_of(way);
             const point3 normal = size > 0.0 ? scaled(way, 1.0 / size) : point3{};
             contacts.push_back({pair.at.on_b, normal, pair.a, pair.b, pair.part});
         }
@@ -231,7 +230,7 @@ class turn_searching {
 unit_axis::unit_axis(const turn_axis& axis) : origin(axis.origin), direction(axis.direction) {
     const double largest = base::largest_of(direction);
     for (std::size_t k = 0; k < 3; ++k) direction[k] /= largest;
-    direction = scaled(direction, 1.0 / length(direction));
+    direction = scaled(direction, 1.0 / length_of(direction));
 }
 
 point3 unit_axis::across(const point3& p) const {
@@ -265,7 +264,7 @@ swept_ring ring_of(mesh_view mesh, const unit_axis& axis) {
             const double along = dot(minus(mesh.points[i], axis.origin), axis.direction);
             low = std::min(low, along);
             high = std::max(high, along);
-            ring.radius = std::max(ring.radius, length(axis.across(mesh.points[i])));
+            ring.radius = std::max(ring.radius, length_of(axis.across(mesh.points[i])));
         }
     const point3 a = plus(axis.origin, scaled(axis.direction, low));
     const point3 b = plus(axis.origin, scaled(axis.direction, high));
