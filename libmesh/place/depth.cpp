@@ -25,6 +25,7 @@ using detail::base::cross;
 using detail::base::dot;
 using detail::base::plus;
 using detail::base::scaled;
+using detail::place::length_of;
 using detail::place::shape;
 
 /// Where rounding leaves a mesh just inside another, it is out a little further on.
