@@ -140,7 +140,8 @@ inline std::string las_points(las_family family, unsigned format, std::size_t si
         }
         for (std::size_t b = time_at + (has_time ? 8 : 0); b < size; ++b)
             if (numbers.below(4) == 0)
-                points[at + b] = static_cast<char>(points[at + b] + numbers.below(3));
+                points[at + b] =
+                    static_cast<char>(points[at + b] + static_cast<int>(numbers.below(3)));
     }
     return points;
 }
