@@ -3,6 +3,7 @@
 /// family of trouble as files of each format, and the numbers of hard pairs for the targets that
 /// decide. Beside each, FOLDER/new/TARGET is for what a fuzzer finds.
 
+#include <treeform/mesh/read.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 
@@ -19,6 +20,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
