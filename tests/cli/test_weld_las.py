@@ -78,7 +78,7 @@ class Las(WeldTest):
         self.assertEqual((entry["points"]["out"], entry["points"]["removed"]), (5, 0))
         self.assertEqual((entry["withheld"], entry["label"]), (2, None))
         self.assertIsNone(entry["output"]["within_tolerance"])
-        # Flags that were there stay; the records are the same but for the flags.
+        # Flags that were there stay; all else of the records is the same.
         self.run_tool("out.las", "-t", "0", "--withhold", "-o", "again.laz", status=0)
         self.run_tool("again.laz", "-o", "again.csv", "--same", "x,intensity", status=0)
         rows = [line.split(",") for line in self.read("again.csv").splitlines()]
