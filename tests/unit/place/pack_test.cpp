@@ -10,6 +10,7 @@
 #include <support/random.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
+#include <support/tubes.hpp>
 
 #include <algorithm>
 #include <array>
@@ -30,25 +31,6 @@ constexpr double any_height = std::numeric_limits<double>::infinity();
 
 std::vector<tf::mesh_view> views(const std::vector<tf::mesh>& parts) {
     return {parts.begin(), parts.end()};
-}
-
-/// A ring of square section, axis up.
-tf::mesh ring(double outer, double inner, double height, std::uint32_t corners) {
-    tf::mesh mesh;
-    for (std::uint32_t i = 0; i < corners; ++i) {
-        const double angle = 2.0 * 3.14159265358979323846 * i / corners;
-        const double c = std::cos(angle), s = std::sin(angle);
-        mesh.points.insert(mesh.points.end(), {{outer * c, outer * s, 0},
-                                               {outer * c, outer * s, height},
-                                               {inner * c, inner * s, height},
-                                               {inner * c, inner * s, 0}});
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            const std::uint32_t j = (i + 1) % corners, l = (k + 1) % 4;
-            mesh.faces.push_back({4 * i + k, 4 * j + k, 4 * j + l});
-            mesh.faces.push_back({4 * i + k, 4 * j + l, 4 * i + l});
-        }
-    }
-    return mesh;
 }
 
 /// A prism over a polygon that goes around to the left, standing on z = 0; `triangles` cut it.
@@ -156,7 +138,7 @@ std::vector<tf::mesh> mixed_parts(test::random& source, std::size_t count) {
         tf::mesh mesh;
         if (i % 4 == 0) mesh = test::box(source.in(5, 30), source.in(5, 20), source.in(1, 9));
         if (i % 4 == 1) mesh = test::ball(2, source.in(2, 8));
-        if (i % 4 == 2) mesh = ring(source.in(8, 12), source.in(4, 7), 3, 24);
+        if (i % 4 == 2) mesh = test::tube(source.in(8, 12), source.in(4, 7), 3, 24);
         if (i % 4 == 3)  // an L
             mesh = test::together(test::box(20, 4, 3), test::box(4, 15, 3));
         parts.push_back(test::moved(mesh, {source.in(-50, 50), source.in(-50, 50), 7}));
@@ -218,7 +200,7 @@ TEST_CASE("pack: a part as large as the plate fits, turned if need be; a larger 
 }
 
 TEST_CASE("pack: parts stand in the holes of others when they are small enough") {
-    const std::vector<tf::mesh> parts{ring(50, 40, 10, 48), test::box(40, 40, 30)};
+    const std::vector<tf::mesh> parts{test::tube(50, 40, 10, 48), test::box(40, 40, 30)};
     const tf::pack_options options{.size = {101, 101, any_height}, .spacing = 3};
     const auto found = tf::pack(views(parts), options);
     check(parts, options, found);
@@ -243,7 +225,7 @@ TEST_CASE("pack: angle pieces and rings that fit only into each other are placed
     }
     std::vector<tf::mesh> rings;
     for (const double outer : {50.0, 40.0, 30.0, 20.0})
-        rings.push_back(ring(outer, outer - 7.0, 10, 64));
+        rings.push_back(test::tube(outer, outer - 7.0, 10, 64));
     const tf::pack_options options{.size = {100.5, 100.5, any_height}, .spacing = 2};
     const auto found = tf::pack(views(rings), options);
     check(rings, options, found);
@@ -280,7 +262,8 @@ TEST_CASE("pack: stacked, a part goes under an arch, into a ring, and into no cl
     check(under, options, found);
     CHECK(found.not_placed.empty());
 
-    const std::vector<tf::mesh> in_ring{ring(20, 15, 30, 32), test::ball(3, 5), test::ball(3, 5)};
+    const std::vector<tf::mesh> in_ring{test::tube(20, 15, 30, 32), test::ball(3, 5),
+                                        test::ball(3, 5)};
     const tf::pack_options tube{.size = {40, 40, 30}, .spacing = 1, .stack = true};
     const auto filled = tf::pack(views(in_ring), tube);
     check(in_ring, tube, filled);

@@ -9,6 +9,7 @@
 #include <support/random.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
+#include <support/tubes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,24 +21,6 @@
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-
-/// A tube of square section about the z axis.
-tf::mesh tube(double outer, double inner, double height, std::uint32_t corners) {
-    tf::mesh mesh;
-    for (std::uint32_t i = 0; i < corners; ++i) {
-        const double c = std::cos(2 * pi * i / corners), s = std::sin(2 * pi * i / corners);
-        mesh.points.insert(mesh.points.end(), {{outer * c, outer * s, 0},
-                                               {outer * c, outer * s, height},
-                                               {inner * c, inner * s, height},
-                                               {inner * c, inner * s, 0}});
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            const std::uint32_t j = (i + 1) % corners, l = (k + 1) % 4;
-            mesh.faces.push_back({4 * i + k, 4 * j + k, 4 * j + l});
-            mesh.faces.push_back({4 * i + k, 4 * j + l, 4 * i + l});
-        }
-    }
-    return mesh;
-}
 
 tf::mesh moved_by(const tf::mesh& mesh, const tf::transform<3>& by) {
     tf::mesh there = mesh;
@@ -108,8 +91,8 @@ TEST_CASE("turn: a door stops at the wall, at the angle that it is known to") {
 }
 
 TEST_CASE("turn: what is free all around meets nothing, also in a bore that it nearly fills") {
-    const tf::mesh shaft = tube(10, 8, 20, 48);
-    const tf::mesh bore = test::moved(tube(20, 10 + 0.05, 10, 96), {0, 0, 5});
+    const tf::mesh shaft = test::tube(10, 8, 20, 48);
+    const tf::mesh bore = test::moved(test::tube(20, 10 + 0.05, 10, 96), {0, 0, 5});
     const auto found = tf::turn(shaft, bore, {});
     CHECK_FALSE(found);
     CHECK(found.at.end == tf::placement_end::nothing_met);
@@ -118,8 +101,8 @@ TEST_CASE("turn: what is free all around meets nothing, also in a bore that it n
     CHECK(nothing.at.end == tf::placement_end::nothing_met);
     CHECK(nothing.at.statistics.fixed_culled == 1);
     // A hexagonal shaft in a hexagonal bore gets stuck.
-    const tf::mesh nut = tube(20, 11, 10, 6),
-                   screw = test::moved(tube(10.5, 5, 10, 6), {0, 0, 0.5});
+    const tf::mesh nut = test::tube(20, 11, 10, 6),
+                   screw = test::moved(test::tube(10.5, 5, 10, 6), {0, 0, 0.5});
     const auto stuck = tf::turn(screw, nut, {});
     check(screw, nut, stuck);
     CHECK(stuck.angle > 1.0);
