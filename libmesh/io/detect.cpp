@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/heading.hpp>
 #include <libmesh/io/readers.hpp>
@@ -20,8 +20,8 @@ namespace {
 /// The size decides, whatever the header says: many exporters start it with "solid".
 [[nodiscard]] bool is_binary_stl(const source& in) {
     return in.size() >= 84 &&
-           in.size() ==
-               84 + std::size_t{50} * load<std::uint32_t, std::endian::little>(in.begin() + 80);
+           in.size() == 84 + std::size_t{50} *
+                                 base::load<std::uint32_t, std::endian::little>(in.begin() + 80);
 }
 
 /// Text has no zero byte and few other control characters; bytes above 127 may be names in any

@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/fixed_rows.hpp>
 #include <libmesh/io/row_values.hpp>
 #include <libmesh/io/vertex_columns.hpp>
@@ -14,7 +14,8 @@ void read_axis(scalar_type type, point3* points, std::size_t rows, value_place f
                std::size_t axis) {
     with_type(type, [&]<class T>(T) {
         for (std::size_t row = 0; row < rows; ++row)
-            points[row][axis] = static_cast<double>(load<T, order>(from.first + row * from.stride));
+            points[row][axis] =
+                static_cast<double>(base::load<T, order>(from.first + row * from.stride));
     });
 }
 
@@ -22,7 +23,7 @@ void read_axis(scalar_type type, point3* points, std::size_t rows, value_place f
 template <std::endian order, class T>
 void read_bits(std::byte* to, std::size_t rows, value_place from) {
     for (std::size_t row = 0; row < rows; ++row) {
-        const T bits = load<T, order>(from.first + row * from.stride);
+        const T bits = base::load<T, order>(from.first + row * from.stride);
         std::memcpy(to + row * sizeof(T), &bits, sizeof(T));
     }
 }

@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/json_depth.hpp>
 
 #include <nlohmann/json.hpp>
@@ -23,7 +23,7 @@ constexpr std::size_t deepest_node = 1000;
     constexpr std::size_t head = 20;
     if (!all.starts_with("glTF")) return all;
     if (all.size() < head) in.fail("cut short");
-    const std::size_t size = load<std::uint32_t, std::endian::little>(in.begin() + 12);
+    const std::size_t size = base::load<std::uint32_t, std::endian::little>(in.begin() + 12);
     if (all.size() - head < size) in.fail("cut short");
     return all.substr(head, size);
 }

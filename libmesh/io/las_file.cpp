@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/las_file.hpp>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ constexpr std::size_t extended_head = 60;
 
 template <class T>
 [[nodiscard]] T get(const char* at) {
-    return load<T, std::endian::little>(at);
+    return base::load<T, std::endian::little>(at);
 }
 
 [[nodiscard]] std::vector<std::byte> bytes_between(const char* begin, const char* end) {

@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/las_plan.hpp>
 #include <treeform/tree/version.hpp>
 
@@ -36,7 +36,7 @@ void drop_untrue(std::vector<las_record>& records, std::vector<io_warning>& warn
 template <class T>
 void append_number(std::vector<std::byte>& to, T value) {
     std::array<char, sizeof(T)> bytes;
-    store<std::endian::little>(bytes.data(), value);
+    base::store<std::endian::little>(bytes.data(), value);
     const auto* const first = reinterpret_cast<const std::byte*>(bytes.data());
     to.insert(to.end(), first, first + bytes.size());
 }

@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/is_value_of.hpp>
 #include <libmesh/io/las_records.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -55,8 +55,9 @@ void put_axes(std::span<const point3> points, const record_rows& rows, const las
             }
             const double by = grid.coordinate(axis, static_cast<std::int32_t>(step)) - x;
             fault.moved = std::max(fault.moved, std::abs(by));
-            store<std::endian::little>(reinterpret_cast<char*>(rows.to + i * rows.size + 4 * axis),
-                                       static_cast<std::int32_t>(step));
+            base::store<std::endian::little>(
+                reinterpret_cast<char*>(rows.to + i * rows.size + 4 * axis),
+                static_cast<std::int32_t>(step));
         }
     }
 }
@@ -66,7 +67,8 @@ void put_same(const column& c, const record_rows& rows, std::size_t byte) {
     for (std::size_t i = 0; i < rows.count; ++i) {
         T bits;
         std::memcpy(&bits, c.values.data() + (rows.first + i) * sizeof(T), sizeof(T));
-        store<std::endian::little>(reinterpret_cast<char*>(rows.to + i * rows.size + byte), bits);
+        base::store<std::endian::little>(reinterpret_cast<char*>(rows.to + i * rows.size + byte),
+                                         bits);
     }
 }
 
@@ -118,7 +120,8 @@ void put_converted(const column& c, const record_rows& rows, const las_dimension
             if (d.bits > 0)
                 *to = static_cast<std::uint8_t>(*to | static_cast<unsigned>(value) << d.shift);
             else
-                store<std::endian::little>(reinterpret_cast<char*>(to), static_cast<T>(value));
+                base::store<std::endian::little>(reinterpret_cast<char*>(to),
+                                                 static_cast<T>(value));
         }
     });
 }
@@ -136,7 +139,7 @@ void las_tally::add(const std::uint8_t* records, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         const char* const r = reinterpret_cast<const char*>(records + i * record_size_);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto x = load<std::int32_t, std::endian::little>(r + 4 * axis);
+            const auto x = base::load<std::int32_t, std::endian::little>(r + 4 * axis);
             low_[axis] = std::min(low_[axis], x);
             high_[axis] = std::max(high_[axis], x);
         }
@@ -147,7 +150,7 @@ void las_tally::add(const std::uint8_t* records, std::size_t count) {
 void las_tally::put(std::vector<std::byte>& block, const las_grid& grid, std::uint64_t count,
                     unsigned version_minor, unsigned format) const {
     const auto at = [&](std::size_t byte, auto value) {
-        store<std::endian::little>(reinterpret_cast<char*>(block.data() + byte), value);
+        base::store<std::endian::little>(reinterpret_cast<char*>(block.data() + byte), value);
     };
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     const bool legacy = format < 6 && count <= most;

@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/las_rows.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -20,7 +20,7 @@ struct record_run {
 void read_axes(point3* points, const record_run& from, const las_grid& grid) {
     for (std::size_t i = 0; i < from.count; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
-            points[i][axis] = grid.coordinate(axis, load<std::int32_t, std::endian::little>(
+            points[i][axis] = grid.coordinate(axis, base::load<std::int32_t, std::endian::little>(
                                                         from.first + i * from.size + 4 * axis));
 }
 
@@ -28,7 +28,7 @@ void read_axes(point3* points, const record_run& from, const las_grid& grid) {
 template <class T>
 void read_values(std::byte* to, const record_run& from, std::size_t byte) {
     for (std::size_t i = 0; i < from.count; ++i) {
-        const T bits = load<T, std::endian::little>(from.first + i * from.size + byte);
+        const T bits = base::load<T, std::endian::little>(from.first + i * from.size + byte);
         std::memcpy(to + i * sizeof(T), &bits, sizeof(T));
     }
 }

@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/las_file.hpp>
 #include <libmesh/io/las_rows.hpp>
 #include <libmesh/io/point_rows.hpp>
@@ -36,7 +36,9 @@ struct placed_chunk {
 /// The table stands behind the chunks. Its place is in eight bytes ahead of them, or at the end of
 /// the file, where a writer could not go back.
 [[nodiscard]] const char* find_table(const source& in, const las_file& file) {
-    const auto place = [](const char* at) { return load<std::int64_t, std::endian::little>(at); };
+    const auto place = [](const char* at) {
+        return base::load<std::int64_t, std::endian::little>(at);
+    };
     const char* const first = in.begin() + file.first_point;
     if (in.size() < file.first_point + 8)
         in.fail_byte(in.end(), "the file ends ahead of the points");

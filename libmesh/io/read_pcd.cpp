@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/lzf.hpp>
 #include <libmesh/io/pcd_header.hpp>
 #include <libmesh/io/point_rows.hpp>
@@ -80,8 +80,8 @@ void look_behind(bool more, warnings& said) {
                                               scratch_place place) {
     const std::size_t there = bytes_of_body(in, header);
     if (there < 8) in.fail_byte(header.body, "the file ends in the lengths of the data");
-    const std::size_t packed = load<std::uint32_t, std::endian::little>(header.body);
-    const std::size_t size = load<std::uint32_t, std::endian::little>(header.body + 4);
+    const std::size_t packed = base::load<std::uint32_t, std::endian::little>(header.body);
+    const std::size_t size = base::load<std::uint32_t, std::endian::little>(header.body + 4);
     if (packed > there - 8)
         in.fail_byte(header.body,
                      "the file ends in the data: " + std::to_string(packed) + " bytes promised");
@@ -105,7 +105,7 @@ void look_behind(bool more, warnings& said) {
     const auto bytes = unpack(in, header, place);
     const std::size_t count = header.vertices.rows;
     const bool more =
-        bytes_of_body(in, header) - 8 > load<std::uint32_t, std::endian::little>(header.body);
+        bytes_of_body(in, header) - 8 > base::load<std::uint32_t, std::endian::little>(header.body);
     return [bytes, count, more, offsets = header.places, first = std::size_t{0}](
                std::vector<point3>& points, element& vertices, std::size_t most,
                warnings& said) mutable {

@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/reserve.hpp>
 
@@ -18,7 +18,7 @@ constexpr std::size_t block = 128;  // facets converted at a time; their points 
 
 template <class T>
 T little(const char* at) {
-    return load<T, std::endian::little>(at);
+    return base::load<T, std::endian::little>(at);
 }
 
 /// Header and size disagree. A size of whole facets is believed, for many programs write the count

@@ -3,7 +3,7 @@
 /// Values of rows, one at a time, from text and from bytes. Both readers have the same calls:
 /// begin_row, length, scalar, end_row, remark.
 
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/is_value_of.hpp>
 #include <libmesh/io/text.hpp>
 #include <treeform/mesh/attributes.hpp>
@@ -163,7 +163,7 @@ class byte_values {
     template <class T>
     [[nodiscard]] T take() {
         if (bytes_left() < sizeof(T)) file_.fail_byte(at_, "the file ends within a row");
-        const T value = load<T, order>(at_);
+        const T value = base::load<T, order>(at_);
         at_ += sizeof(T);
         return value;
     }

@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/scene_depth.hpp>
 
 #include <algorithm>
@@ -85,8 +85,9 @@ void refuse_deep_records(const source& in, std::string_view fbx) {
     while (fbx.size() - at >= head) {
         while (ends.size() > 1 && at >= ends.back()) ends.pop_back();
         const char* const record = fbx.data() + at;
-        const std::uint64_t end = load<Size, std::endian::little>(record);
-        const std::uint64_t bytes = load<Size, std::endian::little>(record + 2 * sizeof(Size));
+        const std::uint64_t end = base::load<Size, std::endian::little>(record);
+        const std::uint64_t bytes =
+            base::load<Size, std::endian::little>(record + 2 * sizeof(Size));
         const std::uint64_t name = static_cast<unsigned char>(record[head - 1]);
         at += head;
         if (end == 0) continue;
@@ -104,7 +105,7 @@ void refuse_deep_scene(const source& scene) {
     const std::string_view all(scene.begin(), scene.size());
     constexpr std::string_view fbx = "Kaydara FBX Binary";
     if (all.starts_with(fbx) && all.size() > 27) {
-        const auto version = load<std::uint32_t, std::endian::little>(all.data() + 23);
+        const auto version = base::load<std::uint32_t, std::endian::little>(all.data() + 23);
         if (version >= 7500) return refuse_deep_records<std::uint64_t>(scene, all);
         return refuse_deep_records<std::uint32_t>(scene, all);
     }

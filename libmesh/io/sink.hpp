@@ -2,7 +2,7 @@
 /// \file
 /// Where written bytes go, and numbers as text.
 
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 
 #include <array>
 #include <charconv>
@@ -50,7 +50,7 @@ class sink {
     template <std::endian order, class T>
     void raw(T value) {
         if (buffer_.size() - used_ < sizeof(T)) flush();
-        store<order>(buffer_.data() + used_, value);
+        base::store<order>(buffer_.data() + used_, value);
         used_ += sizeof(T);
     }
 

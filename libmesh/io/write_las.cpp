@@ -1,4 +1,4 @@
-#include <libmesh/io/byte_order.hpp>
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/las_plan.hpp>
 #include <libmesh/io/las_records.hpp>
 #include <libmesh/io/writers.hpp>
@@ -19,7 +19,7 @@ namespace {
 
 template <class T>
 void put_at(std::vector<std::byte>& block, std::size_t at, T value) {
-    store<std::endian::little>(reinterpret_cast<char*>(block.data() + at), value);
+    base::store<std::endian::little>(reinterpret_cast<char*>(block.data() + at), value);
 }
 
 void put_text(sink& out, std::string text, std::size_t size) {
@@ -153,7 +153,7 @@ class las_writer {
         job_.out.put({reinterpret_cast<const char*>(table.data()), table.size()});
         at_ += table.size();
         std::array<char, 8> place;
-        store<std::endian::little>(place.data(), end_of_points);
+        base::store<std::endian::little>(place.data(), end_of_points);
         job_.out.replace(first_point_, {place.data(), place.size()});
     }
 

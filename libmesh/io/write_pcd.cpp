@@ -257,7 +257,8 @@ class pcd_writer {
             return;
         }
         const double x = job_.rounded(points[row][axis_number(c.role)]);
-        with_type(c.type, [&]<class T>(T) { store<std::endian::little>(to, static_cast<T>(x)); });
+        with_type(c.type,
+                  [&]<class T>(T) { base::store<std::endian::little>(to, static_cast<T>(x)); });
     }
 
     write_job job_;

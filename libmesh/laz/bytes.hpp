@@ -2,31 +2,30 @@
 /// \file
 /// Numbers in point records, which are little endian, and differences of single bytes.
 
+#include <libmesh/base/byte_order.hpp>
+
+#include <bit>
 #include <cstdint>
 
 namespace treeform::detail::laz {
 
 [[nodiscard]] inline std::uint16_t get16(const std::uint8_t* p) {
-    return static_cast<std::uint16_t>(p[0] | p[1] << 8);
+    return base::load<std::uint16_t, std::endian::little>(reinterpret_cast<const char*>(p));
 }
 inline void put16(std::uint8_t* p, std::uint32_t x) {
-    p[0] = static_cast<std::uint8_t>(x);
-    p[1] = static_cast<std::uint8_t>(x >> 8);
+    base::store<std::endian::little>(reinterpret_cast<char*>(p), static_cast<std::uint16_t>(x));
 }
 [[nodiscard]] inline std::int32_t get32(const std::uint8_t* p) {
-    return static_cast<std::int32_t>(std::uint32_t{get16(p)} | std::uint32_t{get16(p + 2)} << 16);
+    return base::load<std::int32_t, std::endian::little>(reinterpret_cast<const char*>(p));
 }
 inline void put32(std::uint8_t* p, std::int32_t x) {
-    put16(p, static_cast<std::uint32_t>(x));
-    put16(p + 2, static_cast<std::uint32_t>(x) >> 16);
+    base::store<std::endian::little>(reinterpret_cast<char*>(p), x);
 }
 [[nodiscard]] inline std::uint64_t get64(const std::uint8_t* p) {
-    return static_cast<std::uint32_t>(get32(p)) |
-           std::uint64_t{static_cast<std::uint32_t>(get32(p + 4))} << 32;
+    return base::load<std::uint64_t, std::endian::little>(reinterpret_cast<const char*>(p));
 }
 inline void put64(std::uint8_t* p, std::uint64_t x) {
-    put32(p, static_cast<std::int32_t>(static_cast<std::uint32_t>(x)));
-    put32(p + 4, static_cast<std::int32_t>(static_cast<std::uint32_t>(x >> 32)));
+    base::store<std::endian::little>(reinterpret_cast<char*>(p), x);
 }
 
 /// Sums and differences of 32 bits go around.

@@ -30,7 +30,8 @@ FLOORS = [
     ["geometry"],
     ["topology", "attributes"],
     ["exact"],
-    ["base", "laz"],
+    ["laz"],
+    ["base"],
 ]
 # A public header belongs to the room that has a source of its name; but these are of several:
 # to the lowest one.

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstring>
 
-namespace treeform::detail::io {
+namespace treeform::detail::base {
 
 /// The value of type T whose bytes start at `from`, in the order `order`.
 template <class T, std::endian order>
@@ -27,4 +27,4 @@ void store(char* to, T value) {
     std::memcpy(to, bytes.data(), sizeof(T));
 }
 
-}  // namespace treeform::detail::io
+}  // namespace treeform::detail::base
