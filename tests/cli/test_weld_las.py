@@ -111,6 +111,16 @@ class Las(WeldTest):
         self.assertEqual(len(las_points(self.read_bytes("out.las"))), 3)
         self.assertIsNotNone(entry["output"]["within_tolerance"])
 
+    def test_what_has_no_steps_yet_is_refused_in_tiles_before_the_work(self):
+        self.write("in.xyz", "".join(f"{i} 0 0\n" for i in range(50)).encode())
+        for output in (("-o", "out.las"), ("-o", "out.ply", "--removed", "gone.laz")):
+            run = self.run_tool("in.xyz", "-t", "1", "--tile-points", "10", *output, status=2)
+            self.assertIn("LAS of what is in another format needs the whole cloud", run.err)
+        self.run_tool("in.xyz", "-t", "1", "-o", "out.las", status=0)
+        self.run_tool("out.las", "-t", "2", "--tile-points", "10", "-o", "tiles.las", status=0)
+        self.run_tool("out.las", "-t", "2", "-o", "whole.las", status=0)
+        self.assertEqual(self.read_bytes("tiles.las"), self.read_bytes("whole.las"))
+
     def test_damaged_files_end_with_the_byte_and_the_reason(self):
         whole = self.read_bytes("in.las")
         self.write("cut.las", whole[:-1])

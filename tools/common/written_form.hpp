@@ -24,6 +24,8 @@ struct written_form {
     }
     /// Whether its readers make float32 of what they read, so that doubles have to be asked for.
     [[nodiscard]] bool single_unless_asked() const { return format == "3mf"; }
+    /// Whether coordinates are whole numbers of steps.
+    [[nodiscard]] bool is_las() const { return format == "las" || format == "laz"; }
 };
 
 /// How what is made of `input` is written to `path`: as the options or the extension say; in place,

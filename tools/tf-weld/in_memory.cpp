@@ -77,9 +77,7 @@ void label(job& work, tf::mesh_file& file, const welding& w, const std::string& 
 /// Where the output is LAS: as it will be there, so that what is decided holds for what is written.
 void fit_to_las(job& work, tf::mesh_file& file, const std::string& why) {
     const auto path = mesh_output(work.options, work.path);
-    if (!path) return;
-    const std::string format = form_of(work, file, *path).format;
-    if (format != "las" && format != "laz") return;
+    if (!path || !form_of(work, file, *path).is_las()) return;
     const double moved = tf::round_to_las(file);
     if (moved > 0.0)
         work.warn("las-grid",

@@ -1,6 +1,7 @@
 #include "tools/tf-weld/out_of_core.hpp"
 
 #include "tools/common/console.hpp"
+#include "tools/common/mesh_output.hpp"
 #include "tools/tf-weld/in_memory.hpp"
 #include "tools/tf-weld/in_tiles.hpp"
 #include "tools/tf-weld/spooled_input.hpp"
@@ -35,6 +36,11 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     }
     if (work.options.precision == "float" && header.stored_as != tf::precision::float32)
         return "--precision float";
+    const auto path = mesh_output(work.options, work.path);
+    const fs::path& removed = request.outputs.removed;
+    if (!header.las && ((path && form_of(work, header, *path).is_las()) ||
+                        written_form{extension_of(removed)}.is_las()))
+        return "LAS of what is in another format";
     return {};
 }
 
