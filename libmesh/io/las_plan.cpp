@@ -122,7 +122,11 @@ class las_planner {
         start_header();
         plan_.header.point_format = static_cast<std::uint8_t>(las_format_of(features()));
         plan_.dimensions = las_dimensions(plan_.header.point_format);
-        for (const las_dimension& d : plan_.dimensions) plan_.column_of.push_back(take(d.name));
+        for (const las_dimension& d : plan_.dimensions) {
+            auto column = take(d.name);
+            if (!column && d.name == "scan_angle") column = take("scan_angle_rank");
+            plan_.column_of.push_back(column);
+        }
         plan_.record_size = las_record_size(plan_.header.point_format);
         add_extra();
         fit_version();

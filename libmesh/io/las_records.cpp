@@ -97,19 +97,21 @@ void put_bytes_as_bits(const column& c, const record_rows& rows, const las_dimen
     }
 }
 
-/// Colors of 8 bits become the high byte of those of 16, as the standard has it.
-[[nodiscard]] double factor_for(const column& c, const las_dimension& d) {
+/// Colors of 8 bits become the high byte of those of 16, as the standard has it; whole degrees of
+/// the old formats become the steps of 0.006 degrees of the new ones.
+[[nodiscard]] double in_units_of(const las_dimension& d, const column& c, double value) {
     const bool color = d.name == "red" || d.name == "green" || d.name == "blue";
-    return color && c.type == scalar_type::uint8 && d.type == scalar_type::uint16 ? 256.0 : 1.0;
+    if (color && c.type == scalar_type::uint8 && d.type == scalar_type::uint16) return value * 256;
+    if (d.name == "scan_angle" && c.name == "scan_angle_rank") return std::nearbyint(value / 0.006);
+    return value;
 }
 
 void put_converted(const column& c, const record_rows& rows, const las_dimension& d,
                    chunk_fault& fault) {
-    const double factor = factor_for(c, d);
     const double most = d.bits > 0 ? (1u << d.bits) - 1 : std::numeric_limits<double>::infinity();
     with_type(d.type, [&]<class T>(T) {
         for (std::size_t i = 0; i < rows.count; ++i) {
-            const double value = number_at(c, rows.first + i) * factor;
+            const double value = in_units_of(d, c, number_at(c, rows.first + i));
             if constexpr (std::is_integral_v<T>) {
                 if (!is_value_of<T>(value) || value > most) {
                     fault.at(rows.first + i, too_large(c, value));

@@ -249,7 +249,11 @@ TEST_CASE("LAS: points of other formats get the smallest format that holds them"
     vertices.columns.push_back(tf::make_column<std::uint8_t>("classification", classes));
     CHECK(written(file)[104] == 7);
     CHECK(written(file)[25] == 4);
+    const std::vector<std::int8_t> degrees{-15, 90};
+    vertices.columns.push_back(tf::make_column<std::int8_t>("scan_angle_rank", degrees));
     CHECK(value(read(written(file)), "classification", 1) == 64);
+    CHECK(value(read(written(file)), "scan_angle", 0) == -2500);
+    CHECK(value(read(written(file)), "scan_angle", 1) == 15000);
 }
 
 TEST_CASE("LAS: decimal coordinates keep their decimals; others move by what is told") {

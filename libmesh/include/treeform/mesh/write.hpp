@@ -56,7 +56,7 @@ struct write_result {
 /// - XYZ and CSV: further columns. PCD: these, and the lines "num_cols", "num_rows" and "viewpoint"
 ///   of `obj_info`.
 /// - LAS and LAZ: what `las_header` says; further columns as extra bytes. Columns red, green and blue
-///   of 8 bits are multiplied by 256. Coordinates that the file's scale and offset do not hold are
+///   of 8 bits are multiplied by 256; scan_angle_rank becomes scan_angle in formats from 6 on. Coordinates that the file's scale and offset do not hold are
 ///   rounded (`max_displacement`). A file that was not LAS gets the smallest format that holds its
 ///   columns, and for each axis the coarsest scale of 1, 0.1, 0.01, ... that gives all coordinates
 ///   back within two units in their last place, else the finest that 32 bits allow.
