@@ -1,11 +1,9 @@
 #include <libmesh/io/face_sink.hpp>
 #include <libmesh/io/face_texture.hpp>
-#include <libmesh/io/ply_header.hpp>
+#include <libmesh/io/ply_body.hpp>
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/reserve.hpp>
-#include <libmesh/io/row_values.hpp>
-#include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/io/vertex_rows.hpp>
 
 #include <algorithm>
@@ -17,25 +15,6 @@
 namespace treeform::detail::io {
 
 namespace {
-
-constexpr std::uint32_t most_numbers = std::numeric_limits<std::uint32_t>::max();
-
-/// The element of points; there must be one with all coordinates.
-[[nodiscard]] element& vertices_of(const source& in, std::vector<element>& elements) {
-    const auto at = std::find_if(elements.begin(), elements.end(),
-                                 [](const element& e) { return e.name == "vertex"; });
-    if (at == elements.end()) in.fail("no element 'vertex' in the header");
-    for (const auto role : {column_role::x, column_role::y, column_role::z})
-        if (with_role(*at, role) == nullptr) in.fail("element 'vertex' lacks one of x, y, z");
-    return *at;
-}
-
-template <class Values>
-void check_room(const Values& values, const element& e) {
-    if (!Values::can_hold(values.bytes_left(), e.rows, e))
-        values.fail("the file ends in element " + e.name + ": " + std::to_string(e.rows) +
-                    " promised");
-}
 
 template <class Values>
 void look_behind(Values& values, std::vector<io_warning>& warnings) {
@@ -179,19 +158,6 @@ class body_reader {
     std::int64_t vertex_count_ = 0;
     bool from_strips_ = false;
 };
-
-/// Calls f with the values of the body, and with the name of their format.
-template <class F>
-void with_reader(const source& in, const ply_header& header, F&& f) {
-    switch (header.encoding) {
-        case ply_encoding::ascii:
-            return f("ply-ascii", text_values(in, header.body));
-        case ply_encoding::little_endian:
-            return f("ply-binary-le", byte_values<std::endian::little>(in, header.body));
-        case ply_encoding::big_endian:
-            return f("ply-binary-be", byte_values<std::endian::big>(in, header.body));
-    }
-}
 
 void take_remarks(ply_header& header, mesh_file& file) {
     file.attributes.texture_files = std::move(header.texture_files);

@@ -1,7 +1,10 @@
 #include <libmesh/base/byte_order.hpp>
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/io/face_rows.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/reserve.hpp>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <string>
@@ -52,6 +55,16 @@ std::uint32_t facet_count(const source& in, std::vector<io_warning>& warnings) {
     return static_cast<std::uint32_t>(count);
 }
 
+/// Where the corners of a facet are.
+std::array<point3, 3> corners_of(const char* facet) {
+    std::array<point3, 3> corners;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const char* const xyz = facet + 12 + 12 * c;
+        corners[c] = {little<float>(xyz), little<float>(xyz + 4), little<float>(xyz + 8)};
+    }
+    return corners;
+}
+
 /// The 16 bits after each facet, kept only when one of them is not zero.
 class facet_bits {
   public:
@@ -96,11 +109,8 @@ mesh_file read_stl_binary(const source& in) {
         const auto size = static_cast<std::uint32_t>(std::min<std::size_t>(block, count - done));
         std::uint32_t any = 0;
         for (std::size_t i = 0; i < size; ++i, at += record_bytes) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                const char* const xyz = at + 12 + 12 * c;
-                corners[3 * i + c] = {little<float>(xyz), little<float>(xyz + 4),
-                                      little<float>(xyz + 8)};
-            }
+            const std::array<point3, 3> places = corners_of(at);
+            std::copy(places.begin(), places.end(), corners.begin() + std::ptrdiff_t{3} * i);
             attribute[i] = little<std::uint16_t>(at + 48);
             any |= attribute[i];
         }
@@ -116,6 +126,33 @@ mesh_file read_stl_binary(const source& in) {
     }
     bits.store(file);
     return file;
+}
+
+face_rows open_stl_faces(const source& in) {
+    face_rows rows;
+    const std::uint32_t count = facet_count(in, rows.head.warnings);
+    rows.head.indexed = false;
+    rows.head.stored_as = precision::float32;
+    rows.head.format = "stl-binary";
+    rows.points = std::uint64_t{3} * count;
+    rows.stored_faces = count;
+    const char* const facets = in.begin() + header_bytes;
+    for (std::size_t i = 0; i < count; i += count / sample_size + 1) {
+        const point3 corner = corners_of(facets + record_bytes * i)[0];
+        if (base::is_finite(corner)) rows.sample.push_back(corner);
+    }
+    rows.append = [&in, facets, count, done = std::uint32_t{0}](auto& triangles,
+                                                                std::size_t most) mutable {
+        const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(count, done + most));
+        const bool some = done < end;
+        for (; done < end; ++done)
+            triangles.push_back({done,
+                                 {3 * done, 3 * done + 1, 3 * done + 2},
+                                 corners_of(facets + record_bytes * done)});
+        in.release_before(facets + record_bytes * done);
+        return some;
+    };
+    return rows;
 }
 
 }  // namespace treeform::detail::io

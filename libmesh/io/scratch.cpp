@@ -22,11 +22,11 @@ namespace {
 
 }  // namespace
 
-int open_nameless_file(std::string_view name) {
+int open_nameless_file(std::string_view name, const std::filesystem::path& folder) {
 #ifdef O_TMPFILE
     // /tmp may itself be memory.
-    for (const char* const folder : {"/var/tmp", "/tmp"}) {
-        const int fd = ::open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    for (const char* const place : {folder.c_str(), "/var/tmp", "/tmp"}) {
+        const int fd = ::open(place, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
         if (fd >= 0) return fd;
     }
 #endif
@@ -36,7 +36,8 @@ int open_nameless_file(std::string_view name) {
     return fd;
 }
 
-scratch::scratch(std::size_t size, scratch_place place, std::string_view name)
+scratch::scratch(std::size_t size, scratch_place place, std::string_view name,
+                 const std::filesystem::path& folder)
     : size_(size), place_(place) {
     if (size == 0) return;
     void* map = MAP_FAILED;
@@ -44,7 +45,7 @@ scratch::scratch(std::size_t size, scratch_place place, std::string_view name)
         map = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (map == MAP_FAILED) throw std::bad_alloc();
     } else {
-        const int fd = open_nameless_file(name);
+        const int fd = open_nameless_file(name, folder);
         // All the room at once: a full disk would otherwise show as a signal.
         const int error = ::posix_fallocate(fd, 0, static_cast<off_t>(size));
         if (error == 0) map = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);

@@ -1,3 +1,4 @@
+#include <libmesh/base/add_to_box.hpp>
 #include <libmesh/stream/point_survey.hpp>
 #include <treeform/mesh/point_stream.hpp>
 
@@ -47,18 +48,6 @@ class sampler {
     std::vector<std::pair<std::uint64_t, point3>> chosen_{};
 };
 
-void extend(std::optional<box3>& box, const std::optional<box3>& more) {
-    if (!more) return;
-    if (!box) {
-        box = more;
-        return;
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-        box->min[k] = std::min(box->min[k], more->min[k]);
-        box->max[k] = std::max(box->max[k], more->max[k]);
-    }
-}
-
 }  // namespace
 
 point_survey survey(const std::filesystem::path& path, const std::string& format, pacer& pace) {
@@ -68,7 +57,7 @@ point_survey survey(const std::filesystem::path& path, const std::string& format
     sampler chosen;
     point_block block;
     while (reader.read(block, points_a_block)) {
-        extend(s.box, bounding_box(block.points));
+        base::add_to_box(s.box, bounding_box(block.points));
         s.single = s.single && fits_single(block.points);
         for (const point3& p : block.points) {
             if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))

@@ -45,6 +45,16 @@ void digest::add(std::span<const std::byte> bytes) {
     }
 }
 
+void store_count(const record_count& c, state_writer& state) {
+    state.number(c.records);
+    state.number(c.digest);
+}
+
+record_count load_count(state_reader& state) {
+    const std::uint64_t records = state.number();
+    return {records, state.number()};
+}
+
 void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes) {
     const descriptor file(path, O_WRONLY | O_CREAT | O_APPEND);
     if (file.get() < 0) fail(reason::write, path);
@@ -76,6 +86,12 @@ std::size_t read_from(const std::filesystem::path& path, std::uint64_t at,
         read += static_cast<std::size_t>(count);
     }
     return read;
+}
+
+std::optional<std::uint64_t> size_of(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(path, error);
+    return error ? std::nullopt : std::optional(size);
 }
 
 void fail_damaged(const std::filesystem::path& path) {

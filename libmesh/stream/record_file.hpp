@@ -3,11 +3,15 @@
 /// Files of records as they are in memory, written and read front to back, a piece at a time. None
 /// is open between two pieces, so there may be any number of them.
 
+#include <libmesh/stream/state_record.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -31,6 +35,9 @@ struct record_count {
     std::uint64_t digest = 0;
 };
 
+void store_count(const record_count& c, state_writer& state);
+[[nodiscard]] record_count load_count(state_reader& state);
+
 /// Appends bytes to a file, which is opened for it. \throws weld_stream_error
 void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes);
 /// Puts what was written on the disk. \throws weld_stream_error
@@ -38,6 +45,8 @@ void sync_file(const std::filesystem::path& path);
 /// Reads from byte `at` on, as many as there are. \throws weld_stream_error
 [[nodiscard]] std::size_t read_from(const std::filesystem::path& path, std::uint64_t at,
                                     std::span<std::byte> bytes);
+/// None where there is no such file.
+[[nodiscard]] std::optional<std::uint64_t> size_of(const std::filesystem::path& path);
 [[noreturn]] void fail_damaged(const std::filesystem::path& path);
 
 template <class Record>
@@ -109,6 +118,21 @@ class record_reader {
     std::uint64_t read_ = 0;
     digest digest_{};
 };
+
+/// Whether the file holds what was written.
+template <class Record>
+[[nodiscard]] bool is_whole(const std::filesystem::path& path, const record_count& expected) {
+    constexpr std::size_t bytes = std::size_t{1} << 20;
+    if (size_of(path) != expected.records * sizeof(Record)) return false;
+    record_reader<Record> reader(path, expected, bytes);
+    try {
+        while (!reader.next().empty()) {
+        }
+    } catch (const weld_stream_error&) {
+        return false;
+    }
+    return true;
+}
 
 /// The records of several files, each by ascending key, as one such row; of equal keys those of
 /// earlier files first.

@@ -3,43 +3,16 @@
 
 #include <libmesh/stream/tile_steps.hpp>
 
-#include <system_error>
-
 namespace treeform::detail::stream {
 namespace {
 
 const char* const plan_name = "plan";
-
-void store_count(const record_count& c, state_writer& state) {
-    state.number(c.records);
-    state.number(c.digest);
-}
-
-record_count load_count(state_reader& state) {
-    const std::uint64_t records = state.number();
-    return {records, state.number()};
-}
 
 longest_move load_move(state_reader& state) {
     const point3 from = state.point();
     longest_move m;
     m.consider(from, state.point());
     return m;
-}
-
-template <class Record>
-bool is_whole(const std::filesystem::path& path, const record_count& expected) {
-    std::error_code error;
-    if (std::filesystem::file_size(path, error) != expected.records * sizeof(Record) || error)
-        return false;
-    record_reader<Record> reader(path, expected, piece);
-    try {
-        while (!reader.next().empty()) {
-        }
-    } catch (const weld_stream_error&) {
-        return false;
-    }
-    return true;
 }
 
 std::string name_of_done(std::size_t t) { return std::to_string(t) + ".done"; }
@@ -87,10 +60,8 @@ bool tile_steps::take_over() {
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
         take_over_tile(t);
         cloud.finished_tiles += tiles_[t].finished ? 1 : 0;
-        std::error_code error;
-        whole =
-            whole && (tiles_[t].finished || std::filesystem::file_size(file(t, ".points"), error) ==
-                                                tiles_[t].points.records * sizeof(tile_point));
+        whole = whole && (tiles_[t].finished || size_of(file(t, ".points")) ==
+                                                    tiles_[t].points.records * sizeof(tile_point));
     }
     cloud.continued = whole;
     return whole;

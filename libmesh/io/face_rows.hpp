@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// The faces of a file from the front to the back, a run at a time, with the places of their
+/// corners; for meshes larger than memory.
+
+#include <libmesh/io/source.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace treeform::detail::io {
+
+/// A triangle of a file; a polygon has several.
+struct placed_triangle {
+    std::uint32_t stored = 0;  ///< the face in the file
+    face corners{};            ///< numbers of its points in the file
+    std::array<point3, 3> at{};
+};
+
+struct face_rows {
+    mesh_file head{};  ///< format, precision and warnings
+    std::uint64_t points = 0;
+    std::uint64_t stored_faces = 0;
+    std::optional<box3> bounds{};  ///< of all finite points, where these come ahead of the faces
+    std::vector<point3> sample{};  ///< finite corners from all over the file; at most `sample_size`
+    /// Appends the next triangles, about `most` of them; returns false when there are none left.
+    std::function<bool(std::vector<placed_triangle>& triangles, std::size_t most)> append{};
+};
+
+inline constexpr std::size_t sample_size = std::size_t{1} << 17;
+
+/// What is read by runs. `in` must outlive what comes back. The points of a PLY are in a file
+/// without a name in `folder` meanwhile; at most about `memory` bytes of it are held in memory.
+///
+/// \throws io_error, also for a PLY whose faces come ahead of its vertices or are triangle strips
+[[nodiscard]] face_rows open_stl_faces(const source& in);
+[[nodiscard]] face_rows open_ply_faces(const source& in, const std::filesystem::path& folder,
+                                       std::uint64_t memory);
+
+}  // namespace treeform::detail::io

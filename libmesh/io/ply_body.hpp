@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// What readers of a whole PLY and of its runs have in common.
+
+#include <libmesh/io/ply_header.hpp>
+#include <libmesh/io/row_values.hpp>
+#include <libmesh/io/vertex_columns.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace treeform::detail::io {
+
+inline constexpr std::uint32_t most_numbers = std::numeric_limits<std::uint32_t>::max();
+
+/// The element of points; there must be one with all coordinates.
+[[nodiscard]] inline element& vertices_of(const source& in, std::vector<element>& elements) {
+    const auto at = std::find_if(elements.begin(), elements.end(),
+                                 [](const element& e) { return e.name == "vertex"; });
+    if (at == elements.end()) in.fail("no element 'vertex' in the header");
+    for (const auto role : {column_role::x, column_role::y, column_role::z})
+        if (with_role(*at, role) == nullptr) in.fail("element 'vertex' lacks one of x, y, z");
+    return *at;
+}
+
+template <class Values>
+void check_room(const Values& values, const element& e) {
+    if (!Values::can_hold(values.bytes_left(), e.rows, e))
+        values.fail("the file ends in element " + e.name + ": " + std::to_string(e.rows) +
+                    " promised");
+}
+
+/// Calls f with the values of the body, and with the name of their format.
+template <class F>
+void with_reader(const source& in, const ply_header& header, F&& f) {
+    switch (header.encoding) {
+        case ply_encoding::ascii:
+            return f("ply-ascii", text_values(in, header.body));
+        case ply_encoding::little_endian:
+            return f("ply-binary-le", byte_values<std::endian::little>(in, header.body));
+        case ply_encoding::big_endian:
+            return f("ply-binary-be", byte_values<std::endian::big>(in, header.body));
+    }
+}
+
+}  // namespace treeform::detail::io

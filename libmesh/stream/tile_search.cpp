@@ -1,0 +1,288 @@
+#include <libmesh/base/add_to_box.hpp>
+#include <libmesh/io/detect.hpp>
+#include <libmesh/io/extension.hpp>
+#include <libmesh/stream/tile_search.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace treeform::detail::stream {
+namespace {
+
+constexpr std::size_t triangles_a_block = std::size_t{1} << 16;
+constexpr std::size_t piece_bytes = std::size_t{1} << 20;
+
+io::face_rows open_faces(const io::source& in, const std::filesystem::path& path,
+                         const std::string& format, const work_folder& folder,
+                         std::uint64_t memory) {
+    const auto found = io::detect(in, io::plain_extension(format), io::extension_of(path));
+    if (found.kind == io::file_kind::stl_binary) return io::open_stl_faces(in);
+    if (found.kind == io::file_kind::ply) return io::open_ply_faces(in, folder.path(), memory);
+    in.fail("only binary STL and PLY are searched in tiles");
+}
+
+template <class Real>
+tile_face<Real> record_of(const io::placed_triangle& t, std::uint64_t number) {
+    tile_face<Real> record{.triangle = static_cast<std::uint32_t>(number), .stored = t.stored};
+    for (std::size_t c = 0; c < 3; ++c) {
+        record.corners[c] = t.corners[c];
+        for (std::size_t k = 0; k < 3; ++k) record.at[3 * c + k] = static_cast<Real>(t.at[c][k]);
+    }
+    return record;
+}
+
+template <class Real>
+point3 corner_of(const tile_face<Real>& f, std::size_t c) {
+    return {f.at[3 * c], f.at[3 * c + 1], f.at[3 * c + 2]};
+}
+
+/// The faces as a mesh, which has each point once a corner, or once a number.
+template <class Real>
+mesh mesh_of(const std::vector<tile_face<Real>>& faces, vertex_identity vertices) {
+    mesh m;
+    m.points.reserve(3 * faces.size());
+    m.faces.reserve(faces.size());
+    for (const tile_face<Real>& f : faces) {
+        const auto first = static_cast<std::uint32_t>(m.points.size());
+        for (std::size_t c = 0; c < 3; ++c) m.points.push_back(corner_of(f, c));
+        m.faces.push_back({first, first + 1, first + 2});
+    }
+    if (vertices == vertex_identity::by_coordinates) return join_equal_points(m);
+    std::vector<std::uint32_t> numbers;
+    numbers.reserve(3 * faces.size());
+    for (const tile_face<Real>& f : faces)
+        numbers.insert(numbers.end(), f.corners.begin(), f.corners.begin() + 3);
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    std::vector<point3> points(numbers.size());
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto at = std::lower_bound(numbers.begin(), numbers.end(), faces[i].corners[c]);
+            m.faces[i][c] = static_cast<std::uint32_t>(at - numbers.begin());
+            points[m.faces[i][c]] = corner_of(faces[i], c);
+        }
+    m.points = std::move(points);
+    return m;
+}
+
+/// The lowest corner of what the boxes of two faces have in common. \pre they have something
+point3 lowest_common(mesh_view m, const face_pair& pair) {
+    point3 lowest;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto low = [&](std::uint32_t f) {
+            const auto& [a, b, c] = m.faces[f];
+            return std::min({m.points[a][k], m.points[b][k], m.points[c][k]});
+        };
+        lowest[k] = std::max(low(pair.a), low(pair.b));
+    }
+    return lowest;
+}
+
+template <class Record>
+std::vector<Record> all_of(const std::filesystem::path& path, const record_count& count) {
+    std::vector<Record> records;
+    records.reserve(static_cast<std::size_t>(count.records));
+    record_reader<Record> reader(path, count, piece_bytes);
+    for (auto row = reader.next(); !row.empty(); row = reader.next())
+        records.insert(records.end(), row.begin(), row.end());
+    return records;
+}
+
+void add_counts(self_intersection_result& sum, const self_intersection_result& one) {
+    for (std::size_t k = 0; k < pair_kind_count; ++k) sum.counts[k] += one.counts[k];
+    sum.box_pairs += one.box_pairs;
+    sum.exact_pairs += one.exact_pairs;
+    sum.predicates += one.predicates;
+    sum.tree_seconds += one.tree_seconds;
+    sum.pair_seconds += one.pair_seconds;
+}
+
+}  // namespace
+
+tile_search::tile_search(pacer& pace, const work_folder& folder, std::filesystem::path input,
+                         const stream_search_options& options)
+    : pace_(pace), folder_(folder), input_(std::move(input)), options_(options) {
+    constexpr std::uint64_t base = std::uint64_t{48}
+                                   << 20;  // the program, its threads and its code
+    const std::uint64_t all = options.memory == 0 ? default_memory() : options.memory;
+    memory_ = all - std::min(base, all / 2);
+}
+
+std::filesystem::path tile_search::file(std::size_t tile, const char* what) const {
+    return folder_.file(std::to_string(tile) + what);
+}
+
+/// By a measure of what `search_tile` holds of each face, and with room for tiles that are larger
+/// than the sample said.
+std::size_t tile_search::tile_count(std::uint64_t faces) const {
+    constexpr std::uint64_t bytes_a_face = 400;
+    const std::uint64_t most = options_.faces_per_tile > 0
+                                   ? options_.faces_per_tile
+                                   : std::max<std::uint64_t>(1000, memory_ / 2 / bytes_a_face);
+    return static_cast<std::size_t>(faces / most + 1);
+}
+
+void tile_search::scatter() {
+    if (take_over()) return;
+    folder_.clear();
+    const io::source in = io::source::open(input_, io::scratch_place::file);
+    io::face_rows rows = open_faces(in, input_, options_.format, folder_, memory_ / 4);
+    if (rows.stored_faces > std::numeric_limits<std::uint32_t>::max())
+        throw std::length_error("treeform::self_intersections_of_file: more than 2^32 - 1 faces");
+    vertices_ = options_.vertices.value_or(rows.head.indexed ? vertex_identity::by_index
+                                                             : vertex_identity::by_coordinates);
+    survey_.points = rows.points;
+    survey_.bounds = rows.bounds;
+    bounds_known_ = rows.bounds.has_value();
+    survey_.stored_faces = rows.stored_faces;
+    cells_.emplace(std::move(rows.sample), tile_count(rows.stored_faces));
+    if (rows.head.stored_as == precision::float32)
+        give_all<float>(rows);
+    else
+        give_all<double>(rows);
+    survey_.header = std::move(rows.head);
+    survey_.tiles = cells_->size();
+    found_.resize(cells_->size());
+    store_plan();
+    if (options_.step_done) options_.step_done();
+}
+
+template <class Real>
+void tile_search::give_all(io::face_rows& rows) {
+    using record = tile_face<Real>;
+    const std::size_t held =
+        std::min<std::uint64_t>(memory_ / 4 / cells_->size(), std::uint64_t{4} << 20);
+    std::vector<record_writer<record>> tiles;
+    tiles.reserve(cells_->size());
+    for (std::size_t t = 0; t < cells_->size(); ++t) tiles.emplace_back(file(t, ".faces"), held);
+    std::vector<io::placed_triangle> block;
+    std::vector<std::uint32_t> searched;
+    while (rows.append(block, triangles_a_block)) {
+        look_at(block, searched);
+        for (const std::uint32_t i : searched) {
+            const record face = record_of<Real>(block[i], survey_.triangles + i);
+            cells_->each_that_meets(*bounding_box(block[i].at),
+                                    [&](std::uint32_t cell) { tiles[cell].put(face); });
+        }
+        survey_.triangles += block.size();
+        if (survey_.triangles > std::numeric_limits<std::uint32_t>::max())
+            throw std::length_error(
+                "treeform::self_intersections_of_file: more than 2^32 - 1 triangles");
+        block.clear();
+        pace_.show("scatter",
+                   static_cast<double>(survey_.triangles) /
+                       static_cast<double>(std::max(survey_.triangles, survey_.stored_faces)));
+    }
+    for (record_writer<record>& tile : tiles) faces_.push_back(tile.finish());
+}
+
+/// Counts what is to be told of all faces, and lists those of the block that are searched.
+void tile_search::look_at(const std::vector<io::placed_triangle>& block,
+                          std::vector<std::uint32_t>& searched) {
+    mesh m;
+    for (const io::placed_triangle& t : block) {
+        const auto first = static_cast<std::uint32_t>(m.points.size());
+        m.points.insert(m.points.end(), t.at.begin(), t.at.end());
+        m.faces.push_back({first, first + 1, first + 2});
+    }
+    if (!bounds_known_) base::add_to_box(survey_.bounds, bounding_box(m.points));
+    const mesh_defects defects = find_defects(m);
+    survey_.part.dropped += defects.nonfinite_faces.size();
+    survey_.part.degenerate += defects.degenerate_faces.size();
+    searched = drop_unusable_faces(m);
+    if (defects.nonfinite_faces.empty()) {
+        searched.resize(block.size());
+        std::iota(searched.begin(), searched.end(), 0U);
+    }
+    if (options_.box) {
+        std::vector<std::uint32_t> in_box = faces_in_box(m, options_.box->min, options_.box->max);
+        for (std::uint32_t& f : in_box) f = searched[f];
+        searched = std::move(in_box);
+    }
+    survey_.searched += searched.size();
+}
+
+stream_search_result tile_search::search() {
+    survey_.tiles = cells_->size();
+    for (std::size_t t = 0; t < found_.size(); ++t) {
+        pace_.show("pairs", static_cast<double>(t) / static_cast<double>(found_.size()));
+        if (found_[t]) continue;
+        if (survey_.header.stored_as == precision::float32)
+            search_tile<float>(t);
+        else
+            search_tile<double>(t);
+        store_tile(t);
+        std::filesystem::remove(file(t, ".faces"));
+        if (options_.step_done) options_.step_done();
+    }
+    stream_search_result result = survey_;
+    put_together(result);
+    return result;
+}
+
+template <class Real>
+void tile_search::search_tile(std::size_t tile) {
+    const auto faces = all_of<tile_face<Real>>(file(tile, ".faces"), faces_[tile]);
+    const mesh m = mesh_of(faces, vertices_);
+    const auto watch = [this](double) {
+        pace_.check();
+        return true;
+    };
+    self_intersection_result all = self_intersections(
+        m, {.vertices = vertex_identity::by_index, .kinds = options_.kinds, .progress = watch});
+    tile_found& found = found_[tile].emplace();
+    record_writer<tile_pair> pairs(file(tile, ".pairs"), piece_bytes);
+    std::vector<std::uint32_t> hit;
+    all.counts = {};
+    for (const face_pair& pair : all.pairs) {
+        if (cells_->cell_of(lowest_common(m, pair)) != tile) continue;
+        pairs.put({faces[pair.a].triangle, faces[pair.b].triangle,
+                   static_cast<std::uint32_t>(pair.kind), 0});
+        ++all.counts[static_cast<std::size_t>(pair.kind)];
+        hit.insert(hit.end(), {pair.a, pair.b});
+    }
+    std::sort(hit.begin(), hit.end());
+    hit.erase(std::unique(hit.begin(), hit.end()), hit.end());
+    record_writer<tile_face<double>> hits(file(tile, ".hits"), piece_bytes);
+    for (const std::uint32_t f : hit) {
+        const tile_face<Real>& of_tile = faces[f];
+        tile_face<double> face{.triangle = of_tile.triangle, .stored = of_tile.stored};
+        std::copy(of_tile.corners.begin(), of_tile.corners.end(), face.corners.begin());
+        std::copy(of_tile.at.begin(), of_tile.at.end(), face.at.begin());
+        hits.put(face);
+    }
+    all.pairs = {};
+    found = {pairs.finish(), hits.finish(), std::move(all)};
+}
+
+/// Faces keep their order, so pairs that ascend do so with the new numbers.
+void tile_search::put_together(stream_search_result& result) const {
+    std::vector<tile_face<double>> faces;
+    for (std::size_t t = 0; t < found_.size(); ++t) {
+        const auto hits = all_of<tile_face<double>>(file(t, ".hits"), found_[t]->faces);
+        faces.insert(faces.end(), hits.begin(), hits.end());
+        for (const tile_pair& p : all_of<tile_pair>(file(t, ".pairs"), found_[t]->pairs))
+            result.found.pairs.push_back({p.a, p.b, static_cast<pair_kind>(p.kind)});
+        add_counts(result.found, found_[t]->counted);
+    }
+    const auto number = [](const tile_face<double>& f) { return f.triangle; };
+    std::ranges::sort(faces, {}, number);
+    const auto again = std::ranges::unique(faces, {}, number);
+    faces.erase(again.begin(), again.end());
+    result.part.mesh = mesh_of(faces, vertices_);
+    for (const tile_face<double>& f : faces) result.part.triangle_of_face.push_back(f.stored);
+    std::sort(result.found.pairs.begin(), result.found.pairs.end());
+    for (face_pair& pair : result.found.pairs)
+        for (std::uint32_t* f : {&pair.a, &pair.b})
+            *f = static_cast<std::uint32_t>(std::ranges::lower_bound(faces, *f, {}, number) -
+                                            faces.begin());
+}
+
+}  // namespace treeform::detail::stream

@@ -1,0 +1,91 @@
+#pragma once
+/// \file
+/// The faces of a file in tiles on the disk, and the pairs of each tile; each step is found done
+/// when it has been.
+
+#include <libmesh/io/face_rows.hpp>
+#include <libmesh/stream/pacer.hpp>
+#include <libmesh/stream/record_file.hpp>
+#include <libmesh/stream/space_cells.hpp>
+#include <libmesh/stream/work_folder.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+/// A face in a tile.
+template <class Real>
+struct tile_face {
+    std::uint32_t triangle = 0;  ///< of the file
+    std::uint32_t stored = 0;
+    /// Numbers of points; the records of doubles end with a zero, so that no byte is unset.
+    std::array<std::uint32_t, sizeof(Real) == 8 ? 4 : 3> corners{};
+    std::array<Real, 9> at{};
+};
+static_assert(sizeof(tile_face<float>) == 56 && sizeof(tile_face<double>) == 96);
+
+/// Numbers of triangles of the file.
+struct tile_pair {
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+    std::uint32_t kind = 0;
+    std::uint32_t unused = 0;
+};
+
+/// What was found in a tile: pairs, the faces in them, and the counters.
+struct tile_found {
+    record_count pairs{};
+    record_count faces{};
+    self_intersection_result counted{};  ///< without pairs
+};
+
+class tile_search {
+  public:
+    tile_search(pacer& pace, const work_folder& folder, std::filesystem::path input,
+                const stream_search_options& options);
+
+    /// Gives each tile its faces, or knows from an earlier run that they have them.
+    /// \throws io_error, weld_stream_error, cancelled
+    void scatter();
+    /// Searches the tiles that are not finished, and puts together what was found.
+    [[nodiscard]] stream_search_result search();
+
+  private:
+    [[nodiscard]] std::filesystem::path file(std::size_t tile, const char* what) const;
+
+    [[nodiscard]] std::string identity() const;
+    void store_plan() const;
+    [[nodiscard]] bool take_over();
+    [[nodiscard]] bool take_over_tile(std::size_t tile);
+    void store_tile(std::size_t tile) const;
+
+    [[nodiscard]] std::size_t tile_count(std::uint64_t faces) const;
+    template <class Real>
+    void give_all(io::face_rows& rows);
+    void look_at(const std::vector<io::placed_triangle>& block,
+                 std::vector<std::uint32_t>& searched);
+    template <class Real>
+    void search_tile(std::size_t tile);
+    void put_together(stream_search_result& result) const;
+
+    pacer& pace_;
+    const work_folder& folder_;
+    std::filesystem::path input_;
+    const stream_search_options& options_;
+    std::uint64_t memory_;  ///< what is left for faces
+    stream_search_result survey_{};
+    bool bounds_known_ = false;
+    vertex_identity vertices_{};
+    std::optional<space_cells> cells_{};
+    std::vector<record_count> faces_{};               ///< of each tile
+    std::vector<std::optional<tile_found>> found_{};  ///< likewise, where it is finished
+};
+
+}  // namespace treeform::detail::stream

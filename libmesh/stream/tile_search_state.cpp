@@ -1,0 +1,155 @@
+/// \file
+/// What is stored of a search in tiles, and taken over by a later run.
+
+#include <libmesh/stream/tile_search.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+#include <treeform/tree/version.hpp>
+
+#include <system_error>
+
+namespace treeform::detail::stream {
+namespace {
+
+const char* const plan_name = "search";
+
+std::string name_of_found(std::size_t tile) { return std::to_string(tile) + ".found"; }
+
+/// The numbers of a survey or of counters, in the order in which both are stored and loaded.
+template <class Survey, class Visit>
+void each_number(Survey& s, const Visit& visit) {
+    for (auto* n : {&s.stored_faces, &s.triangles, &s.searched, &s.points, &s.part.dropped,
+                    &s.part.degenerate})
+        visit(*n);
+}
+
+template <class Counters, class Visit>
+void each_counter(Counters& c, const Visit& visit) {
+    for (auto& n : c.counts) visit(n);
+    for (auto* n : {&c.box_pairs, &c.exact_pairs, &c.predicates.calls, &c.predicates.undecided})
+        visit(*n);
+    for (auto& n : c.predicates.by_width) visit(n);
+}
+
+void store_survey(const stream_search_result& s, state_writer& state) {
+    each_number(s, [&](std::uint64_t n) { state.number(n); });
+    state.number(s.bounds ? 1 : 0);
+    if (s.bounds) {
+        state.point(s.bounds->min);
+        state.point(s.bounds->max);
+    }
+    state.text(s.header.format);
+    state.number(static_cast<std::uint64_t>(s.header.stored_as));
+    state.number(s.header.indexed ? 1 : 0);
+    state.number(s.header.warnings.size());
+    for (const io_warning& w : s.header.warnings) {
+        state.text(w.code);
+        state.text(w.text);
+    }
+}
+
+stream_search_result load_survey(state_reader& state) {
+    stream_search_result s;
+    each_number(s, [&](std::uint64_t& n) { n = state.number(); });
+    if (state.number() != 0) {
+        const point3 min = state.point();
+        s.bounds = {min, state.point()};
+    }
+    s.header.format = state.text();
+    s.header.stored_as = static_cast<precision>(state.number());
+    s.header.indexed = state.number() != 0;
+    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
+        io_warning& w = s.header.warnings.emplace_back();
+        w.code = state.text();
+        w.text = state.text();
+    }
+    return s;
+}
+
+}  // namespace
+
+std::string tile_search::identity() const {
+    state_writer state;
+    state.text(version_string());
+    state.text(std::filesystem::absolute(input_).string());
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(input_, error);
+    if (error) throw io_error(input_.string() + ": cannot be read: " + error.message());
+    state.number(size);
+    state.number(static_cast<std::uint64_t>(
+        std::filesystem::last_write_time(input_).time_since_epoch().count()));
+    const stream_search_options& o = options_;
+    state.text(o.format);
+    state.number(o.vertices ? 1 + static_cast<std::uint64_t>(*o.vertices) : 0);
+    for (std::size_t k = 0; k < pair_kind_count; ++k)
+        state.number(o.kinds.contains(static_cast<pair_kind>(k)) ? 1 : 0);
+    state.number(o.box ? 1 : 0);
+    if (o.box) {
+        state.point(o.box->min);
+        state.point(o.box->max);
+    }
+    state.number(o.memory);
+    state.number(o.faces_per_tile);
+    return state.bytes();
+}
+
+void tile_search::store_plan() const {
+    state_writer state;
+    state.text(identity());
+    store_survey(survey_, state);
+    state.number(static_cast<std::uint64_t>(vertices_));
+    cells_->store(state);
+    for (const record_count& faces : faces_) store_count(faces, state);
+    folder_.store(plan_name, state);
+}
+
+bool tile_search::take_over() {
+    auto state = folder_.load(plan_name);
+    if (!state || state->text() != identity()) return false;
+    stream_search_result survey = load_survey(*state);
+    const auto vertices = static_cast<vertex_identity>(state->number());
+    space_cells cells(*state);
+    std::vector<record_count> faces(cells.size());
+    for (record_count& c : faces) c = load_count(*state);
+    if (!state->whole() || faces.empty()) return false;
+    found_.assign(cells.size(), std::nullopt);
+    for (std::size_t t = 0; t < cells.size(); ++t) {
+        if (take_over_tile(t)) {
+            ++survey.finished_tiles;
+            continue;
+        }
+        const std::uint64_t bytes = survey.header.stored_as == precision::float32
+                                        ? sizeof(tile_face<float>)
+                                        : sizeof(tile_face<double>);
+        if (size_of(file(t, ".faces")) != faces[t].records * bytes) return false;
+    }
+    survey_ = std::move(survey);
+    vertices_ = vertices;
+    cells_ = std::move(cells);
+    faces_ = std::move(faces);
+    return true;
+}
+
+void tile_search::store_tile(std::size_t tile) const {
+    const tile_found& found = *found_[tile];
+    state_writer state;
+    store_count(found.pairs, state);
+    store_count(found.faces, state);
+    each_counter(found.counted, [&](std::uint64_t n) { state.number(n); });
+    folder_.store(name_of_found(tile), state);
+}
+
+bool tile_search::take_over_tile(std::size_t tile) {
+    auto state = folder_.load(name_of_found(tile));
+    if (!state) return false;
+    tile_found found;
+    found.pairs = load_count(*state);
+    found.faces = load_count(*state);
+    each_counter(found.counted, [&](std::uint64_t& n) { n = state->number(); });
+    if (!state->whole() || !is_whole<tile_pair>(file(tile, ".pairs"), found.pairs) ||
+        !is_whole<tile_face<double>>(file(tile, ".hits"), found.faces))
+        return false;
+    found_[tile] = std::move(found);
+    return true;
+}
+
+}  // namespace treeform::detail::stream

@@ -1,0 +1,210 @@
+/// \file
+/// Self-intersections of files by tiles on the disk: what is found without tiles, also after a stop
+/// at any step.
+
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/soups.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own that goes with the test.
+struct own_folder {
+    own_folder()
+        : path(fs::temp_directory_path() / ("search_of_file." + std::to_string(::getpid()))) {
+        fs::remove_all(path);
+        fs::create_directories(path);
+    }
+    own_folder(const own_folder&) = delete;
+    own_folder& operator=(const own_folder&) = delete;
+    ~own_folder() { fs::remove_all(path); }
+
+    fs::path path;
+};
+
+/// What is told of a mesh, with the file's numbers of faces.
+struct told {
+    std::vector<tf::face_pair> pairs{};
+    std::array<std::uint64_t, tf::pair_kind_count> counts{};
+    std::vector<std::vector<std::uint32_t>> regions{};
+    std::uint64_t dropped = 0;
+    std::uint64_t degenerate = 0;
+    std::optional<tf::box3> bounds{};
+    friend bool operator==(const told&, const told&) = default;
+};
+
+told told_of(const tf::usable_mesh& part, const tf::self_intersection_result& found,
+             const std::optional<tf::box3>& bounds) {
+    told t{.counts = found.counts,
+           .dropped = part.dropped,
+           .degenerate = part.degenerate,
+           .bounds = bounds};
+    for (const tf::face_pair& p : found.pairs)
+        t.pairs.push_back({part.face_in_file(p.a), part.face_in_file(p.b), p.kind});
+    for (const auto& region : tf::group_pairs(part.mesh, found.pairs).regions) {
+        t.regions.emplace_back();
+        for (const std::uint32_t f : region.faces) t.regions.back().push_back(part.face_in_file(f));
+    }
+    return t;
+}
+
+told in_memory(const fs::path& path, const tf::stream_search_options& o) {
+    tf::mesh_file file = tf::read(path);
+    const auto bounds = tf::bounding_box(file.mesh.points);
+    const auto by_format =
+        file.indexed ? tf::vertex_identity::by_index : tf::vertex_identity::by_coordinates;
+    const tf::usable_mesh part = tf::usable_part(
+        file.mesh, file.stored_face, {.vertices = o.vertices.value_or(by_format), .box = o.box});
+    const auto found = tf::self_intersections(
+        part.mesh, {.vertices = tf::vertex_identity::by_index, .kinds = o.kinds});
+    return told_of(part, found, bounds);
+}
+
+told in_tiles(const fs::path& path, const tf::stream_search_options& o) {
+    const tf::stream_search_result r = tf::self_intersections_of_file(path, o);
+    CHECK_FALSE(fs::exists(path.string() + ".tiles"));
+    return told_of(r.part, r.found, r.bounds);
+}
+
+/// Crossing and touching faces, copies, and faces without area; some with equal points.
+tf::mesh hard_mesh() {
+    test::random source(11);
+    tf::mesh mesh = test::random_soup(source, 1500, 0.3);
+    mesh = test::together(mesh, test::lattice_soup(source, 600, 200, 5));
+    return test::together(mesh, test::moved(test::grid(20), {-3, -3, 0.5}));
+}
+
+}  // namespace
+
+TEST_CASE("self_intersections_of_file: the answers of the whole mesh, for every cut and format") {
+    const own_folder folder;
+    tf::mesh_file file;
+    file.mesh = hard_mesh();
+    for (const char* name : {"whole.stl", "whole.ply", "text.ply"}) {
+        CAPTURE(name);
+        const fs::path path = folder.path / name;
+        tf::write_options how;
+        how.ascii = std::string(name) == "text.ply";
+        how.precision = tf::precision::float32;
+        tf::write(path, file, how);
+        for (const std::uint64_t faces : {40, 333, 100'000}) {
+            CAPTURE(faces);
+            tf::stream_search_options o;
+            o.faces_per_tile = faces;
+            const told expected = in_memory(path, o);
+            CHECK(expected.pairs.size() > 1000);
+            CHECK(in_tiles(path, o) == expected);
+            o.vertices = tf::vertex_identity::by_coordinates;
+            CHECK(in_tiles(path, o) == in_memory(path, o));
+            o.kinds = tf::pair_kinds::all - tf::pair_kind::crossing;
+            o.box = tf::box3{{0.25, 0.25, 0.25}, {2.5, 1.0, 1.0}};
+            CHECK(in_tiles(path, o) == in_memory(path, o));
+        }
+    }
+}
+
+TEST_CASE(
+    "self_intersections_of_file: polygons, doubles, NaN and elements that are not asked for") {
+    const own_folder folder;
+    const fs::path path = folder.path / "all.ply";
+    std::ofstream(path) << "ply\nformat ascii 1.0\n"
+                           "element camera 1\nproperty float f\nproperty list uchar int l\n"
+                           "element vertex 9\nproperty uchar red\nproperty double x\n"
+                           "property double y\nproperty double z\n"
+                           "element face 4\nproperty list uchar int vertex_indices\n"
+                           "property list uchar float w\nend_header\n"
+                           "2.5 2 1 1\n"
+                           "0 0 0 0\n0 4 0 0\n0 4 4 0\n0 0 4 0\n"
+                           "0 1 1 -1\n0 1 1.1 1\n0 3 3 1\n0 nan 0 0\n0 9 9 9\n"
+                           "4 0 1 2 3 1 0.5\n3 4 5 6 0\n3 0 1 7 0\n3 4 5 5 2 1 1\n";
+    for (const std::uint64_t faces : {1, 100}) {
+        tf::stream_search_options o;
+        o.faces_per_tile = faces;
+        const told found = in_tiles(path, o);
+        CHECK(found == in_memory(path, o));
+        CHECK(found.dropped == 1);
+        CHECK(found.degenerate == 1);
+        CHECK(found.pairs.size() == 3);
+        CHECK(found.bounds == tf::box3{{0, 0, -1}, {9, 9, 9}});
+    }
+}
+
+TEST_CASE("self_intersections_of_file: goes on after a stop at any step") {
+    const own_folder folder;
+    tf::mesh_file file;
+    file.mesh = hard_mesh();
+    const fs::path path = folder.path / "part.stl";
+    tf::write(path, file, {.precision = tf::precision::float32});
+    tf::stream_search_options o;
+    o.faces_per_tile = 500;
+    o.folder = folder.path / "work";
+    const told expected = in_memory(path, o);
+    struct stop {};
+    std::size_t steps = 0;
+    for (int left = 1;; ++left) {
+        o.step_done = [&, at = left]() mutable {
+            if (--at == 0) throw stop{};
+        };
+        std::size_t finished = 0;
+        try {
+            const auto r = tf::self_intersections_of_file(path, o);
+            CHECK(told_of(r.part, r.found, r.bounds) == expected);
+            finished = r.finished_tiles;
+        } catch (const stop&) {
+            ++steps;
+            o.step_done = {};
+            if (left % 3 == 0) {  // a tile that is damaged is found out
+                for (const auto& entry : fs::directory_iterator(o.folder))
+                    if (entry.path().extension() == ".hits")
+                        std::ofstream(entry.path(), std::ios::app) << "8 bytes.";
+            }
+            const auto r = tf::self_intersections_of_file(path, o);
+            CHECK(told_of(r.part, r.found, r.bounds) == expected);
+            CHECK(r.finished_tiles == (left % 3 == 0 ? 0 : static_cast<std::size_t>(left - 1)));
+            CHECK_FALSE(fs::exists(o.folder));
+            continue;
+        }
+        CHECK(finished == 0);
+        break;
+    }
+    CHECK(steps > 5);
+}
+
+TEST_CASE("self_intersections_of_file: stops when it is told, and says what it does not read") {
+    const own_folder folder;
+    tf::mesh_file file;
+    file.mesh = test::grid(40);
+    const fs::path path = folder.path / "grid.ply";
+    tf::write(path, file);
+    tf::stream_search_options o;
+    o.progress = [](std::string_view, double) { return false; };
+    CHECK(tf::self_intersections_of_file(path, o).found.cancelled);
+    CHECK(tf::self_intersections_of_file(path).found.pairs.empty());
+
+    tf::write(folder.path / "grid.obj", file);
+    CHECK_THROWS_WITH_AS((void)tf::self_intersections_of_file(folder.path / "grid.obj"),
+                         doctest::Contains("only binary STL and PLY are searched in tiles"),
+                         tf::io_error);
+    CHECK_THROWS_AS((void)tf::self_intersections_of_file(folder.path / "no.stl"), tf::io_error);
+    fs::resize_file(path, fs::file_size(path) - 100);
+    CHECK_THROWS_AS((void)tf::self_intersections_of_file(path), tf::io_error);
+}
