@@ -6,6 +6,7 @@
 #include "tools/common/curve_file.hpp"
 #include "tools/common/mesh_output.hpp"
 #include "tools/common/run.hpp"
+#include "tools/tf-selfintersect/in_tiles.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
 #include <treeform/tf.hpp>
 
@@ -24,6 +25,7 @@ struct request {
     std::filesystem::path curves;
     bool repairs = false;
     tools::repair_settings repair;
+    tools::tile_options tiles;
 };
 
 tf::box3 parse_box(std::string_view text) {
@@ -157,10 +159,18 @@ void check_request(const command_line& line, request& r, common_options& options
 exit_status look_at(tools::job& work, const request& r) {
     const common_options& o = work.options;
     tools::check_outputs(work, {r.pairs, o.html}, {r.curves});
-    tf::mesh_file file = work.read();
     const auto output = tools::mesh_output(o, work.path);
     const bool keeps_mesh = r.repairs || (output && !o.dry_run);
-    const tools::findings result = tools::search(work, file, r.search, keeps_mesh);
+    tf::mesh_file file;
+    tools::findings result;
+    if (tools::needs_tiles(work, r.search, r.tiles, keeps_mesh)) {
+        result =
+            tools::search_in_tiles(work, r.search, r.tiles,
+                                   r.tiles.folder_for(work, {r.pairs, r.curves, o.html, o.report}));
+    } else {
+        file = work.read();
+        result = tools::search(work, file, r.search, keeps_mesh);
+    }
 
     work.out.result(work.name + ": " + tools::verdict(result, r.search));
     tools::say_details(work, result);
@@ -194,6 +204,9 @@ int main(int argc, char** argv) {
     add_what_counts(line, r.search);
     add_what_to_give_back(line, r, options);
     add_repair(line, r);
+    tools::add_tile_options(
+        line, r.tiles, "Files larger than --memory are searched in tiles on the disk (STL, PLY)",
+        "--tile-faces");
     line.group("Common options");
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "glb", "3mf", "obj", "stl", "off"}});

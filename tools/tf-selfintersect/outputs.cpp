@@ -28,7 +28,7 @@ json region_entry(const findings& result, std::size_t id) {
             {"pairs", region.pairs},
             {"box", tf::box3{region.min, region.max}},
             {"center", region.center()},
-            {"components", result.components_of(region)}};
+            {"components", or_null(!result.part.component.empty(), result.components_of(region))}};
 }
 
 json list_entry(const findings& result, std::size_t count) {
@@ -50,7 +50,7 @@ void enter_report(job& work, const findings& result, const search_settings& sett
     entry["vertices"] = {{"stored", result.points_stored}, {"distinct", result.part.distinct}};
     entry["faces"] = result.faces_stored;
     entry["triangles"] = result.triangles;
-    entry["searched"] = result.part.mesh.faces.size();
+    entry["searched"] = result.searched;
     entry["box"] = result.box;
     entry["skipped"] = {{"non_finite", result.part.dropped},
                         {"degenerate", result.part.degenerate},

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t most_regions = 1000;
 
 std::vector<face_kind> kinds_of(const findings& result) {
-    const std::size_t others = result.part.mesh.faces.size() - result.marks.marked();
+    const std::uint64_t others = result.searched - result.marks.marked();
     std::vector<face_kind> kinds{{"other", tf::mark_colors[0], others}};
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k)
         kinds.push_back({name_of(static_cast<tf::pair_kind>(k)), tf::mark_colors[k + 1], 0});
@@ -77,7 +77,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const job& work, const
             {"sha256", text_of("sha256")},
             {"coordinates", text_of("precision_in") + ", unit " + work.options.unit},
             {"faces", grouped(result.faces_stored) + " stored, " + grouped(result.triangles) +
-                          " triangles, " + grouped(result.part.mesh.faces.size()) + " searched"},
+                          " triangles, " + grouped(result.searched) + " searched"},
             {"vertices", grouped(result.points_stored) + " stored, " +
                              grouped(result.part.distinct.value_or(0)) + " distinct"},
             {"box", in_words(result.box->min) + " to " + in_words(result.box->max)},

@@ -74,17 +74,23 @@ findings search(job& work, tf::mesh_file& file, const search_settings& settings,
         work.keeper.check();
     }
     const tf::mesh& mesh = result.part.mesh;
+    result.searched = mesh.faces.size();
     result.found = tf::self_intersections(mesh, search_options(work, result, settings));
     work.call_ended();
     work.seconds["tree"] += result.found.tree_seconds;
     work.seconds["pairs"] += result.found.pair_seconds;
+    group_findings(work, result, settings);
+    return result;
+}
+
+void group_findings(job& work, findings& result, const search_settings& settings) {
+    const tf::mesh& mesh = result.part.mesh;
     std::erase_if(result.found.pairs, [&](const tf::face_pair& pair) {
         return !settings.counted().contains(pair.kind);
     });
     const job::timer timing = work.time("regions");
     result.regions = tf::group_pairs(mesh, result.found.pairs);
     result.marks = tf::mark_faces(mesh.faces.size(), result.found.pairs, result.regions);
-    return result;
 }
 
 void hint_at_near_points(job& work, const findings& result) {

@@ -40,6 +40,7 @@ struct findings {
     std::optional<tf::box3> box{};  ///< of all finite points
     std::uint64_t faces_stored = 0;
     std::uint64_t triangles = 0;
+    std::uint64_t searched = 0;  ///< triangles; of a search in tiles, more than `part` has
     std::uint64_t points_stored = 0;
     double tolerance_used = 0.0;
 
@@ -52,6 +53,9 @@ struct findings {
 /// \throws failure (bad_input) when there is no triangle to look at; (stopped) when stopped
 [[nodiscard]] findings search(job& work, tf::mesh_file& file, const search_settings& settings,
                               bool keep_mesh);
+
+/// Leaves only pairs that count, groups them, and marks their faces.
+void group_findings(job& work, findings& result, const search_settings& settings);
 
 /// Warns of points next to others that are not equal; with a -t that closes the surface, if any.
 void hint_at_near_points(job& work, const findings& result);

@@ -42,9 +42,8 @@ std::string verdict(const findings& result, const search_settings& settings) {
 void say_details(job& work, const findings& result) {
     console& out = work.out;
     if (!out.shows(level::info)) return;
-    out.info(work.name + ": " + counted(result.part.mesh.faces.size(), "triangle", "triangles") +
-             " on " + counted(result.part.mesh.points.size(), "vertex", "vertices") +
-             " searched, " + grouped(result.part.degenerate) + " degenerate");
+    out.info(work.name + ": " + counted(result.searched, "triangle", "triangles") + " searched, " +
+             grouped(result.part.degenerate) + " degenerate");
     if (result.tolerance_used > 0.0)
         out.info(work.name + ": " + counted(result.part.joined, "vertex", "vertices") +
                  " joined within " + brief(result.tolerance_used));

@@ -1,0 +1,144 @@
+"""Meshes searched in tiles on the disk: the answers that memory gives, also after being killed."""
+
+from support import *
+
+import random
+import signal
+
+# What is told of the way to the answer, not of the answer.
+WAY = ("skipped", "seconds", "warnings")
+
+
+def heap(count, seed=1):
+    """Boxes that overlap, touch and repeat, and single triangles among them."""
+    rng = random.Random(seed)
+    parts = [cube([rng.randrange(40) / 4 for _ in range(3)], rng.choice((0.5, 1, 2)))
+             for _ in range(count)]
+    for _ in range(2 * count):
+        at = [rng.random() * 10 for _ in range(3)]
+        parts.append(([tuple(x + rng.random() for x in at) for _ in range(3)], [(0, 1, 2)]))
+    return together(*parts)
+
+
+def ply_bytes(mesh, number="float"):
+    points, faces = mesh
+    head = ("ply\nformat binary_little_endian 1.0\nelement vertex %d\nproperty %s x\n"
+            "property %s y\nproperty %s z\nelement face %d\n"
+            "property list uchar int vertex_indices\nend_header\n")
+    code = {"float": "<3f", "double": "<3d"}[number]
+    return ((head % (len(points), number, number, number, len(faces))).encode() +
+            b"".join(struct.pack(code, *p) for p in points) +
+            b"".join(struct.pack("<B3i", 3, *f) for f in faces))
+
+
+def answers(report):
+    file = dict(report["files"][0])
+    for key in WAY:
+        file.pop(key, None)
+    file["vertices"] = file["vertices"]["stored"]  # how many are distinct takes the whole mesh
+    for region in file["regions"]:
+        region.pop("components")  # likewise
+    return file
+
+
+def segments(text):
+    """Of curves as OBJ: the ends of each, in no order."""
+    points, found = [], []
+    for line in text.decode().splitlines():
+        word, *rest = line.split() or [""]
+        if word == "v":
+            points.append(tuple(rest))
+        elif word == "l":
+            at = [points[int(i) - 1] for i in rest]
+            found += [tuple(sorted(ends)) for ends in zip(at, at[1:])]
+    return sorted(found)
+
+
+class Tiles(ToolTest):
+    def look(self, name, *arguments):
+        """Report, pairs and curves. Where corners are joined by their coordinates, the order of
+        the curves may be another one."""
+        report = self.report(name, "--pairs", "pairs.csv", "--curves", "curves.obj", "-f",
+                             *arguments)
+        curves = self.read_bytes("curves.obj")
+        if name.endswith(".stl") or "equal" in arguments:
+            curves = segments(curves)
+        return answers(report), self.read_bytes("pairs.csv"), curves
+
+    def put_all(self, mesh):
+        with open(self.path("in.stl"), "wb") as file:
+            file.write(stl_bytes(mesh))
+        for number in ("float", "double"):
+            with open(self.path(number + ".ply"), "wb") as file:
+                file.write(ply_bytes(mesh, number))
+        return ("in.stl", "float.ply", "double.ply")
+
+    def test_tiles_of_any_size_tell_what_memory_tells(self):
+        for name in self.put_all(heap(60)):
+            for more in ([], ["--touching"], ["--no-overlap", "--vertices", "equal"],
+                         ["--box", "1,1,1,4,5,6.5"]):
+                memory = self.look(name, *more)
+                self.assertGreater(memory[0]["faces_hit"], 10)
+                for size in (10, 100, 100000):
+                    with self.subTest(name=name, more=more, size=size):
+                        self.assertEqual(self.look(name, "--tile-faces", size, *more), memory)
+        self.assertEqual(self.listing(), ["curves.obj", "double.ply", "float.ply", "in.stl",
+                                          "pairs.csv"])
+
+    def test_a_killed_run_goes_on(self):
+        self.put_all(heap(40))
+        expected = self.look("in.stl")
+        for stop_at in range(1, 8):
+            run = self.run_tool("in.stl", "--tile-faces", 100, "--work", "tiles", "--stop-at",
+                                stop_at)
+            self.assertEqual(run.status, -signal.SIGKILL)
+            self.assertIn("tiles", self.listing())
+            again = self.run_tool("in.stl", "--tile-faces", 100, "--work", "tiles", "-v")
+            self.assertIn(f"{stop_at - 1} finished before" if stop_at > 1 else "searched in",
+                          again.err)
+            self.assertNotIn("tiles", self.listing())
+        self.run_tool("in.stl", "--tile-faces", 100, "--work", "tiles", "--stop-at", 3)
+        self.run_tool("in.stl", "--tile-faces", 99, "--work", "tiles", "--stop-at", 2)
+        self.assertEqual(self.look("in.stl", "--tile-faces", 98, "--work", "tiles"), expected)
+
+    def test_memory_decides(self):
+        with open(self.path("big.stl"), "wb") as file:
+            file.write(stl_bytes(grid(300)))
+        run = self.run_tool("big.stl", "--memory", "64M", "-v", status=0)
+        self.assertIn("tiles", run.err)
+        run = self.run_tool("big.stl", "--memory", "1G", "-v", status=0)
+        self.assertNotIn("tiles", run.err)
+        run = self.run_tool("big.stl", "--memory", "64M", "--within", "-v")
+        self.assertIn("--within needs the whole mesh in memory, about", run.err)
+
+    def test_what_tiles_cannot_do_is_refused(self):
+        self.put_all(heap(3))
+        with open(self.path("in.obj"), "wb") as file:
+            file.write(obj_bytes(CROSSING))
+        for arguments, word in ((["in.stl", "--between"], "--between"),
+                                (["in.stl", "-t", "0.1"], "-t"),
+                                (["in.stl", "--first"], "--first"),
+                                (["in.stl", "--repair", "-o", "out.stl"], "a mesh to write"),
+                                (["in.obj"], "neither STL nor PLY"), (["-"], "standard input")):
+            run = self.run_tool(*arguments, "--tile-faces", 10, status=2)
+            self.assertIn(word + " needs the whole mesh in memory", run.err)
+        self.put("foreign/file.txt", "mine")
+        run = self.run_tool("in.stl", "--tile-faces", 10, "--work", "foreign", status=4)
+        self.assertIn("holds files that this tool has not put there", run.err)
+        self.assertEqual(self.read("foreign/file.txt"), "mine")
+
+    @unittest.skipIf(not MODELS, "TREEFORM_MODELS_DIR is not set")
+    def test_real_models(self):
+        for name in ("selfint/cow_6k.obj", "clean/turbineblade_199k.ply"):
+            path = os.path.join(MODELS, name)
+            if name.endswith(".obj"):
+                run = subprocess.run([TOOL, path, "-o", self.path("in.ply"), "--output-format",
+                                      "ply"], capture_output=True)
+                self.assertEqual(run.returncode, 1)
+                path = self.path("in.ply")
+            memory = self.look(path)
+            self.assertEqual(self.look(path, "--tile-faces", 2000), memory)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,114 @@
+#include "tools/tf-selfintersect/in_tiles.hpp"
+
+#include "tools/common/console.hpp"
+#include "tools/common/sha256.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace tools {
+namespace {
+
+/// What needs the whole mesh; empty where tiles will do.
+std::string what_needs_memory(const job& work, const search_settings& settings, bool changes_mesh) {
+    if (changes_mesh) return "a mesh to write";
+    if (settings.between) return "--between";
+    if (settings.within) return "--within";
+    if (settings.first) return "--first";
+    if (settings.tolerance.value > 0.0) return "-t";
+    if (work.path == "-") return "standard input";
+    const std::string format =
+        work.options.format.empty() ? extension_of(work.path) : work.options.format;
+    if (format != "stl" && format != "ply") return "a file that is neither STL nor PLY";
+    return {};
+}
+
+void enter_source(job& work, const tf::mesh_file& header) {
+    const std::string sum = work.options.detailed() ? sha256_of_file(work.path) : std::string();
+    work.entry["format"] = header.format;
+    work.entry["sha256"] = sum.empty() ? json(nullptr) : json(sum);
+    work.entry["precision_in"] = name_of(header.stored_as);
+    work.warn(header.warnings);
+}
+
+findings findings_of(tf::stream_search_result&& r) {
+    findings result;
+    result.part = std::move(r.part);
+    result.found = std::move(r.found);
+    result.box = r.bounds;
+    result.faces_stored = r.stored_faces;
+    result.triangles = r.triangles;
+    result.searched = r.searched;
+    result.points_stored = r.points;
+    return result;
+}
+
+}  // namespace
+
+bool needs_tiles(job& work, const search_settings& settings, const tile_options& tiles,
+                 bool changes_mesh) {
+    // By measure: of faces, points and tree in memory, for each byte of a file.
+    constexpr std::uint64_t bytes_per_byte = 12;
+    const bool asked = tiles.per_tile > 0;
+    const std::uint64_t allowed =
+        work.options.memory > 0 ? work.options.memory : tf::default_memory();
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(work.path, error);
+    if (!asked && (error || size < allowed / bytes_per_byte)) return false;
+    const std::string why = what_needs_memory(work, settings, changes_mesh);
+    if (why.empty()) return true;
+    const std::string text = why + " needs the whole mesh in memory, about " +
+                             grouped(size * bytes_per_byte / 1000000 + 1) + " MB";
+    if (asked) throw failure(bad_usage, "usage", text);
+    if (work.options.memory > 0) work.warn("in-memory", text + "; --memory may not be enough");
+    return false;
+}
+
+findings search_in_tiles(job& work, const search_settings& settings, const tile_options& tiles,
+                         const std::filesystem::path& folder) {
+    tf::stream_search_options options;
+    options.vertices = settings.vertices;
+    options.kinds = settings.looked_for();
+    options.box = settings.box;
+    options.format = work.options.format;
+    options.memory = work.options.memory;
+    options.folder = folder;
+    options.faces_per_tile = tiles.per_tile;
+    options.progress = [&work](std::string_view step, double share) {
+        return work.progress(step)(share);
+    };
+    options.step_done = tiles.step_done();
+    tf::stream_search_result r;
+    const double before = work.seconds["read"];
+    {
+        const job::timer timing = work.time("read");
+        try {
+            r = tf::self_intersections_of_file(work.path, options);
+        } catch (const tf::weld_stream_error& error) {
+            throw failure_of(work, error);
+        }
+    }
+    work.call_ended(r.found.cancelled);
+    work.seconds["tree"] += r.found.tree_seconds;
+    work.seconds["pairs"] += r.found.pair_seconds;
+    work.seconds["read"] =
+        std::max(before, work.seconds["read"] - r.found.tree_seconds - r.found.pair_seconds);
+    enter_source(work, r.header);
+    if (r.triangles == 0)
+        throw failure(bad_input, "no-triangles",
+                      work.name + ": no triangles (" + counted(r.points, "point", "points") + ")");
+    if (r.part.dropped == r.triangles)
+        throw failure(bad_input, "no-triangles",
+                      work.name + ": no triangle with finite coordinates");
+    work.warn_of_non_finite(r.part.dropped, "face", "faces");
+    work.out.info(
+        work.name + ": searched in " + counted(r.tiles, "tile", "tiles") + " in " +
+        folder.string() +
+        (r.finished_tiles > 0 ? ", " + grouped(r.finished_tiles) + " finished before" : ""));
+    findings result = findings_of(std::move(r));
+    group_findings(work, result, settings);
+    return result;
+}
+
+}  // namespace tools

@@ -1,0 +1,23 @@
+#pragma once
+/// \file
+/// The search of a file that does not fit into memory.
+
+#include "tools/tf-selfintersect/search.hpp"
+#include "tools/tiles/tile_options.hpp"
+
+#include <optional>
+
+namespace tools {
+
+/// Whether the input is to be searched in tiles: where it was asked for, or where memory may not be
+/// enough and tiles can do it. \throws failure (bad_usage) where they cannot do what was asked for
+[[nodiscard]] bool needs_tiles(job& work, const search_settings& settings,
+                               const tile_options& tiles, bool changes_mesh);
+
+/// What `search` finds, but of the mesh only the faces that meet others. Enters in `work.entry` what
+/// reading a file does. \throws failure
+[[nodiscard]] findings search_in_tiles(job& work, const search_settings& settings,
+                                       const tile_options& tiles,
+                                       const std::filesystem::path& folder);
+
+}  // namespace tools

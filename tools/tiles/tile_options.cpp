@@ -1,0 +1,68 @@
+#include "tools/tiles/tile_options.hpp"
+
+#include "tools/common/parse_value.hpp"
+
+#include <csignal>
+
+namespace tools {
+
+namespace fs = std::filesystem;
+
+fs::path tile_options::folder_for(const job& work, std::initializer_list<fs::path> outputs) const {
+    if (!folder.empty()) return folder;
+    fs::path beside;
+    for (const fs::path& output : outputs)
+        if (beside.empty() && output != "-") beside = output;
+    if (beside.empty())
+        beside = fs::temp_directory_path() /
+                 (work.path == "-" ? fs::path("standard_input") : fs::path(work.path).filename());
+    return beside.string() + ".tiles";
+}
+
+std::function<void()> tile_options::step_done() const {
+    if (stop_at == 0) return {};
+    return [left = stop_at]() mutable {
+        if (--left == 0) static_cast<void>(std::raise(SIGKILL));
+    };
+}
+
+void add_tile_options(command_line& line, tile_options& target, const std::string& heading,
+                      const std::string& per_tile) {
+    line.group(heading);
+    line.option({"--work", "DIR",
+                 "folder for them; kept when stopped, so that the same\n"
+                 "command goes on there",
+                 "beside the output"},
+                [&target](std::string_view text) { target.folder = text; });
+    line.option({.names = per_tile, .value = "N"}, [&target, per_tile](std::string_view text) {
+        target.per_tile = parse_count(per_tile, text);
+    });
+    line.option({.names = "--stop-at", .value = "STEP"}, [&target](std::string_view text) {
+        target.stop_at = parse_count("--stop-at", text);
+    });
+}
+
+failure failure_of(const job& work, const tf::weld_stream_error& error) {
+    using enum tf::weld_stream_error::reason;
+    const std::string where = error.path().string() + ": ";
+    switch (error.why()) {
+        case folder:
+            return {bad_output, "work-folder", error.what()};
+        case folder_in_use:
+            return {bad_output, "work-folder", where + "is in use by another process"};
+        case folder_foreign:
+            return {bad_output, "work-folder",
+                    where + "holds files that this tool has not put there"};
+        case write:
+            return {bad_output, "output", error.what()};
+        case read:
+            return {bad_input, "read", error.what()};
+        case damaged:
+            return {bad_input, "damaged", error.what()};
+        case input_changed:
+            break;
+    }
+    return {bad_input, "changed", work.name + ": the file changed while it was read"};
+}
+
+}  // namespace tools

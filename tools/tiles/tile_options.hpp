@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// Options and errors of tools that work in tiles on the disk where memory is short.
+
+#include "tools/common/command_line.hpp"
+#include "tools/common/run.hpp"
+#include <treeform/mesh/weld_stream.hpp>
+#include <treeform/tf.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <string>
+
+namespace tools {
+
+struct tile_options {
+    std::filesystem::path folder{};  ///< as asked for
+    std::uint64_t per_tile = 0;      ///< things in a tile; 0: as the memory allows
+    std::uint64_t stop_at = 0;       ///< for tests: the process kills itself after so many steps
+
+    /// Where tiles go: as asked, or beside the first of `outputs` that is a file, or in the folder
+    /// for temporary files.
+    [[nodiscard]] std::filesystem::path folder_for(
+        const job& work, std::initializer_list<std::filesystem::path> outputs) const;
+    /// To be called when a step has been done.
+    [[nodiscard]] std::function<void()> step_done() const;
+};
+
+/// Adds a group with this heading; `per_tile` is the name of the option for the size of tiles.
+void add_tile_options(command_line& line, tile_options& target, const std::string& heading,
+                      const std::string& per_tile);
+
+/// What the library says of its files, for the person and the shell.
+[[nodiscard]] failure failure_of(const job& work, const tf::weld_stream_error& error);
+
+}  // namespace tools
