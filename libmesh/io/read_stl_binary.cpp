@@ -140,7 +140,9 @@ face_rows open_stl_faces(const source& in) {
     for (std::size_t i = 0; i < count; i += count / sample_size + 1) {
         const point3 corner = corners_of(facets + record_bytes * i)[0];
         if (base::is_finite(corner)) rows.sample.push_back(corner);
+        in.release_before(facets + record_bytes * i);
     }
+    in.rewind();
     rows.append = [&in, facets, count, done = std::uint32_t{0}](auto& triangles,
                                                                 std::size_t most) mutable {
         const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(count, done + most));

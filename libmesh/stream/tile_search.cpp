@@ -122,10 +122,10 @@ std::filesystem::path tile_search::file(std::size_t tile, const char* what) cons
 /// By a measure of what `search_tile` holds of each face, and with room for tiles that are larger
 /// than the sample said.
 std::size_t tile_search::tile_count(std::uint64_t faces) const {
-    constexpr std::uint64_t bytes_a_face = 400;
+    constexpr std::uint64_t bytes_a_face = 250;
     const std::uint64_t most = options_.faces_per_tile > 0
                                    ? options_.faces_per_tile
-                                   : std::max<std::uint64_t>(1000, memory_ / 2 / bytes_a_face);
+                                   : std::max<std::uint64_t>(1000, memory_ / 3 * 2 / bytes_a_face);
     return static_cast<std::size_t>(faces / most + 1);
 }
 

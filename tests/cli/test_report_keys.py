@@ -176,6 +176,7 @@ class Reports(PlaceTest):
                 (["two.stl", "-t", "0.01%", "--touching", "--limit", "2"], 1),
                 (["nan.obj", "-o", "marked.ply", "--precision", "float", "--no-overlap"], 1),
                 (["two.obj", "--first"], 1),
+                (["two.stl", "--tile-faces", "10"], 1),
                 (["two.obj", "--between", "--box", "0,0,0,1,1,1"], (0, 1)),
                 (["two.obj", "missing.obj", "two.stl", "--exit-zero"], 3),
                 (["-", "--format", "obj"], 3),

@@ -103,7 +103,7 @@ class Tiles(ToolTest):
 
     def test_memory_decides(self):
         with open(self.path("big.stl"), "wb") as file:
-            file.write(stl_bytes(grid(300)))
+            file.write(stl_bytes(grid(450)))
         run = self.run_tool("big.stl", "--memory", "64M", "-v", status=0)
         self.assertIn("tiles", run.err)
         run = self.run_tool("big.stl", "--memory", "1G", "-v", status=0)

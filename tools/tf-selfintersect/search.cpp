@@ -97,7 +97,8 @@ void hint_at_near_points(job& work, const findings& result) {
     constexpr std::size_t most = 1'000'000;
     constexpr std::array<const char*, 3> steps{"0.0001%", "0.001%", "0.01%"};
     const tf::mesh& mesh = result.part.mesh;
-    if (!result.box || result.tolerance_used > 0.0 || mesh.points.size() > most) return;
+    const bool in_tiles = result.searched > mesh.faces.size();
+    if (!result.box || result.tolerance_used > 0.0 || in_tiles || mesh.points.size() > most) return;
     std::array<double, steps.size()> lengths{};
     for (std::size_t i = 0; i < steps.size(); ++i)
         lengths[i] = parse_distance("-t", steps[i]).used(result.diagonal());
