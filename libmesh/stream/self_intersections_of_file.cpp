@@ -6,17 +6,76 @@
 namespace treeform {
 
 namespace fs = std::filesystem;
+using detail::stream::work_folder;
 
-stream_search_result self_intersections_of_file(const std::filesystem::path& input,
+struct stream_search::state {
+    state(const fs::path& input, const stream_search_options& options)
+        : pace(options.progress),
+          folder(options.folder.empty() ? fs::path(input.string() + ".tiles") : options.folder,
+                 work_folder::use::shared),
+          search(pace, folder, input, options) {}
+
+    /// Where the work is cancelled, says so.
+    template <class Work>
+    [[nodiscard]] static status until_cancelled(const Work& work) {
+        try {
+            work();
+        } catch (const detail::stream::cancelled&) {
+            return status::cancelled;
+        }
+        return status::ok;
+    }
+
+    detail::stream::pacer pace;
+    work_folder folder;
+    detail::stream::tile_search search;
+};
+
+stream_search::stream_search(fs::path input, stream_search_options options)
+    : state_(std::make_unique<state>(input, options)) {}
+stream_search::~stream_search() = default;
+stream_search::stream_search(stream_search&&) noexcept = default;
+stream_search& stream_search::operator=(stream_search&&) noexcept = default;
+
+status stream_search::scatter() {
+    state& s = *state_;
+    s.folder.hold(work_folder::use::alone);
+    const status ended = state::until_cancelled([&] { s.search.scatter(); });
+    s.folder.hold(work_folder::use::shared);
+    return ended;
+}
+
+std::size_t stream_search::tiles() {
+    state_->search.join();
+    return state_->search.tiles();
+}
+
+status stream_search::search_tile(std::size_t tile) {
+    const std::size_t all = tiles();
+    return state::until_cancelled([&] { state_->search.search(tile, tile, all); });
+}
+
+stream_search_result stream_search::finish() {
+    state_->search.join();
+    return state_->search.finish();
+}
+
+void stream_search::remove_folder() { state_->folder.remove(); }
+
+stream_search_result self_intersections_of_file(const fs::path& input,
                                                 const stream_search_options& options) {
     detail::stream::pacer pace(options.progress);
-    detail::stream::work_folder folder(options.folder.empty() ? fs::path(input.string() + ".tiles")
-                                                              : options.folder);
+    work_folder folder(options.folder.empty() ? fs::path(input.string() + ".tiles")
+                                              : options.folder);
     detail::stream::tile_search search(pace, folder, input, options);
     stream_search_result result;
     try {
         search.scatter();
-        result = search.search();
+        for (std::size_t t = 0; t < search.tiles(); ++t) {
+            search.search(t, t, search.tiles());
+            search.drop_faces(t);
+        }
+        result = search.finish();
     } catch (const detail::stream::cancelled&) {
         result.found.cancelled = true;
         return result;

@@ -107,11 +107,11 @@ void add_counts(self_intersection_result& sum, const self_intersection_result& o
 }  // namespace
 
 tile_search::tile_search(pacer& pace, const work_folder& folder, std::filesystem::path input,
-                         const stream_search_options& options)
-    : pace_(pace), folder_(folder), input_(std::move(input)), options_(options) {
+                         stream_search_options options)
+    : pace_(pace), folder_(folder), input_(std::move(input)), options_(std::move(options)) {
     constexpr std::uint64_t base = std::uint64_t{48}
                                    << 20;  // the program, its threads and its code
-    const std::uint64_t all = options.memory == 0 ? default_memory() : options.memory;
+    const std::uint64_t all = options_.memory == 0 ? default_memory() : options_.memory;
     memory_ = all - std::min(base, all / 2);
 }
 
@@ -127,6 +127,13 @@ std::size_t tile_search::tile_count(std::uint64_t faces) const {
                                    ? options_.faces_per_tile
                                    : std::max<std::uint64_t>(1000, memory_ / 3 * 2 / bytes_a_face);
     return static_cast<std::size_t>(faces / most + 1);
+}
+
+void tile_search::join() {
+    if (tiles() > 0 || take_over()) return;
+    throw weld_stream_error(
+        weld_stream_error::reason::read, folder_.path(),
+        folder_.path().string() + ": holds no tiles of this input with these options");
 }
 
 void tile_search::scatter() {
@@ -149,7 +156,6 @@ void tile_search::scatter() {
         give_all<double>(rows);
     survey_.header = std::move(rows.head);
     survey_.tiles = cells_->size();
-    found_.resize(cells_->size());
     store_plan();
     if (options_.step_done) options_.step_done();
 }
@@ -209,26 +215,21 @@ void tile_search::look_at(const std::vector<io::placed_triangle>& block,
     survey_.searched += searched.size();
 }
 
-stream_search_result tile_search::search() {
-    survey_.tiles = cells_->size();
-    for (std::size_t t = 0; t < found_.size(); ++t) {
-        pace_.show("pairs", static_cast<double>(t) / static_cast<double>(found_.size()));
-        if (found_[t]) continue;
-        if (survey_.header.stored_as == precision::float32)
-            search_tile<float>(t);
-        else
-            search_tile<double>(t);
-        store_tile(t);
-        std::filesystem::remove(file(t, ".faces"));
-        if (options_.step_done) options_.step_done();
-    }
-    stream_search_result result = survey_;
-    put_together(result);
-    return result;
+void tile_search::search(std::size_t tile, std::size_t part, std::size_t of) {
+    if (tile >= tiles())
+        throw std::out_of_range("treeform::stream_search: tile " + std::to_string(tile) + " of " +
+                                std::to_string(tiles()));
+    pace_.show("pairs", static_cast<double>(part) / static_cast<double>(of));
+    if (load(tile)) return;
+    if (survey_.header.stored_as == precision::float32)
+        search_as<float>(tile);
+    else
+        search_as<double>(tile);
+    if (options_.step_done) options_.step_done();
 }
 
 template <class Real>
-void tile_search::search_tile(std::size_t tile) {
+void tile_search::search_as(std::size_t tile) {
     const auto faces = all_of<tile_face<Real>>(file(tile, ".faces"), faces_[tile]);
     const mesh m = mesh_of(faces, vertices_);
     const auto watch = [this](double) {
@@ -237,8 +238,9 @@ void tile_search::search_tile(std::size_t tile) {
     };
     self_intersection_result all = self_intersections(
         m, {.vertices = vertex_identity::by_index, .kinds = options_.kinds, .progress = watch});
-    tile_found& found = found_[tile].emplace();
-    record_writer<tile_pair> pairs(file(tile, ".pairs"), piece_bytes);
+    const std::string pairs_name = work_folder::own_name(std::to_string(tile) + ".pairs");
+    const std::string hits_name = work_folder::own_name(std::to_string(tile) + ".hits");
+    record_writer<tile_pair> pairs(folder_.file(pairs_name), piece_bytes);
     std::vector<std::uint32_t> hit;
     all.counts = {};
     for (const face_pair& pair : all.pairs) {
@@ -250,7 +252,7 @@ void tile_search::search_tile(std::size_t tile) {
     }
     std::sort(hit.begin(), hit.end());
     hit.erase(std::unique(hit.begin(), hit.end()), hit.end());
-    record_writer<tile_face<double>> hits(file(tile, ".hits"), piece_bytes);
+    record_writer<tile_face<double>> hits(folder_.file(hits_name), piece_bytes);
     for (const std::uint32_t f : hit) {
         const tile_face<Real>& of_tile = faces[f];
         tile_face<double> face{.triangle = of_tile.triangle, .stored = of_tile.stored};
@@ -259,18 +261,27 @@ void tile_search::search_tile(std::size_t tile) {
         hits.put(face);
     }
     all.pairs = {};
-    found = {pairs.finish(), hits.finish(), std::move(all)};
+    const tile_found found{pairs.finish(), hits.finish(), std::move(all)};
+    folder_.rename(pairs_name, std::to_string(tile) + ".pairs");
+    folder_.rename(hits_name, std::to_string(tile) + ".hits");
+    store(tile, found);
 }
 
 /// Faces keep their order, so pairs that ascend do so with the new numbers.
-void tile_search::put_together(stream_search_result& result) const {
+stream_search_result tile_search::finish() {
+    stream_search_result result = survey_;
     std::vector<tile_face<double>> faces;
-    for (std::size_t t = 0; t < found_.size(); ++t) {
-        const auto hits = all_of<tile_face<double>>(file(t, ".hits"), found_[t]->faces);
+    for (std::size_t t = 0; t < tiles(); ++t) {
+        const auto found = load(t);
+        if (!found)
+            throw weld_stream_error(
+                weld_stream_error::reason::read, folder_.path(),
+                folder_.path().string() + ": tile " + std::to_string(t) + " is not finished");
+        const auto hits = all_of<tile_face<double>>(file(t, ".hits"), found->faces);
         faces.insert(faces.end(), hits.begin(), hits.end());
-        for (const tile_pair& p : all_of<tile_pair>(file(t, ".pairs"), found_[t]->pairs))
+        for (const tile_pair& p : all_of<tile_pair>(file(t, ".pairs"), found->pairs))
             result.found.pairs.push_back({p.a, p.b, static_cast<pair_kind>(p.kind)});
-        add_counts(result.found, found_[t]->counted);
+        add_counts(result.found, found->counted);
     }
     const auto number = [](const tile_face<double>& f) { return f.triangle; };
     std::ranges::sort(faces, {}, number);
@@ -283,6 +294,7 @@ void tile_search::put_together(stream_search_result& result) const {
         for (std::uint32_t* f : {&pair.a, &pair.b})
             *f = static_cast<std::uint32_t>(std::ranges::lower_bound(faces, *f, {}, number) -
                                             faces.begin());
+    return result;
 }
 
 }  // namespace treeform::detail::stream

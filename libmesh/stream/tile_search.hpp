@@ -49,13 +49,21 @@ struct tile_found {
 class tile_search {
   public:
     tile_search(pacer& pace, const work_folder& folder, std::filesystem::path input,
-                const stream_search_options& options);
+                stream_search_options options);
 
     /// Gives each tile its faces, or knows from an earlier run that they have them.
     /// \throws io_error, weld_stream_error, cancelled
     void scatter();
-    /// Searches the tiles that are not finished, and puts together what was found.
-    [[nodiscard]] stream_search_result search();
+    /// Knows what `scatter` has done, here or elsewhere. \throws weld_stream_error where it has not
+    void join();
+    [[nodiscard]] std::size_t tiles() const { return faces_.size(); }
+    /// Searches it, unless it is finished. What two processes do at the same time is the same.
+    /// `part` and `of` are for the progress. \throws std::out_of_range, weld_stream_error, cancelled
+    void search(std::size_t tile, std::size_t part, std::size_t of);
+    /// The faces of a finished tile are needed no more.
+    void drop_faces(std::size_t tile) const { std::filesystem::remove(file(tile, ".faces")); }
+    /// Puts together what was found. \throws weld_stream_error naming a tile that is not finished
+    [[nodiscard]] stream_search_result finish();
 
   private:
     [[nodiscard]] std::filesystem::path file(std::size_t tile, const char* what) const;
@@ -63,8 +71,9 @@ class tile_search {
     [[nodiscard]] std::string identity() const;
     void store_plan() const;
     [[nodiscard]] bool take_over();
-    [[nodiscard]] bool take_over_tile(std::size_t tile);
-    void store_tile(std::size_t tile) const;
+    /// What is stored of a tile; none where it is not finished.
+    [[nodiscard]] std::optional<tile_found> load(std::size_t tile) const;
+    void store(std::size_t tile, const tile_found& found) const;
 
     [[nodiscard]] std::size_t tile_count(std::uint64_t faces) const;
     template <class Real>
@@ -72,20 +81,18 @@ class tile_search {
     void look_at(const std::vector<io::placed_triangle>& block,
                  std::vector<std::uint32_t>& searched);
     template <class Real>
-    void search_tile(std::size_t tile);
-    void put_together(stream_search_result& result) const;
+    void search_as(std::size_t tile);
 
     pacer& pace_;
     const work_folder& folder_;
     std::filesystem::path input_;
-    const stream_search_options& options_;
+    stream_search_options options_;
     std::uint64_t memory_;  ///< what is left for faces
     stream_search_result survey_{};
     bool bounds_known_ = false;
     vertex_identity vertices_{};
     std::optional<space_cells> cells_{};
-    std::vector<record_count> faces_{};               ///< of each tile
-    std::vector<std::optional<tile_found>> found_{};  ///< likewise, where it is finished
+    std::vector<record_count> faces_{};  ///< of each tile
 };
 
 }  // namespace treeform::detail::stream

@@ -87,8 +87,6 @@ std::string tile_search::identity() const {
         state.point(o.box->min);
         state.point(o.box->max);
     }
-    state.number(o.memory);
-    state.number(o.faces_per_tile);
     return state.bytes();
 }
 
@@ -111,16 +109,14 @@ bool tile_search::take_over() {
     std::vector<record_count> faces(cells.size());
     for (record_count& c : faces) c = load_count(*state);
     if (!state->whole() || faces.empty()) return false;
-    found_.assign(cells.size(), std::nullopt);
+    const std::uint64_t bytes = survey.header.stored_as == precision::float32
+                                    ? sizeof(tile_face<float>)
+                                    : sizeof(tile_face<double>);
     for (std::size_t t = 0; t < cells.size(); ++t) {
-        if (take_over_tile(t)) {
+        if (load(t))
             ++survey.finished_tiles;
-            continue;
-        }
-        const std::uint64_t bytes = survey.header.stored_as == precision::float32
-                                        ? sizeof(tile_face<float>)
-                                        : sizeof(tile_face<double>);
-        if (size_of(file(t, ".faces")) != faces[t].records * bytes) return false;
+        else if (size_of(file(t, ".faces")) != faces[t].records * bytes)
+            return false;
     }
     survey_ = std::move(survey);
     vertices_ = vertices;
@@ -129,8 +125,7 @@ bool tile_search::take_over() {
     return true;
 }
 
-void tile_search::store_tile(std::size_t tile) const {
-    const tile_found& found = *found_[tile];
+void tile_search::store(std::size_t tile, const tile_found& found) const {
     state_writer state;
     store_count(found.pairs, state);
     store_count(found.faces, state);
@@ -138,18 +133,18 @@ void tile_search::store_tile(std::size_t tile) const {
     folder_.store(name_of_found(tile), state);
 }
 
-bool tile_search::take_over_tile(std::size_t tile) {
+std::optional<tile_found> tile_search::load(std::size_t tile) const {
     auto state = folder_.load(name_of_found(tile));
-    if (!state) return false;
+    if (!state) return std::nullopt;
     tile_found found;
     found.pairs = load_count(*state);
     found.faces = load_count(*state);
     each_counter(found.counted, [&](std::uint64_t& n) { n = state->number(); });
-    if (!state->whole() || !is_whole<tile_pair>(file(tile, ".pairs"), found.pairs) ||
-        !is_whole<tile_face<double>>(file(tile, ".hits"), found.faces))
-        return false;
-    found_[tile] = std::move(found);
-    return true;
+    if (!state->whole() ||
+        size_of(file(tile, ".pairs")) != found.pairs.records * sizeof(tile_pair) ||
+        size_of(file(tile, ".hits")) != found.faces.records * sizeof(tile_face<double>))
+        return std::nullopt;
+    return found;
 }
 
 }  // namespace treeform::detail::stream

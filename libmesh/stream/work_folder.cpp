@@ -6,7 +6,10 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <system_error>
@@ -26,7 +29,7 @@ using reason = weld_stream_error::reason;
 
 }  // namespace
 
-work_folder::work_folder(fs::path path) : path_(std::move(path)) {
+work_folder::work_folder(fs::path path, use how) : path_(std::move(path)) {
     std::error_code error;
     fs::create_directory(path_, error);
     if (error) refuse(reason::folder, path_, "cannot be made: " + error.message());
@@ -37,10 +40,31 @@ work_folder::work_folder(fs::path path) : path_(std::move(path)) {
     if (lock_ < 0)
         refuse(reason::folder, path_,
                std::string("cannot be written to: ") + std::generic_category().message(errno));
-    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    try {
+        hold(how);
+    } catch (...) {
         ::close(lock_);
-        refuse(reason::folder_in_use, path_, "is in use by another process");
+        throw;
     }
+}
+
+void work_folder::hold(use how) {
+    if (::flock(lock_, (how == use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0)
+        refuse(reason::folder_in_use, path_, "is in use by another process");
+}
+
+std::string work_folder::own_name(const std::string& name) {
+    std::array<char, 256> host{};
+    if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
+    static std::atomic<std::uint64_t> used{0};
+    return name + "." + host.data() + "." + std::to_string(::getpid()) + "." +
+           std::to_string(++used);
+}
+
+void work_folder::rename(const std::string& from, const std::string& to) const {
+    std::error_code error;
+    fs::rename(file(from), file(to), error);
+    if (error) refuse(reason::folder, file(to), "cannot be written: " + error.message());
 }
 
 work_folder::~work_folder() { ::close(lock_); }
@@ -55,15 +79,13 @@ std::optional<state_reader> work_folder::load(const std::string& name) const {
 }
 
 void work_folder::store(const std::string& name, const state_writer& state) const {
-    const fs::path whole = file(name);
-    const fs::path part = file(name + ".part");
+    const std::string own = own_name(name);
+    const fs::path part = file(own);
     fs::remove(part);
     const std::string bytes = state.bytes();
     append_to(part, std::as_bytes(std::span(bytes)));
     sync_file(part);
-    std::error_code error;
-    fs::rename(part, whole, error);
-    if (error) refuse(reason::folder, whole, "cannot be written: " + error.message());
+    rename(own, name);
 }
 
 void work_folder::clear() const {

@@ -10,12 +10,17 @@
 
 namespace treeform::detail::stream {
 
-/// Held by one process at a time. It stays until `remove`, so that the same call can go on.
+/// Held by one process at a time, or shared by several. It stays until `remove`, so that the same
+/// call can go on.
 class work_folder {
   public:
+    enum class use : bool { alone, shared };
+
     /// Makes the folder, or takes over what an earlier run has left.
     /// \throws weld_stream_error when it cannot be made, holds other files, or is in use
-    explicit work_folder(std::filesystem::path path);
+    explicit work_folder(std::filesystem::path path, use how = use::alone);
+    /// Holds it another way from now on. \throws weld_stream_error when it is in use
+    void hold(use how);
     ~work_folder();
     work_folder(const work_folder&) = delete;
     work_folder& operator=(const work_folder&) = delete;
@@ -25,6 +30,10 @@ class work_folder {
 
     /// What is stored under `name`; none when it is not there or is not whole.
     [[nodiscard]] std::optional<state_reader> load(const std::string& name) const;
+    /// A name that nobody else uses, on any machine.
+    [[nodiscard]] static std::string own_name(const std::string& name);
+    /// Gives the file `from` the name `to`, which it may have already. \throws weld_stream_error
+    void rename(const std::string& from, const std::string& to) const;
     /// Stores it: whole, or not at all. \throws weld_stream_error
     void store(const std::string& name, const state_writer& state) const;
 

@@ -50,7 +50,7 @@ bool needs_tiles(job& work, const search_settings& settings, const tile_options&
                  bool changes_mesh) {
     // By measure: of faces, points and tree in memory, for each byte of a file.
     constexpr std::uint64_t bytes_per_byte = 4;
-    const bool asked = tiles.per_tile > 0;
+    const bool asked = tiles.per_tile > 0 || tiles.is_shared();
     const std::uint64_t allowed =
         work.options.memory > 0 ? work.options.memory : tf::default_memory();
     std::error_code error;
@@ -65,8 +65,11 @@ bool needs_tiles(job& work, const search_settings& settings, const tile_options&
     return false;
 }
 
-findings search_in_tiles(job& work, const search_settings& settings, const tile_options& tiles,
-                         const std::filesystem::path& folder) {
+namespace {
+
+tf::stream_search_options library_options(job& work, const search_settings& settings,
+                                          const tile_options& tiles,
+                                          const std::filesystem::path& folder) {
     tf::stream_search_options options;
     options.vertices = settings.vertices;
     options.kinds = settings.looked_for();
@@ -79,16 +82,52 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
         return work.progress(step)(share);
     };
     options.step_done = tiles.step_done();
-    tf::stream_search_result r;
-    const double before = work.seconds["read"];
-    {
-        const job::timer timing = work.time("read");
-        try {
-            r = tf::self_intersections_of_file(work.path, options);
-        } catch (const tf::weld_stream_error& error) {
-            throw failure_of(work, error);
-        }
+    return options;
+}
+
+/// A step of the library's work.
+template <class Step>
+auto take(job& work, const Step& step) {
+    try {
+        return step();
+    } catch (const tf::weld_stream_error& error) {
+        throw failure_of(work, error);
     }
+}
+
+}  // namespace
+
+void share_search(job& work, const search_settings& settings, const tile_options& tiles) {
+    const std::string folder = tiles.folder.string();
+    take(work, [&] {
+        const job::timer timing = work.time(tiles.plan ? "read" : "pairs");
+        tf::stream_search search(work.path, library_options(work, settings, tiles, folder));
+        if (tiles.plan) {
+            work.call_ended(search.scatter() == tf::status::cancelled);
+            work.out.result(work.name + ": " + counted(search.tiles(), "tile", "tiles") + " in " +
+                            folder);
+            return;
+        }
+        if (*tiles.tile >= search.tiles())
+            throw failure(bad_usage, "usage",
+                          "--tile " + std::to_string(*tiles.tile) + ": there are only " +
+                              counted(search.tiles(), "tile", "tiles") + " in " + folder);
+        work.call_ended(search.search_tile(*tiles.tile) == tf::status::cancelled);
+        work.out.result(work.name + ": tile " + std::to_string(*tiles.tile) + " of " +
+                        grouped(search.tiles()) + " done");
+    });
+}
+
+findings search_in_tiles(job& work, const search_settings& settings, const tile_options& tiles,
+                         const std::filesystem::path& folder) {
+    const auto options = library_options(work, settings, tiles, folder);
+    const double before = work.seconds["read"];
+    tf::stream_search_result r = take(work, [&] {
+        const job::timer timing = work.time("read");
+        if (!tiles.finish) return tf::self_intersections_of_file(work.path, options);
+        tf::stream_search search(work.path, options);
+        return search.finish();
+    });
     work.call_ended(r.found.cancelled);
     work.seconds["tree"] += r.found.tree_seconds;
     work.seconds["pairs"] += r.found.pair_seconds;

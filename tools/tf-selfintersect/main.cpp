@@ -153,6 +153,7 @@ void check_request(const command_line& line, request& r, common_options& options
         if (options.dry_run && !r.repairs) refuse("-n needs -o or --output-dir, or --repair");
     }
     if (r.repairs) tools::require_output(line, options);
+    tools::check_tile_options(r.tiles, line, options);
     r.repair.touching = r.search.touching;
 }
 
@@ -164,6 +165,10 @@ exit_status look_at(tools::job& work, const request& r) {
     tf::mesh_file file;
     tools::findings result;
     if (tools::needs_tiles(work, r.search, r.tiles, keeps_mesh)) {
+        if (r.tiles.is_shared() && !r.tiles.finish) {
+            tools::share_search(work, r.search, r.tiles);
+            return tools::done;
+        }
         result =
             tools::search_in_tiles(work, r.search, r.tiles,
                                    r.tiles.folder_for(work, {r.pairs, r.curves, o.html, o.report}));

@@ -34,12 +34,32 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
                  "command goes on there",
                  "beside the output"},
                 [&target](std::string_view text) { target.folder = text; });
+    line.flag(target.plan, {"--plan", "",
+                            "only make the tiles; then any number of processes do\n"
+                            "some each (--tile K, from 0), and one puts all\n"
+                            "together (--finish): with the same INPUT, options and\n"
+                            "--work DIR"});
+    line.option({"--tile", "K", "only do this tile"},
+                [&target](std::string_view text) { target.tile = parse_count("--tile", text); });
+    line.flag(target.finish, {"--finish", "", "only put together what all tiles gave"});
     line.option({.names = per_tile, .value = "N"}, [&target, per_tile](std::string_view text) {
         target.per_tile = parse_count(per_tile, text);
     });
     line.option({.names = "--stop-at", .value = "STEP"}, [&target](std::string_view text) {
         target.stop_at = parse_count("--stop-at", text);
     });
+}
+
+void check_tile_options(const tile_options& tiles, const command_line& line,
+                        const common_options& options) {
+    if (!tiles.is_shared()) return;
+    if (int{tiles.plan} + int{tiles.tile.has_value()} + int{tiles.finish} > 1)
+        refuse("--plan, --tile and --finish exclude each other");
+    if (tiles.folder.empty())
+        refuse("--plan, --tile and --finish need --work DIR, the same folder for all");
+    if (options.inputs.size() != 1) refuse("--plan, --tile and --finish take one INPUT");
+    if (!tiles.finish && (!line.outputs().empty() || wants_mesh(options)))
+        refuse("--plan and --tile give nothing back: outputs belong to --finish");
 }
 
 failure failure_of(const job& work, const tf::weld_stream_error& error) {

@@ -3,6 +3,7 @@
 /// Options and errors of tools that work in tiles on the disk where memory is short.
 
 #include "tools/common/command_line.hpp"
+#include "tools/common/common_options.hpp"
 #include "tools/common/run.hpp"
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tf.hpp>
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 
 namespace tools {
@@ -18,8 +20,14 @@ namespace tools {
 struct tile_options {
     std::filesystem::path folder{};  ///< as asked for
     std::uint64_t per_tile = 0;      ///< things in a tile; 0: as the memory allows
-    std::uint64_t stop_at = 0;       ///< for tests: the process kills itself after so many steps
+    /// What of the work this process does, of many; none: all of it.
+    bool plan = false;
+    std::optional<std::uint64_t> tile{};
+    bool finish = false;
+    std::uint64_t stop_at = 0;  ///< for tests: the process kills itself after so many steps
 
+    /// Whether there are other processes.
+    [[nodiscard]] bool is_shared() const { return plan || tile || finish; }
     /// Where tiles go: as asked, or beside the first of `outputs` that is a file, or in the folder
     /// for temporary files.
     [[nodiscard]] std::filesystem::path folder_for(
@@ -31,6 +39,10 @@ struct tile_options {
 /// Adds a group with this heading; `per_tile` is the name of the option for the size of tiles.
 void add_tile_options(command_line& line, tile_options& target, const std::string& heading,
                       const std::string& per_tile);
+
+/// \throws failure (bad_usage) for options that exclude each other or need others
+void check_tile_options(const tile_options& tiles, const command_line& line,
+                        const common_options& options);
 
 /// What the library says of its files, for the person and the shell.
 [[nodiscard]] failure failure_of(const job& work, const tf::weld_stream_error& error);

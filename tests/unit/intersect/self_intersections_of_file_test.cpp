@@ -4,8 +4,10 @@
 
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld_stream.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/soups.hpp>
@@ -21,6 +23,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -187,6 +191,41 @@ TEST_CASE("self_intersections_of_file: goes on after a stop at any step") {
         break;
     }
     CHECK(steps > 5);
+}
+
+TEST_CASE("stream_search: tiles by several workers, in any order, some of them twice") {
+    const own_folder folder;
+    tf::mesh_file file;
+    file.mesh = hard_mesh();
+    const fs::path path = folder.path / "part.ply";
+    tf::write(path, file);
+    tf::stream_search_options o;
+    o.faces_per_tile = 300;
+    o.folder = folder.path / "work";
+    CHECK_THROWS_WITH_AS((void)tf::stream_search(path, o).tiles(),
+                         doctest::Contains("holds no tiles of this input"), tf::weld_stream_error);
+    tf::stream_search first(path, o), second(path, o);
+    CHECK_THROWS_WITH_AS((void)first.scatter(), doctest::Contains("is in use"),
+                         tf::weld_stream_error);
+    { const tf::stream_search gone = std::move(second); }
+    REQUIRE(first.scatter() == tf::status::ok);
+    tf::stream_search other(path, o);
+    REQUIRE(other.tiles() > 5);
+    CHECK_THROWS_AS((void)other.search_tile(other.tiles()), std::out_of_range);
+    CHECK_THROWS_WITH_AS((void)other.finish(), doctest::Contains("tile 0 is not finished"),
+                         tf::weld_stream_error);
+    tf::for_chunks(2, 1, [&](std::size_t worker, std::size_t, std::size_t) {
+        tf::stream_search mine(path, o);
+        const std::size_t tiles = mine.tiles();
+        for (std::size_t t = worker; t < tiles; ++t)
+            if (mine.search_tile(tiles - 1 - t) != tf::status::ok)
+                throw std::runtime_error("ended");
+    });
+    REQUIRE(first.search_tile(other.tiles() - 1) == tf::status::ok);
+    const tf::stream_search_result r = other.finish();
+    CHECK(told_of(r.part, r.found, r.bounds) == in_memory(path, o));
+    other.remove_folder();
+    CHECK_FALSE(fs::exists(o.folder));
 }
 
 TEST_CASE("self_intersections_of_file: stops when it is told, and says what it does not read") {

@@ -4,6 +4,7 @@
 /// files larger than memory.
 
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -200,5 +202,38 @@ struct stream_search_result {
 /// \same   on any number of threads, with any memory and any folder
 [[nodiscard]] TREEFORM_API stream_search_result self_intersections_of_file(
     const std::filesystem::path& input, const stream_search_options& options = {});
+
+/// The same step by step, for many processes, of one machine or of several that see the folder: one
+/// calls `scatter`; then each calls `search_tile` for its share of the tiles; and when all have
+/// ended, one calls `finish` and `remove_folder`. A tile that is finished is not searched again, and
+/// two that search one tile at the same time write the same.
+///
+/// All give the same input and options. Steps throw as `self_intersections_of_file`. They return
+/// status::cancelled where `progress` said so, else status::ok.
+class TREEFORM_API stream_search {
+  public:
+    stream_search(std::filesystem::path input, stream_search_options options);
+    ~stream_search();
+    stream_search(stream_search&&) noexcept;
+    stream_search& operator=(stream_search&&) noexcept;
+
+    /// Gives each tile its faces, unless they have them.
+    [[nodiscard]] status scatter();
+    /// Number of tiles.
+    ///
+    /// \throws weld_stream_error before `scatter` has ended, here or elsewhere; so do the steps below
+    [[nodiscard]] std::size_t tiles();
+    /// \throws std::out_of_range for a tile that is not there
+    [[nodiscard]] status search_tile(std::size_t tile);
+    /// Puts together what was found.
+    ///
+    /// \throws weld_stream_error naming a tile that is not finished
+    [[nodiscard]] stream_search_result finish();
+    void remove_folder();
+
+  private:
+    struct state;
+    std::unique_ptr<state> state_;
+};
 
 }  // namespace treeform
