@@ -283,17 +283,20 @@ stream_search_result tile_search::finish() {
             result.found.pairs.push_back({p.a, p.b, static_cast<pair_kind>(p.kind)});
         add_counts(result.found, found->counted);
     }
-    const auto number = [](const tile_face<double>& f) { return f.triangle; };
-    std::ranges::sort(faces, {}, number);
-    const auto again = std::ranges::unique(faces, {}, number);
-    faces.erase(again.begin(), again.end());
+    const auto before = [](const auto& f, const auto& g) { return f.triangle < g.triangle; };
+    const auto same = [](const auto& f, const auto& g) { return f.triangle == g.triangle; };
+    std::sort(faces.begin(), faces.end(), before);
+    faces.erase(std::unique(faces.begin(), faces.end(), same), faces.end());
     result.part.mesh = mesh_of(faces, vertices_);
     for (const tile_face<double>& f : faces) result.part.triangle_of_face.push_back(f.stored);
     std::sort(result.found.pairs.begin(), result.found.pairs.end());
+    const auto number_of = [&](std::uint32_t triangle) {
+        const tile_face<double> wanted{.triangle = triangle};
+        const auto at = std::lower_bound(faces.begin(), faces.end(), wanted, before);
+        return static_cast<std::uint32_t>(at - faces.begin());
+    };
     for (face_pair& pair : result.found.pairs)
-        for (std::uint32_t* f : {&pair.a, &pair.b})
-            *f = static_cast<std::uint32_t>(std::ranges::lower_bound(faces, *f, {}, number) -
-                                            faces.begin());
+        pair = {number_of(pair.a), number_of(pair.b), pair.kind};
     return result;
 }
 

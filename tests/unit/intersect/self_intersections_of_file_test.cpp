@@ -110,7 +110,7 @@ TEST_CASE("self_intersections_of_file: the answers of the whole mesh, for every 
         how.ascii = std::string(name) == "text.ply";
         how.precision = tf::precision::float32;
         tf::write(path, file, how);
-        for (const std::uint64_t faces : {40, 333, 100'000}) {
+        for (const unsigned faces : {40U, 333U, 100'000U}) {
             CAPTURE(faces);
             tf::stream_search_options o;
             o.faces_per_tile = faces;
@@ -140,7 +140,7 @@ TEST_CASE(
                            "0 0 0 0\n0 4 0 0\n0 4 4 0\n0 0 4 0\n"
                            "0 1 1 -1\n0 1 1.1 1\n0 3 3 1\n0 nan 0 0\n0 9 9 9\n"
                            "4 0 1 2 3 1 0.5\n3 4 5 6 0\n3 0 1 7 0\n3 4 5 5 2 1 1\n";
-    for (const std::uint64_t faces : {1, 100}) {
+    for (const unsigned faces : {1U, 100U}) {
         tf::stream_search_options o;
         o.faces_per_tile = faces;
         const told found = in_tiles(path, o);
