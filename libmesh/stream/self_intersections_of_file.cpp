@@ -1,3 +1,5 @@
+#include <libmesh/io/detect.hpp>
+#include <libmesh/io/extension.hpp>
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 
@@ -61,6 +63,18 @@ stream_search_result stream_search::finish() {
 }
 
 void stream_search::remove_folder() { state_->folder.remove(); }
+
+bool is_searched_in_tiles(const fs::path& input, std::string_view format) {
+    try {
+        const auto in = detail::io::source::open(input);
+        const auto found = detail::io::detect(in, detail::io::plain_extension(format),
+                                              detail::io::extension_of(input));
+        return found.kind == detail::io::file_kind::stl_binary ||
+               found.kind == detail::io::file_kind::ply;
+    } catch (const io_error&) {
+        return false;
+    }
+}
 
 stream_search_result self_intersections_of_file(const fs::path& input,
                                                 const stream_search_options& options) {

@@ -18,9 +18,8 @@ std::string what_needs_memory(const job& work, const search_settings& settings, 
     if (settings.first) return "--first";
     if (settings.tolerance.value > 0.0) return "-t";
     if (work.path == "-") return "standard input";
-    const std::string format =
-        work.options.format.empty() ? extension_of(work.path) : work.options.format;
-    if (format != "stl" && format != "ply") return "a file that is neither STL nor PLY";
+    if (!tf::is_searched_in_tiles(work.path, work.options.format))
+        return "a file that is neither a binary STL nor a PLY";
     return {};
 }
 

@@ -203,6 +203,10 @@ struct stream_search_result {
 [[nodiscard]] TREEFORM_API stream_search_result self_intersections_of_file(
     const std::filesystem::path& input, const stream_search_options& options = {});
 
+/// Whether the file is of a format that is searched in tiles; false for one that cannot be read.
+[[nodiscard]] TREEFORM_API bool is_searched_in_tiles(const std::filesystem::path& input,
+                                                     std::string_view format = {});
+
 /// The same step by step, for many processes, of one machine or of several that see the folder: one
 /// calls `scatter`; then each calls `search_tile` for its share of the tiles; and when all have
 /// ended, one calls `finish` and `remove_folder`. A tile that is finished is not searched again, and
