@@ -80,13 +80,20 @@ tf::mesh random_patch(test::random& source) {
     return mesh;
 }
 
-/// On another lattice, which keeps what meets: what was above lies along (3, 4, 5).
+/// On another lattice, which keeps what meets: what was above lies along (3, 4, 5). And with a far
+/// copy of a face, so that projections are rounded by more than the filter allows for.
 tf::mesh leaning(tf::mesh mesh, test::random& source) {
     const auto any = [&] { return double(source.below(5)) - 2; };
     const tf::point3 up{3, 4, 5}, x{5, any(), -3 + any()}, y{any(), 5, -4 + any()};
     for (tf::point3& p : mesh.points)
         p = {p.x * x.x + p.y * y.x + p.z * up.x, p.x * x.y + p.y * y.y + p.z * up.y,
              p.x * x.z + p.y * y.z + p.z * up.z};
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const std::uint32_t corner : mesh.faces[0]) {
+        const tf::point3 p = mesh.points[corner];
+        mesh.points.push_back({p.x + 1'000'003, p.y + 70'001, p.z - 800'009});
+    }
+    mesh.faces.push_back({first, first + 1, first + 2});
     return mesh;
 }
 
