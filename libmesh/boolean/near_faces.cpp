@@ -126,27 +126,38 @@ class far_places {
     }
 
     void join(const leaf_blocks& blocks) {
+        marks is_beside(reached_.size());  // blocks that are not reached, but overlap one that is
         for_chunks(blocks.overlaps.size(), 1, [&](std::size_t part, std::size_t, std::size_t) {
             for (const auto& [x, y] : blocks.overlaps[part])
-                if (reached_[x] == 0 && reached_[y] == 0) alike_.join(x, y);
+                if (reached_[x] == 0 && reached_[y] == 0)
+                    alike_.join(x, y);
+                else if (reached_[x] == 0 || reached_[y] == 0)
+                    mark(is_beside[reached_[x] == 0 ? x : y]);
         });
         marks is_met(mesh_.points.size());  // points of faces in blocks that are reached
-        const auto for_faces = [&](bool in_reached, const auto& visit) {
-            for_chunks(face_at_.size(), light_grain,
-                       [&](std::size_t begin, std::size_t end, std::size_t) {
-                           for (std::size_t i = begin; i < end; ++i)
-                               if (near_[i] == 0 && (reached_[i / 8] != 0) == in_reached)
-                                   for (const std::uint32_t p : mesh_.faces[face_at_[i]])
-                                       visit(i, p);
-                       });
-        };
-        for_faces(true, [&](std::size_t i, std::uint32_t p) {
+        for_faces_of(reached_, [&](std::size_t i, std::uint32_t p) {
             mark(is_met[p]);
             alike_.join(element(i), of_point(p));
         });
-        for_faces(false, [&](std::size_t i, std::uint32_t p) {
+        for_faces_of(is_beside, [&](std::size_t i, std::uint32_t p) {
             if (is_met[p] != 0) alike_.join(element(i), of_point(p));
         });
+    }
+
+    /// The places and corners of faces that are not near, in the blocks of a set.
+    template <class Visit>
+    void for_faces_of(const marks& blocks, const Visit& visit) const {
+        for_chunks(blocks.size(), light_grain / 8,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t b = begin; b < end; ++b) {
+                           if (blocks[b] == 0) continue;
+                           const std::size_t last = std::min(8 * b + 8, face_at_.size());
+                           for (std::size_t i = 8 * b; i < last; ++i)
+                               if (near_[i] == 0)
+                                   for (const std::uint32_t p : mesh_.faces[face_at_[i]])
+                                       visit(i, p);
+                       }
+                   });
     }
 
     mesh_view mesh_;
