@@ -86,12 +86,14 @@ class far_places {
     /// A point of each set, by its root.
     [[nodiscard]] std::pair<ids, std::vector<point3>> sets() const {
         marks is_root(root_.size());
-        for_chunks(face_at_.size(), light_grain,
-                   [&](std::size_t begin, std::size_t end, std::size_t) {
-                       for (std::size_t i = begin; i < end; ++i)
-                           if (near_[i] == 0 && !is_marked(is_root[root_[element(i)]]))
-                               mark(is_root[root_[element(i)]]);
-                   });
+        for_blocks([&](std::size_t b, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (near_[i] != 0) continue;
+                const std::uint32_t root = root_[element(i)];
+                if (!is_marked(is_root[root])) mark(is_root[root]);
+                if (reached_[b] == 0) break;  // the others are alike
+            }
+        });
         std::pair<ids, std::vector<point3>> result;
         for (std::uint32_t e = 0; e < is_root.size(); ++e) {
             if (is_root[e] == 0) continue;
@@ -105,14 +107,16 @@ class far_places {
 
     /// Writes the place of each face. \param inside  [elements] of the roots
     void write(const marks& inside, face_place* place_of_face) const {
-        for_chunks(face_at_.size(), light_grain,
-                   [&](std::size_t begin, std::size_t end, std::size_t) {
-                       for (std::size_t i = begin; i < end; ++i)
-                           place_of_face[face_at_[i]] = near_[i] != 0 ? face_place::near
-                                                        : inside[root_[element(i)]] != 0
-                                                            ? face_place::inside
-                                                            : face_place::outside;
-                   });
+        const auto place_of = [&](std::uint32_t element) {
+            return inside[root_[element]] != 0 ? face_place::inside : face_place::outside;
+        };
+        for_blocks([&](std::size_t b, std::size_t begin, std::size_t end) {
+            const face_place of_block = place_of(static_cast<std::uint32_t>(b));
+            for (std::size_t i = begin; i < end; ++i)
+                place_of_face[face_at_[i]] = near_[i] != 0      ? face_place::near
+                                             : reached_[b] != 0 ? place_of(element(i))
+                                                                : of_block;
+        });
     }
 
   private:
@@ -126,26 +130,41 @@ class far_places {
     }
 
     void join(const leaf_blocks& blocks) {
+        marks is_beside(reached_.size());  // blocks that are not reached, but overlap one that is
         for_chunks(blocks.overlaps.size(), 1, [&](std::size_t part, std::size_t, std::size_t) {
             for (const auto& [x, y] : blocks.overlaps[part])
-                if (reached_[x] == 0 && reached_[y] == 0) alike_.join(x, y);
+                if (reached_[x] == 0 && reached_[y] == 0)
+                    alike_.join(x, y);
+                else if (reached_[x] == 0 || reached_[y] == 0)
+                    mark(is_beside[reached_[x] == 0 ? x : y]);
         });
         marks is_met(mesh_.points.size());  // points of faces in blocks that are reached
-        const auto for_faces = [&](bool in_reached, const auto& visit) {
-            for_chunks(face_at_.size(), light_grain,
-                       [&](std::size_t begin, std::size_t end, std::size_t) {
-                           for (std::size_t i = begin; i < end; ++i)
-                               if (near_[i] == 0 && (reached_[i / 8] != 0) == in_reached)
-                                   for (const std::uint32_t p : mesh_.faces[face_at_[i]])
-                                       visit(i, p);
-                       });
-        };
-        for_faces(true, [&](std::size_t i, std::uint32_t p) {
+        for_faces_of(reached_, [&](std::size_t i, std::uint32_t p) {
             mark(is_met[p]);
             alike_.join(element(i), of_point(p));
         });
-        for_faces(false, [&](std::size_t i, std::uint32_t p) {
+        for_faces_of(is_beside, [&](std::size_t i, std::uint32_t p) {
             if (is_met[p] != 0) alike_.join(element(i), of_point(p));
+        });
+    }
+
+    /// Each block, and where its places begin and end.
+    template <class Visit>
+    void for_blocks(const Visit& visit) const {
+        for_chunks(reached_.size(), light_grain / 8,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t b = begin; b < end; ++b)
+                           visit(b, 8 * b, std::min(8 * b + 8, face_at_.size()));
+                   });
+    }
+    /// The places and corners of faces that are not near, in the blocks of a set.
+    template <class Visit>
+    void for_faces_of(const marks& blocks, const Visit& visit) const {
+        for_blocks([&](std::size_t b, std::size_t begin, std::size_t end) {
+            if (blocks[b] == 0) return;
+            for (std::size_t i = begin; i < end; ++i)
+                if (near_[i] == 0)
+                    for (const std::uint32_t p : mesh_.faces[face_at_[i]]) visit(i, p);
         });
     }
 

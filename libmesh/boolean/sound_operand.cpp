@@ -9,6 +9,7 @@
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/sound_operand.hpp>
 #include <libmesh/boolean/surface_components.hpp>
+#include <libmesh/exact/filter.hpp>
 #include <libmesh/intersect/pairs_by_tree.hpp>
 #include <libmesh/topology/is_manifold.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
@@ -28,7 +29,8 @@ namespace {
 bool is_usable(const point3& p) { return base::largest_of(p) <= 0x1p1000; }
 
 bool has_area(mesh_view mesh, const face& f) {
-    return !collinear(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]);
+    const point3 &a = mesh.points[f[0]], &b = mesh.points[f[1]], &c = mesh.points[f[2]];
+    return exact::collinear_filter(a, b, c) == 1 || !collinear(a, b, c);
 }
 
 /// Whether all faces hang together.

@@ -17,35 +17,50 @@ constexpr std::uint64_t key_of(std::uint32_t low, std::uint32_t high) {
     return std::uint64_t{low} << 32 | high;
 }
 
-point2 projection(int axis, const point3& p) {
-    const auto [x, y] = exact::projection(axis, p);
-    return {x, y};
+}  // namespace
+
+/// The sign of a determinant of three projected points, or `exact::undecided`. Every difference is
+/// off by up to 2 `slack_`, so the determinant u v' - v u' by up to 2 `slack_` times the sum of the
+/// magnitudes of all four, and 8 `slack_`^2.
+int height_field_test::orient(const point2& a, const point2& b, const point2& c) const {
+    if (slack_ == 0.0) return exact::orient2d_filter(a, b, c);
+    const point2 u{b.x - a.x, b.y - a.y}, v{c.x - a.x, c.y - a.y};
+    const double p = u.x * v.y, q = u.y * v.x;
+    const double permanent = std::abs(p) + std::abs(q);
+    const double sides = std::abs(u.x) + std::abs(u.y) + std::abs(v.x) + std::abs(v.y);
+    const double error = exact::error_factor<exact::orient2d_polynomial> * permanent +
+                         slack_ * (2.5 * sides + 10.0 * slack_);
+    if (permanent < exact::least_permanent || !(std::abs(p - q) > error)) return exact::undecided;
+    return p > q ? 1 : -1;
 }
 
-using exact::orient2d_filter;
+/// Whether a coordinate is certainly below another one, seen in the projection.
+bool height_field_test::is_below(double x, double y) const { return x + 3.0 * slack_ < y; }
 
 /// Whether c and d are certainly strictly on the same side of the line from a to b.
-bool on_one_side(const point2& a, const point2& b, const point2& c, const point2& d) {
-    const int sign = orient2d_filter(a, b, c);
-    return (sign == 1 || sign == -1) && orient2d_filter(a, b, d) == sign;
+bool height_field_test::on_one_side(const point2& a, const point2& b, const point2& c,
+                                    const point2& d) const {
+    const int sign = orient(a, b, c);
+    return (sign == 1 || sign == -1) && orient(a, b, d) == sign;
 }
 
 /// Whether the segments from v to a and to b certainly have only v in common.
-bool part_at(const point2& v, const point2& a, const point2& b) {
-    const auto between = [](double low, double x, double high) {
-        return (low < x && x < high) || (high < x && x < low);
+bool height_field_test::part_at(const point2& v, const point2& a, const point2& b) const {
+    const auto between = [this](double low, double x, double high) {
+        return (is_below(low, x) && is_below(x, high)) || (is_below(high, x) && is_below(x, low));
     };
     if (between(a.x, v.x, b.x) || between(a.y, v.y, b.y)) return true;
-    const int sign = orient2d_filter(v, a, b);
+    const int sign = orient(v, a, b);
     return sign == 1 || sign == -1;
 }
 
 /// Whether a ray that turns counterclockwise about v from a meets c before b; nothing when the
 /// filter does not know.
-std::optional<bool> is_between(const point2& v, const point2& a, const point2& c, const point2& b) {
-    const int b_of_a = orient2d_filter(v, a, b);
-    const int c_of_a = orient2d_filter(v, a, c);
-    const int b_of_c = orient2d_filter(v, c, b);
+std::optional<bool> height_field_test::is_between(const point2& v, const point2& a, const point2& c,
+                                                  const point2& b) const {
+    const int b_of_a = orient(v, a, b);
+    const int c_of_a = orient(v, a, c);
+    const int b_of_c = orient(v, c, b);
     if (b_of_a == exact::undecided || c_of_a == exact::undecided || b_of_c == exact::undecided)
         return std::nullopt;
     if (b_of_a > 0) return c_of_a > 0 && b_of_c > 0;
@@ -53,26 +68,74 @@ std::optional<bool> is_between(const point2& v, const point2& a, const point2& c
     return c_of_a > 0 || b_of_c > 0;
 }
 
-}  // namespace
-
-/// Nothing when the faces do not all turn the same way.
+/// Along the axis that some faces face most, or else the way that these face on average; nothing
+/// when there, too, not all faces turn the same way.
 std::optional<height_field_test::view> height_field_test::find_view(
     std::span<const numbered_face> patch) const {
-    constexpr std::size_t samples = 8;
+    constexpr std::size_t most_samples = 32;
+    std::array<point3, most_samples> samples;
+    std::size_t count = 0;
     point3 normal;
-    for (std::size_t i = 0; i < patch.size(); i += 1 + patch.size() / samples) {
-        const auto [a, b, c, number] = patch[i];
-        normal = base::plus(normal, base::cross(base::minus(points_[b], points_[a]),
-                                                base::minus(points_[c], points_[a])));
+    for (std::size_t i = 0; i < patch.size(); i += (patch.size() - 1) / most_samples + 1) {
+        const auto& [a, b, c, number] = patch[i];
+        samples[count] =
+            base::cross(base::minus(points_[b], points_[a]), base::minus(points_[c], points_[a]));
+        normal = base::plus(normal, samples[count++]);
     }
     std::size_t most = 0;
     for (const std::size_t k : {std::size_t{1}, std::size_t{2}})
         if (std::abs(normal[k]) > std::abs(normal[most])) most = k;
-    const view seen{static_cast<int>(most), normal[most] < 0 ? -1 : 1};
-    for (const auto& [a, b, c, number] : patch)
-        if (orient2d_filter(seen.axis, points_[a], points_[b], points_[c]) != seen.turn)
-            return std::nullopt;
-    return seen;
+    view seen{most, normal[most] < 0 ? -1 : 1};
+    const std::size_t next = (most + 1) % 3, last = (most + 2) % 3;
+    const auto samples_turn = [&] {  // mostly they tell
+        return std::ranges::all_of(std::span(samples).first(count), [&](const point3& n) {
+            return seen.turn * (n[most] + seen.tilt_1 * n[next] + seen.tilt_2 * n[last]) > 0.0;
+        });
+    };
+    if (samples_turn() && all_turn(patch, seen)) return seen;
+    seen.tilt_1 = normal[next] / normal[most];
+    seen.tilt_2 = normal[last] / normal[most];
+    if (samples_turn() && all_turn_tilted(patch, seen)) return seen;
+    return std::nullopt;
+}
+
+bool height_field_test::all_turn(std::span<const numbered_face> patch, const view& seen) const {
+    constexpr std::size_t ahead = 8;  // corners are anywhere in memory
+    const auto fetch = [&](const numbered_face& f) {
+        for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(&points_[f[k]]);
+    };
+    for (std::size_t i = 0; i < std::min(patch.size(), ahead); ++i) fetch(patch[i]);
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+        fetch(patch[std::min(i + ahead, patch.size() - 1)]);
+        const auto& [a, b, c, number] = patch[i];
+        if (exact::orient2d_filter(static_cast<int>(seen.axis), points_[a], points_[b],
+                                   points_[c]) != seen.turn)
+            return false;
+    }
+    return true;
+}
+
+/// By the determinant of two sides of a face and the line that the projection runs along, which is
+/// `orient3d` where the last difference is exact.
+bool height_field_test::all_turn_tilted(std::span<const numbered_face> patch,
+                                        const view& seen) const {
+    const std::size_t k = seen.axis, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+    for (const auto& [a, b, c, number] : patch) {
+        const point3 u = base::minus(points_[b], points_[a]);
+        const point3 v = base::minus(points_[c], points_[a]);
+        double value = 0.0, permanent = 0.0;
+        const auto add = [&](std::size_t m, std::size_t n, double factor) {
+            const double p = u[m] * v[n], q = u[n] * v[m];
+            value += (p - q) * factor;
+            permanent += (std::abs(p) + std::abs(q)) * std::abs(factor);
+        };
+        add(k1, k2, 1.0);
+        add(k2, k, seen.tilt_1);
+        add(k, k1, seen.tilt_2);
+        const double error = exact::error_factor<exact::orient3d_polynomial> * permanent;
+        if (permanent < exact::least_permanent || !(seen.turn * value > error)) return false;
+    }
+    return true;
 }
 
 bool height_field_test::operator()(std::span<const numbered_face> patch) {
@@ -85,8 +148,8 @@ bool height_field_test::operator()(std::span<const numbered_face> patch) {
 /// depends on it.
 inline std::uint32_t height_field_test::number_of(std::uint64_t key) {
     keys_[0] = key;  // which a free slot, holding 0, then matches, too
-    std::size_t i = key * 0x9E3779B97F4A7C15 >> (64 - slot_bits);
-    while (keys_[slots_[i]] != key) i = (i + 1) % (1U << slot_bits);
+    std::size_t i = key * 0x9E3779B97F4A7C15 >> (64 - slot_bits_);
+    while (keys_[slots_[i]] != key) i = (i + 1) % (1U << slot_bits_);
     const std::uint32_t is_new = slots_[i] == 0 ? 1 : 0;
     key_count_ += is_new;
     const std::uint32_t number = slots_[i] | (key_count_ & -is_new);
@@ -97,8 +160,10 @@ inline std::uint32_t height_field_test::number_of(std::uint64_t key) {
 
 /// False when there are more edges than fit.
 bool height_field_test::find_border(std::span<const numbered_face> patch, const view& seen) {
-    slots_.fill(0);
-    values_.fill(0);
+    // More than twice as many slots as keys: at most three edges a face, each with a corner.
+    slot_bits_ = std::min(static_cast<int>(std::bit_width(7 * patch.size())), max_slot_bits);
+    std::fill_n(slots_.begin(), std::size_t{1} << slot_bits_, std::uint16_t{0});
+    std::fill_n(values_.begin(), std::min(values_.size(), 1 + 6 * patch.size()), std::int16_t{0});
     key_count_ = 0;
     const auto add = [this](std::uint32_t from, std::uint32_t to) {
         // Which way an edge runs nobody can predict either.
@@ -120,18 +185,43 @@ bool height_field_test::find_border(std::span<const numbered_face> patch, const 
         e.from = static_cast<std::uint32_t>(keys_[i] >> 32);
         e.to = static_cast<std::uint32_t>(keys_[i]);
         if (values_[i] != seen.turn) std::swap(e.from, e.to);
-        e.a = projection(seen.axis, points_[e.from]);
-        e.b = projection(seen.axis, points_[e.to]);
-        e.min = {std::min(e.a.x, e.b.x), std::min(e.a.y, e.b.y)};
-        e.max = {std::max(e.a.x, e.b.x), std::max(e.a.y, e.b.y)};
     }
+    project_border(seen);
     return true;
+}
+
+/// Relative to a point of the border where the line is tilted. With L the largest magnitude of such
+/// a difference, u = 2^-52 and tilts of at most 1, a difference is off by up to u L, its product
+/// with a tilt by 2 u L, and what is left by 2 u L more: by less than `slack_` in all, where L is
+/// not so small that numbers run out. Boxes contain the edges, though their own sums are rounded.
+void height_field_test::project_border(const view& seen) {
+    const bool is_tilted = seen.tilt_1 != 0.0 || seen.tilt_2 != 0.0;
+    const std::size_t k = seen.axis, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+    const point3 origin = is_tilted ? points_[border_[0].from] : point3{};
+    double largest = 0.0;
+    const auto projection = [&](std::uint32_t corner) -> point2 {
+        const point3& at = points_[corner];
+        if (!is_tilted) return {at[k1], at[k2]};
+        const point3 p = base::minus(at, origin);
+        largest = std::max(largest, base::largest_of(p));
+        return {p[k1] - seen.tilt_1 * p[k], p[k2] - seen.tilt_2 * p[k]};
+    };
+    for (border_edge& e : border()) {
+        e.a = projection(e.from);
+        e.b = projection(e.to);
+    }
+    slack_ = is_tilted ? std::max(0x1p-49 * largest, 0x1p-500) : 0.0;
+    const double wider = 2.0 * slack_;
+    for (border_edge& e : border()) {
+        e.min = {std::min(e.a.x, e.b.x) - wider, std::min(e.a.y, e.b.y) - wider};
+        e.max = {std::max(e.a.x, e.b.x) + wider, std::max(e.a.y, e.b.y) + wider};
+    }
 }
 
 /// Edges are sorted into columns by where their boxes start, and tested against those that start up
 /// to the column in which their own ends.
 bool height_field_test::meets_itself() {
-    constexpr std::size_t columns = 32;
+    constexpr std::size_t columns = 64;
     const std::span<const border_edge> edges = border();
     double left = edges[0].min.x, right = left;
     for (const border_edge& e : edges) {
@@ -162,7 +252,7 @@ bool height_field_test::meets_itself() {
 }
 
 /// Whether two edges certainly have nothing in common but a corner by number.
-bool height_field_test::are_apart(const border_edge& e, const border_edge& f) {
+bool height_field_test::are_apart(const border_edge& e, const border_edge& f) const {
     if (e.to == f.from) return part_at(e.b, e.a, f.b);
     if (e.from == f.to) return part_at(e.a, e.b, f.a);
     if (e.from == f.from) return part_at(e.a, e.b, f.b);
@@ -250,17 +340,24 @@ bool height_field_test::starts_outside(std::uint32_t component) {
         if (e.from == out->from && &e != out) return false;
         if (e.to == out->from) in = &e;
     }
+    if (slack_ != 0.0)
+        for (std::size_t e = 0; e < edges.size(); ++e)
+            if (component_[e] == component && &edges[e] != out && !is_below(out->a.x, edges[e].a.x))
+                return false;
     int outside = 0;  // by the edges that the ray toward lower x crosses
     const point2& p = out->a;
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const border_edge& e = edges[i];
+        if (slack_ != 0.0 && component_[i] != component && !is_below(e.a.y, p.y) &&
+            !is_below(p.y, e.a.y))
+            return false;
         if (component_[i] == component || (e.a.y <= p.y) == (e.b.y <= p.y)) continue;
-        const int sign = orient2d_filter(e.a, e.b, p);
+        const int sign = orient(e.a, e.b, p);
         if (sign != 1 && sign != -1) return false;
         const int if_crossed = e.a.y <= p.y ? -1 : 1;
         if (sign == if_crossed) outside += sign;
     }
-    const int turn = orient2d_filter(in->a, p, out->b);
+    const int turn = orient(in->a, p, out->b);
     return turn == 1 ? outside == 0 : turn == -1 && outside == 1;
 }
 

@@ -11,9 +11,9 @@
 
 namespace treeform::detail::intersect {
 
-/// Marks nodes of 512 or 64 faces that are height fields: no two of their faces meet beyond the
-/// corners and edges they share by number. On a clean scan that is most of them, and costs a tenth
-/// of testing their pairs.
+/// Marks nodes of 4096, 512 or 64 faces that are height fields: no two of their faces meet beyond
+/// the corners and edges they share by number. On a clean scan that is most of them, and costs a
+/// tenth of testing their pairs.
 /// \pre `faces` are in leaf order; no coordinate is beyond `largest_filtered_coordinate`
 [[nodiscard]] node_marks<3> find_height_fields(points_view points,
                                                std::span<const numbered_face> faces,

@@ -37,14 +37,21 @@ void own_candidates::offer_class(narrow_phase<own_candidates>& phase) {
     if (!own_.filtered) return decide_class(Class, phase);
     const auto& list = classes_.list[Class];
     const std::size_t total = classes_.count[Class];
+    const auto corners_at = [&](std::size_t i) {
+        const face_numbers pair = places(list[i]);
+        return corners_of<Class>(own_.faces[pair.a], own_.faces[pair.b], list[i]);
+    };
+    constexpr std::size_t ahead = 8;  // corners are anywhere in memory
     for (std::size_t begin = 0; begin < total; begin += pair_batch::capacity) {
         const std::size_t count = std::min(pair_batch::capacity, total - begin);
         for (std::size_t i = 0; i < count; ++i) {
-            const candidate& by = list[begin + i];
-            const face_numbers pair = places(by);
-            const auto corners = corners_of<Class>(own_.faces[pair.a], own_.faces[pair.b], by);
-            phase.put<Class>(
-                i, pair, [&](std::size_t k) -> const point3& { return own_.points[corners[k]]; });
+            if (begin + i + ahead < total)
+                for (const std::uint32_t corner : corners_at(begin + i + ahead))
+                    __builtin_prefetch(&own_.points[corner]);
+            const auto corners = corners_at(begin + i);
+            phase.put<Class>(i, places(list[begin + i]), [&](std::size_t k) -> const point3& {
+                return own_.points[corners[k]];
+            });
         }
         phase.filter<Class>(count);
     }

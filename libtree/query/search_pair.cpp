@@ -71,7 +71,7 @@ class framed_nodes {
 
     [[nodiscard]] unsigned top() const { return top_; }
 
-    [[nodiscard]] const wide_node<D>& node(unsigned height, std::size_t i) {
+    const wide_node<D>& node(unsigned height, std::size_t i) {
         const wide_node<D>& original = nodes_[height][i];
         if (map_.identity) return original;
         std::size_t& at = moved_at_[height][i % 8];
@@ -202,7 +202,7 @@ class pair_traversal {
     }
     /// The children of a that have a pair, and their partners, are about to be opened.
     void prefetch_children(const place<D>& a, unsigned in_a, const place<D>& b,
-                           const std::array<unsigned, 8>& in_b) const {
+                           const std::array<unsigned, 8>& in_b) {
         unsigned partners = 0;
         for (unsigned i = in_a; i != 0; i &= i - 1) {
             partners |= in_b[lowest(i)];
@@ -210,6 +210,14 @@ class pair_traversal {
         }
         for (unsigned rest = partners; rest != 0; rest &= rest - 1)
             b_.common.prefetch(b.height - 1, 8 * b.node + lowest(rest));
+        for (unsigned i = in_a; i != 0; i &= i - 1) {
+            a_.common.node(a.height - 1, 8 * a.node + lowest(i));
+            if (both_) a_.own.node(a.height - 1, 8 * a.node + lowest(i));
+        }
+        for (unsigned i = partners; i != 0; i &= i - 1) {
+            b_.common.node(b.height - 1, 8 * b.node + lowest(i));
+            if (both_) b_.own.node(b.height - 1, 8 * b.node + lowest(i));
+        }
     }
     unsigned mask(const framed_node<D>& node, const framed_node<D>& other, std::size_t slot) {
         ++seen_.box_tests;

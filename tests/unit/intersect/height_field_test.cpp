@@ -9,6 +9,7 @@
 #include <support/random.hpp>
 #include <support/soups.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -62,6 +63,40 @@ tf::mesh ramp(double angle, double pitch, bool is_ring = false) {
     return mesh;
 }
 
+/// A few faces on a lattice of up to 5 x 5 x 2 points that all turn counterclockwise from above.
+tf::mesh random_patch(test::random& source) {
+    const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(source.below(n)); };
+    const std::uint32_t side = 3 + below(3);
+    tf::mesh mesh;
+    const std::uint32_t points = 4 + below(9);
+    for (std::uint32_t p = 0; p < points; ++p)
+        mesh.points.push_back({double(below(side)), double(below(side)), double(below(2))});
+    const std::uint32_t faces = 2 + below(6);
+    for (int tries = 0; tries < 100 && mesh.faces.size() < faces; ++tries) {
+        const tf::face f{below(points), below(points), below(points)};
+        const tf::point3 a = mesh.points[f[0]], b = mesh.points[f[1]], c = mesh.points[f[2]];
+        if ((b.x - a.x) * (c.y - a.y) > (b.y - a.y) * (c.x - a.x)) mesh.faces.push_back(f);
+    }
+    return mesh;
+}
+
+/// On another lattice, which keeps what meets: what was above lies along (3, 4, 5). And with a far
+/// copy of a face, so that projections are rounded by more than the filter allows for.
+tf::mesh leaning(tf::mesh mesh, test::random& source) {
+    const auto any = [&] { return double(source.below(5)) - 2; };
+    const tf::point3 up{3, 4, 5}, x{5, any(), -3 + any()}, y{any(), 5, -4 + any()};
+    for (tf::point3& p : mesh.points)
+        p = {p.x * x.x + p.y * y.x + p.z * up.x, p.x * x.y + p.y * y.y + p.z * up.y,
+             p.x * x.z + p.y * y.z + p.z * up.z};
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const std::uint32_t corner : mesh.faces[0]) {
+        const tf::point3 p = mesh.points[corner];
+        mesh.points.push_back({p.x + 1'000'003, p.y + 70'001, p.z - 800'009});
+    }
+    mesh.faces.push_back({first, first + 1, first + 2});
+    return mesh;
+}
+
 }  // namespace
 
 TEST_CASE("height fields: a sheet is one over any coordinate plane and on either side") {
@@ -75,6 +110,35 @@ TEST_CASE("height fields: a sheet is one over any coordinate plane and on either
     }
     std::swap(sheet.faces[7][0], sheet.faces[7][1]);
     CHECK_FALSE(is_height_field(sheet));
+}
+
+TEST_CASE("height fields: a sheet is one that is so along no axis") {
+    // Slopes of up to 50 degrees about the direction (1, 1, 1), which is 55 from each axis.
+    const auto facing_all_axes = [](double x, double y, double z) -> tf::point3 {
+        const double p = x / std::sqrt(2), q = y / std::sqrt(6), r = z / std::sqrt(3);
+        return {p + q + r, -p + q + r, -2 * q + r};
+    };
+    tf::mesh sheet = test::grid(20);
+    for (tf::point3& p : sheet.points)
+        p = facing_all_axes(p.x, p.y, 1.1 * (std::sin(0.8 * p.x) + std::sin(0.8 * p.y)));
+    const auto turns = [&](int axis) {
+        return std::ranges::count_if(sheet.faces, [&](const tf::face& f) {
+            return tf::orient2d(axis, sheet.points[f[0]], sheet.points[f[1]], sheet.points[f[2]]) >
+                   0;
+        });
+    };
+    const auto faces = static_cast<std::ptrdiff_t>(sheet.faces.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        REQUIRE(turns(axis) > 0);
+        REQUIRE(turns(axis) < faces);
+    }
+    CHECK(is_height_field(sheet));
+    CHECK(is_height_field(test::inside_out(sheet)));
+    CHECK(is_height_field(test::moved(sheet, {1e6, -1e7, 1e8})));
+    CHECK(is_height_field(test::together(sheet, test::moved(sheet, {30, 0, -30}))));
+    CHECK_FALSE(is_height_field(test::together(sheet, test::moved(sheet, {1, 1, 1}))));
+    CHECK_FALSE(is_height_field(
+        test::together(sheet, test::moved(test::scaled(sheet, 0.5), {5, 5, 5}))));  // above it
 }
 
 TEST_CASE("height fields: patches with holes, of several pieces, or joined at a corner are, too") {
@@ -109,27 +173,30 @@ TEST_CASE("height fields: what covers a point of the plane twice is none") {
 
 TEST_CASE("height fields: of random patches on lattices, none has a pair that meets") {
     test::random source(3);
-    const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(source.below(n)); };
     std::size_t fields = 0, others = 0, meeting = 0;
     for (int round = 0; round < 60'000; ++round) {
-        const std::uint32_t side = 3 + below(3);
-        tf::mesh mesh;
-        const std::uint32_t points = 4 + below(9);
-        for (std::uint32_t p = 0; p < points; ++p)
-            mesh.points.push_back({double(below(side)), double(below(side)), double(below(2))});
-        const std::uint32_t faces = 2 + below(6);
-        for (int tries = 0; tries < 100 && mesh.faces.size() < faces; ++tries) {
-            const tf::face f{below(points), below(points), below(points)};
-            const tf::point3 a = mesh.points[f[0]], b = mesh.points[f[1]], c = mesh.points[f[2]];
-            if ((b.x - a.x) * (c.y - a.y) > (b.y - a.y) * (c.x - a.x)) mesh.faces.push_back(f);
-        }
+        const tf::mesh mesh = random_patch(source);
         if (mesh.faces.empty()) continue;
         const bool is_field = is_height_field(mesh), meets = has_pair_that_meets(mesh);
         REQUIRE_FALSE((is_field && meets));
+        REQUIRE_FALSE((meets && is_height_field(leaning(mesh, source))));
         ++(is_field ? fields : others);
         meeting += meets;
     }
     CHECK(fields > 1'000);
     CHECK(others > 1'000);
     CHECK(meeting > 1'000);
+}
+
+TEST_CASE("height fields: most random patches that lean are, and again none that meets itself") {
+    test::random source(4);
+    std::size_t fields = 0, both = 0;
+    for (int round = 0; round < 20'000; ++round) {
+        const tf::mesh mesh = random_patch(source);
+        if (mesh.faces.empty() || !is_height_field(mesh)) continue;
+        ++fields;
+        both += is_height_field(leaning(mesh, source));
+    }
+    CHECK(fields > 500);
+    CHECK(both > fields / 2);
 }
