@@ -137,14 +137,19 @@ struct numbering {
     std::vector<std::uint32_t> made_begin;  ///< [clusters] item of a cluster's first made point
 };
 
-/// `named` are the points that meetings have.
+/// `named` are the points that meetings have; those that clusters made are taken from them.
 numbering number_points(std::size_t given, std::vector<implicit_point> named,
-                        const std::vector<cut_cluster>& cuts) {
+                        std::vector<cut_cluster>& cuts) {
     numbering result;
     std::vector<implicit_point> items = std::move(named);
-    for (const cut_cluster& c : cuts) {
+    // Points are large: room for all that are made, and no more.
+    std::size_t made = 0;
+    for (const cut_cluster& c : cuts) made += c.made.size();
+    items.reserve(items.size() + made);
+    for (cut_cluster& c : cuts) {
         result.made_begin.push_back(static_cast<std::uint32_t>(items.size()));
         items.insert(items.end(), c.made.begin(), c.made.end());
+        c.made = std::vector<implicit_point>();
     }
     detail::base::union_find sets(items.size());
     std::vector<std::uint32_t> given_of(items.size(), none);
@@ -319,20 +324,11 @@ class emitter {
     std::vector<place> begin_;  ///< [chunks + 1]
 };
 
-/// `arrange_pairs` without the given points.
-arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pairs,
-                                   std::vector<std::uint32_t> degenerate,
-                                   const progress_callback& progress) {
-    arrange_faces_result result;
-    const std::size_t count = mesh.faces.size();
-    result.pairs = pairs.size();
-    mesh_meetings met = detail::intersect::meetings_of(mesh, pairs);
-    const detail::arrange::meetings_by_face by_face(met.meetings);
-    const clusters groups = gather(count, met);
-    result.cut_faces = groups.members.size();
-
+std::vector<cut_cluster> cut_clusters(mesh_view mesh, const mesh_meetings& met,
+                                      const clusters& groups) {
     constexpr std::size_t clusters_a_chunk = 16;
     constexpr std::size_t memory_a_chunk = std::size_t{1} << 15;  // enough for nearly all clusters
+    const detail::arrange::meetings_by_face by_face(met.meetings);
     std::vector<cut_cluster> cuts(groups.size());
     for_chunks(groups.size(), clusters_a_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -343,12 +339,28 @@ arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pa
                        memory.release();
                    }
                });
+    return cuts;
+}
+
+/// `arrange_pairs` without the given points.
+arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pairs,
+                                   std::vector<std::uint32_t> degenerate,
+                                   const progress_callback& progress) {
+    arrange_faces_result result;
+    const std::size_t count = mesh.faces.size();
+    result.pairs = pairs.size();
+    mesh_meetings met = detail::intersect::meetings_of(mesh, pairs);
+    const clusters groups = gather(count, met);
+    result.cut_faces = groups.members.size();
+    std::vector<cut_cluster> cuts = cut_clusters(mesh, met, groups);
+    std::vector<implicit_point> named = std::move(met.points);
+    met = {};
     if (progress && !progress(0.8)) {
         result.cancelled = true;
         return result;
     }
 
-    numbering numbers = number_points(mesh.points.size(), std::move(met.points), cuts);
+    numbering numbers = number_points(mesh.points.size(), std::move(named), cuts);
     std::vector<char> is_not_whole(count, 0);
     for (const std::uint32_t f : groups.members) is_not_whole[f] = 1;
     for (const std::uint32_t f : degenerate) is_not_whole[f] = 1;

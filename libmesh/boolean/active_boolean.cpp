@@ -48,12 +48,14 @@ aabb<double, 3> box_of(mesh_view mesh, std::uint32_t f) {
 }  // namespace
 
 std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
-                                                       const operand_edges& edges,
+                                                       operand_edges&& edges,
                                                        const boolean_expression& expression,
                                                        const rounding_try& options) {
     if (edges.piece.count() < fewest_components) return std::nullopt;
-    const std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
+    // What each face has a number in goes as soon as it may: the crowd is far larger than the result.
+    std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
     const surface_components components(joined.all, operand_of_face, edges);
+    edges = {};
     if (components.size() < fewest_components) return std::nullopt;
     const auto stops = [&](double done) { return options.progress && !options.progress(done); };
     if (stops(0.1)) return unmended_result{with_counts({}), {}};
@@ -74,6 +76,7 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
         faces.push_back(joined.all.faces[f]);
         operands.push_back(operand_of_face[f]);
     }
+    operand_of_face = std::vector<std::uint32_t>();
     const mesh_view active{joined.all.points, faces};
     arrange_faces_result arranged = arrange::arrange_wanted(
         active,
