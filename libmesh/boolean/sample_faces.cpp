@@ -88,16 +88,17 @@ face_samples sample_faces(const surface_components& components,
             const auto f =
                 static_cast<std::uint32_t>((2 * i + 1) * mesh.faces.size() / (2 * count));
             const std::uint32_t own = component[f];
-            neighbors += count_neighbors(components, own, f);
+            const std::size_t near = count_neighbors(components, own, f);
+            neighbors += near;
             const winding_range& range = components.range(own);
             state.add(components.operand(own), range);
             const auto places = places_beside(mesh, f);
-            if (are_settled(components, own, places, state)) ++hidden;
+            if (are_settled(components, own, places, state)) hidden += 1 + near;
             state.add(components.operand(own), {-range.low, -range.high});
         }
     });
-    const auto all = static_cast<double>(count);
-    return {static_cast<double>(hidden) / all, static_cast<double>(neighbors) / all};
+    const auto all = static_cast<double>(count), near = static_cast<double>(neighbors);
+    return {static_cast<double>(hidden) / (all + near), near / all};
 }
 
 }  // namespace treeform::detail::boolean
