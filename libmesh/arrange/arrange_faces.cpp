@@ -1,8 +1,10 @@
 #include <libmesh/arrange/arrange_pairs.hpp>
 #include <libmesh/arrange/cluster.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/arrange/wanted_meetings.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/checked_face_tree.hpp>
+#include <libmesh/base/face_boxes.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/stars.hpp>
@@ -29,6 +31,7 @@ namespace treeform {
 namespace {
 
 using detail::arrange::cut_cluster;
+using detail::arrange::is_box_wanted;
 using detail::base::part_of;
 using detail::intersect::meeting;
 using detail::intersect::mesh_meetings;
@@ -343,13 +346,17 @@ std::vector<cut_cluster> cut_clusters(mesh_view mesh, const mesh_meetings& met,
 }
 
 /// `arrange_pairs` without the given points.
+///
+/// \param is_wanted none where all is
 arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pairs,
                                    std::vector<std::uint32_t> degenerate,
+                                   const is_box_wanted* is_wanted,
                                    const progress_callback& progress) {
     arrange_faces_result result;
     const std::size_t count = mesh.faces.size();
-    result.pairs = pairs.size();
     mesh_meetings met = detail::intersect::meetings_of(mesh, pairs);
+    if (is_wanted != nullptr) detail::arrange::keep_wanted(met, mesh.points, *is_wanted);
+    result.pairs = met.meetings.size();
     const clusters groups = gather(count, met);
     result.cut_faces = groups.members.size();
     std::vector<cut_cluster> cuts = cut_clusters(mesh, met, groups);
@@ -382,27 +389,14 @@ void copy_points(mesh_view mesh, arrange_faces_result& result) {
     if (!result.cancelled) result.cut.given_points.assign(mesh.points.begin(), mesh.points.end());
 }
 
-}  // namespace
-
-arrange_faces_result detail::arrange::arrange_pairs(mesh_view mesh,
-                                                    std::span<const face_pair> pairs,
-                                                    std::vector<std::uint32_t> degenerate,
-                                                    const progress_callback& progress) {
-    arrange_faces_result result = arrange_known(mesh, pairs, std::move(degenerate), progress);
-    copy_points(mesh, result);
-    return result;
-}
-
-arrange_faces_result detail::arrange::arrange_without_points(mesh_view mesh,
-                                                             const arrange_faces_options& options) {
-    return arrange_wanted(
-        mesh, [](const face_pair&) { return true; }, options);
-}
-
-arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
-                                                     function_ref<bool(const face_pair&)> is_wanted,
-                                                     const arrange_faces_options& options) {
-    base::check_faces("arrange_faces", mesh.points.size(), mesh.faces);
+/// Of the pairs of faces that meet, those that are wanted.
+///
+/// \param where none where all that these have in common is
+arrange_faces_result arrange_found(mesh_view mesh,
+                                   detail::function_ref<bool(const face_pair&)> is_wanted,
+                                   const is_box_wanted* where,
+                                   const arrange_faces_options& options) {
+    detail::base::check_faces("arrange_faces", mesh.points.size(), mesh.faces);
     std::vector<std::uint32_t> degenerate = degenerate_faces(mesh);
     // Degenerate faces are shut out by hiding them: pairs are looked for among the others only.
     std::vector<face> kept;
@@ -419,8 +413,8 @@ arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
             }
         usable.faces = kept;
     }
-    self_intersection_result found = intersect::pairs_by_tree(
-        usable, base::checked_face_tree(usable),
+    self_intersection_result found = detail::intersect::pairs_by_tree(
+        usable, detail::base::checked_face_tree(usable),
         {.vertices = vertex_identity::by_index, .progress = part_of(options.progress, 0.0, 0.5)});
     if (found.cancelled) return cancelled_result(std::move(degenerate));
     if (!degenerate.empty())
@@ -429,8 +423,42 @@ arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
             pair.b = kept_number[pair.b];
         }
     std::erase_if(found.pairs, [&](const face_pair& pair) { return !is_wanted(pair); });
-    return arrange_known(mesh, found.pairs, std::move(degenerate),
+    return arrange_known(mesh, found.pairs, std::move(degenerate), where,
                          part_of(options.progress, 0.5, 1.0));
+}
+
+}  // namespace
+
+arrange_faces_result detail::arrange::arrange_pairs(mesh_view mesh,
+                                                    std::span<const face_pair> pairs,
+                                                    std::vector<std::uint32_t> degenerate,
+                                                    const progress_callback& progress) {
+    arrange_faces_result result = arrange_known(mesh, pairs, std::move(degenerate), nullptr, progress);
+    copy_points(mesh, result);
+    return result;
+}
+
+arrange_faces_result detail::arrange::arrange_without_points(mesh_view mesh,
+                                                             const arrange_faces_options& options) {
+    return arrange_wanted(
+        mesh, [](const face_pair&) { return true; }, options);
+}
+
+arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
+                                                     function_ref<bool(const face_pair&)> is_wanted,
+                                                     const arrange_faces_options& options) {
+    return arrange_found(mesh, is_wanted, nullptr, options);
+}
+
+arrange_faces_result detail::arrange::arrange_where(mesh_view mesh, const is_box_wanted& is_wanted,
+                                                    const arrange_faces_options& options) {
+    const auto box_of = detail::base::face_boxes(mesh.points);
+    return arrange_found(
+        mesh,
+        [&](const face_pair& pair) {
+            return is_wanted(common_box(box_of(mesh.faces[pair.a]), box_of(mesh.faces[pair.b])));
+        },
+        &is_wanted, options);
 }
 
 arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {

@@ -39,12 +39,6 @@ std::optional<std::vector<std::uint32_t>> active_faces(const active_space& space
     return faces;
 }
 
-aabb<double, 3> box_of(mesh_view mesh, std::uint32_t f) {
-    aabb<double, 3> box;
-    for (const std::uint32_t corner : mesh.faces[f]) box.include(mesh.points[corner]);
-    return box;
-}
-
 }  // namespace
 
 std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
@@ -78,11 +72,8 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
     }
     operand_of_face = std::vector<std::uint32_t>();
     const mesh_view active{joined.all.points, faces};
-    arrange_faces_result arranged = arrange::arrange_wanted(
-        active,
-        [&](const face_pair& pair) {
-            return space.reaches_active(common_box(box_of(active, pair.a), box_of(active, pair.b)));
-        },
+    arrange_faces_result arranged = arrange::arrange_where(
+        active, [&](const aabb<double, 3>& box) { return space.reaches_active(box); },
         {.progress = base::part_of(options.progress, 0.2, 0.5)});
     unmended_result made{with_counts(arranged), {}};
     made.result.statistics.skipped_faces = all - faces.size();
