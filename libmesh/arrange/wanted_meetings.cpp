@@ -48,9 +48,8 @@ void keep_used_names(mesh_meetings& met, std::size_t given) {
     }
     met.names.resize(kept);
     met.points.resize(kept);
-    visit_named([&](std::uint32_t& p) {
-        p = static_cast<std::uint32_t>(given) + number[p - given];
-    });
+    visit_named(
+        [&](std::uint32_t& p) { p = static_cast<std::uint32_t>(given) + number[p - given]; });
 }
 
 }  // namespace

@@ -72,8 +72,8 @@ face_places find_places(const mesh_arrangement& cut, const active_space& space,
     for_chunks(cut.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
             const face& corners = cut.faces[f];
-            const bool hidden = !std::ranges::all_of(
-                corners, [&](std::uint32_t p) { return points.is_active(p); });
+            const bool hidden =
+                !std::ranges::all_of(corners, [&](std::uint32_t p) { return points.is_active(p); });
             places.is_hidden[f] = hidden ? 1 : 0;
             if (hidden) continue;
             std::array<box3, 3> corner;

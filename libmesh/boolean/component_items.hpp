@@ -48,8 +48,7 @@ class component_items {
         first_level_.push_back(0);
         for (std::size_t c = 0; c < components.size(); ++c) {
             const tree<3>& index = components.tree_of(c);
-            for (unsigned l = 0; l < index.levels(); ++l)
-                level_.push_back(index.level(l).data());
+            for (unsigned l = 0; l < index.levels(); ++l) level_.push_back(index.level(l).data());
             first_level_.push_back(level_.size());
         }
     }
@@ -64,9 +63,8 @@ class component_items {
     }
     [[nodiscard]] std::size_t faces_below(const item& i) const {
         const unsigned capacity = 3 * height(i);
-        return std::min(std::size_t{1} << capacity,
-                        components_.tree_of(i.component).size() -
-                            (std::size_t{i.number} << capacity));
+        return std::min(std::size_t{1} << capacity, components_.tree_of(i.component).size() -
+                                                        (std::size_t{i.number} << capacity));
     }
 
     /// \pre `i` is no face
@@ -74,7 +72,8 @@ class component_items {
     void for_children(const item& i, const Visit& visit) const {
         const auto first = static_cast<std::uint32_t>(tree<3>::width * i.number);
         const unsigned capacity = 3 * (height(i) - 1);
-        const std::size_t children = (faces_below(i) + (std::size_t{1} << capacity) - 1) >> capacity;
+        const std::size_t children =
+            (faces_below(i) + (std::size_t{1} << capacity) - 1) >> capacity;
         for (std::uint32_t k = 0; k < children; ++k)
             visit(item{i.component, i.level + 1, first + k});
     }

@@ -83,14 +83,14 @@ inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
         return tf::triangle3{active.points[a], active.points[b], active.points[c]};
     };
     std::atomic<std::size_t> uncut = 0;
-    tf::arrange_faces_result arranged = tf::detail::arrange::arrange_where(
-        active,
-        [&](const tf::aabb<double, 3>& box) {
-            const bool wanted = space.reaches_active(box);
-            uncut += wanted ? 0 : 1;
-            return wanted;
-        },
-        {});
+    tf::arrange_faces_result arranged =
+        tf::detail::arrange::arrange_where(active,
+                                           [&](const tf::aabb<double, 3>& box) {
+                                               const bool wanted = space.reaches_active(box);
+                                               uncut += wanted ? 0 : 1;
+                                               return wanted;
+                                           },
+                                           {});
     result.uncut = uncut;
     arranged.cut.given_points = joined.all.points;
     const auto cells =

@@ -21,7 +21,8 @@ using box3 = tf::aabb<double, 3>;
 
 /// Two balls through each other, and what they have in common: a ring about the first axis.
 struct two_balls {
-    tf::mesh mesh = test::together(test::ball(3, 1.0), test::moved(test::ball(3, 1.0), {0.7, 0.1, 0}));
+    tf::mesh mesh =
+        test::together(test::ball(3, 1.0), test::moved(test::ball(3, 1.0), {0.7, 0.1, 0}));
     mesh_meetings met =
         tf::detail::intersect::meetings_of(mesh, tf::self_intersections(mesh).pairs);
 };
@@ -32,9 +33,10 @@ constexpr auto is_low = [](const box3& box) { return box.min[2] <= -0.25; };
 double bottom_of(const two_balls& balls, const tf::detail::intersect::meeting& m) {
     double low = 9.0;
     for (const auto& end : std::span(m.ends).first(m.count))
-        low = std::min(low, end.point < balls.mesh.points.size()
-                                ? balls.mesh.points[end.point].z
-                                : balls.met.points[end.point - balls.mesh.points.size()].center().z);
+        low =
+            std::min(low, end.point < balls.mesh.points.size()
+                              ? balls.mesh.points[end.point].z
+                              : balls.met.points[end.point - balls.mesh.points.size()].center().z);
     return low;
 }
 
@@ -76,9 +78,9 @@ TEST_CASE("wanted meetings: names are those that are still in use, and of the sa
     CHECK(std::is_sorted(some.met.names.begin(), some.met.names.end()));
     std::set<std::uint32_t> used;
     for (const auto& m : some.met.meetings) {
-        const auto before = std::find_if(
-            balls.met.meetings.begin(), balls.met.meetings.end(),
-            [&](const auto& other) { return other.a == m.a && other.b == m.b; });
+        const auto before =
+            std::find_if(balls.met.meetings.begin(), balls.met.meetings.end(),
+                         [&](const auto& other) { return other.a == m.a && other.b == m.b; });
         REQUIRE(before != balls.met.meetings.end());
         for (std::size_t k = 0; k < m.count; ++k) {
             const std::uint32_t now = m.ends[k].point, was = before->ends[k].point;

@@ -87,8 +87,7 @@ TEST_CASE("face samples: hidden faces count for what it costs to cut them") {
     std::vector<tf::mesh> drilled{box(8, 8, 0.5)};
     for (int i = 0; i < 64; ++i)
         drilled.push_back(moved(pin(32, 0.3, 1.0), {i % 8 + 0.5, i / 8 + 0.5, -0.25}));
-    const auto samples =
-        samples_of(drilled, tf::boolean_expression::difference_of(drilled.size()));
+    const auto samples = samples_of(drilled, tf::boolean_expression::difference_of(drilled.size()));
     CHECK(samples.hidden > 0.0);
     CHECK(samples.hidden < 0.25);
     // Each face of a side has two large ones of the plate near it, and its fellows have none.
