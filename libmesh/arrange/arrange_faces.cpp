@@ -1,8 +1,10 @@
 #include <libmesh/arrange/arrange_pairs.hpp>
 #include <libmesh/arrange/cluster.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/arrange/wanted_meetings.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/checked_face_tree.hpp>
+#include <libmesh/base/face_boxes.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/stars.hpp>
@@ -29,6 +31,7 @@ namespace treeform {
 namespace {
 
 using detail::arrange::cut_cluster;
+using detail::arrange::is_box_wanted;
 using detail::base::part_of;
 using detail::intersect::meeting;
 using detail::intersect::mesh_meetings;
@@ -137,14 +140,19 @@ struct numbering {
     std::vector<std::uint32_t> made_begin;  ///< [clusters] item of a cluster's first made point
 };
 
-/// `named` are the points that meetings have.
+/// `named` are the points that meetings have; those that clusters made are taken from them.
 numbering number_points(std::size_t given, std::vector<implicit_point> named,
-                        const std::vector<cut_cluster>& cuts) {
+                        std::vector<cut_cluster>& cuts) {
     numbering result;
     std::vector<implicit_point> items = std::move(named);
-    for (const cut_cluster& c : cuts) {
+    // Points are large: room for all that are made, and no more.
+    std::size_t made = 0;
+    for (const cut_cluster& c : cuts) made += c.made.size();
+    items.reserve(items.size() + made);
+    for (cut_cluster& c : cuts) {
         result.made_begin.push_back(static_cast<std::uint32_t>(items.size()));
         items.insert(items.end(), c.made.begin(), c.made.end());
+        c.made = std::vector<implicit_point>();
     }
     detail::base::union_find sets(items.size());
     std::vector<std::uint32_t> given_of(items.size(), none);
@@ -319,20 +327,11 @@ class emitter {
     std::vector<place> begin_;  ///< [chunks + 1]
 };
 
-/// `arrange_pairs` without the given points.
-arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pairs,
-                                   std::vector<std::uint32_t> degenerate,
-                                   const progress_callback& progress) {
-    arrange_faces_result result;
-    const std::size_t count = mesh.faces.size();
-    result.pairs = pairs.size();
-    mesh_meetings met = detail::intersect::meetings_of(mesh, pairs);
-    const detail::arrange::meetings_by_face by_face(met.meetings);
-    const clusters groups = gather(count, met);
-    result.cut_faces = groups.members.size();
-
+std::vector<cut_cluster> cut_clusters(mesh_view mesh, const mesh_meetings& met,
+                                      const clusters& groups) {
     constexpr std::size_t clusters_a_chunk = 16;
     constexpr std::size_t memory_a_chunk = std::size_t{1} << 15;  // enough for nearly all clusters
+    const detail::arrange::meetings_by_face by_face(met.meetings);
     std::vector<cut_cluster> cuts(groups.size());
     for_chunks(groups.size(), clusters_a_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -343,12 +342,32 @@ arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pa
                        memory.release();
                    }
                });
+    return cuts;
+}
+
+/// `arrange_pairs` without the given points.
+///
+/// \param is_wanted none where all is
+arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pairs,
+                                   std::vector<std::uint32_t> degenerate,
+                                   const is_box_wanted* is_wanted,
+                                   const progress_callback& progress) {
+    arrange_faces_result result;
+    const std::size_t count = mesh.faces.size();
+    mesh_meetings met = detail::intersect::meetings_of(mesh, pairs);
+    if (is_wanted != nullptr) detail::arrange::keep_wanted(met, mesh.points, *is_wanted);
+    result.pairs = met.meetings.size();
+    const clusters groups = gather(count, met);
+    result.cut_faces = groups.members.size();
+    std::vector<cut_cluster> cuts = cut_clusters(mesh, met, groups);
+    std::vector<implicit_point> named = std::move(met.points);
+    met = {};
     if (progress && !progress(0.8)) {
         result.cancelled = true;
         return result;
     }
 
-    numbering numbers = number_points(mesh.points.size(), std::move(met.points), cuts);
+    numbering numbers = number_points(mesh.points.size(), std::move(named), cuts);
     std::vector<char> is_not_whole(count, 0);
     for (const std::uint32_t f : groups.members) is_not_whole[f] = 1;
     for (const std::uint32_t f : degenerate) is_not_whole[f] = 1;
@@ -370,27 +389,14 @@ void copy_points(mesh_view mesh, arrange_faces_result& result) {
     if (!result.cancelled) result.cut.given_points.assign(mesh.points.begin(), mesh.points.end());
 }
 
-}  // namespace
-
-arrange_faces_result detail::arrange::arrange_pairs(mesh_view mesh,
-                                                    std::span<const face_pair> pairs,
-                                                    std::vector<std::uint32_t> degenerate,
-                                                    const progress_callback& progress) {
-    arrange_faces_result result = arrange_known(mesh, pairs, std::move(degenerate), progress);
-    copy_points(mesh, result);
-    return result;
-}
-
-arrange_faces_result detail::arrange::arrange_without_points(mesh_view mesh,
-                                                             const arrange_faces_options& options) {
-    return arrange_wanted(
-        mesh, [](const face_pair&) { return true; }, options);
-}
-
-arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
-                                                     function_ref<bool(const face_pair&)> is_wanted,
-                                                     const arrange_faces_options& options) {
-    base::check_faces("arrange_faces", mesh.points.size(), mesh.faces);
+/// Of the pairs of faces that meet, those that are wanted.
+///
+/// \param where none where all that these have in common is
+arrange_faces_result arrange_found(mesh_view mesh,
+                                   detail::function_ref<bool(const face_pair&)> is_wanted,
+                                   const is_box_wanted* where,
+                                   const arrange_faces_options& options) {
+    detail::base::check_faces("arrange_faces", mesh.points.size(), mesh.faces);
     std::vector<std::uint32_t> degenerate = degenerate_faces(mesh);
     // Degenerate faces are shut out by hiding them: pairs are looked for among the others only.
     std::vector<face> kept;
@@ -407,8 +413,8 @@ arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
             }
         usable.faces = kept;
     }
-    self_intersection_result found = intersect::pairs_by_tree(
-        usable, base::checked_face_tree(usable),
+    self_intersection_result found = detail::intersect::pairs_by_tree(
+        usable, detail::base::checked_face_tree(usable),
         {.vertices = vertex_identity::by_index, .progress = part_of(options.progress, 0.0, 0.5)});
     if (found.cancelled) return cancelled_result(std::move(degenerate));
     if (!degenerate.empty())
@@ -417,8 +423,43 @@ arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
             pair.b = kept_number[pair.b];
         }
     std::erase_if(found.pairs, [&](const face_pair& pair) { return !is_wanted(pair); });
-    return arrange_known(mesh, found.pairs, std::move(degenerate),
+    return arrange_known(mesh, found.pairs, std::move(degenerate), where,
                          part_of(options.progress, 0.5, 1.0));
+}
+
+}  // namespace
+
+arrange_faces_result detail::arrange::arrange_pairs(mesh_view mesh,
+                                                    std::span<const face_pair> pairs,
+                                                    std::vector<std::uint32_t> degenerate,
+                                                    const progress_callback& progress) {
+    arrange_faces_result result =
+        arrange_known(mesh, pairs, std::move(degenerate), nullptr, progress);
+    copy_points(mesh, result);
+    return result;
+}
+
+arrange_faces_result detail::arrange::arrange_without_points(mesh_view mesh,
+                                                             const arrange_faces_options& options) {
+    return arrange_wanted(
+        mesh, [](const face_pair&) { return true; }, options);
+}
+
+arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
+                                                     function_ref<bool(const face_pair&)> is_wanted,
+                                                     const arrange_faces_options& options) {
+    return arrange_found(mesh, is_wanted, nullptr, options);
+}
+
+arrange_faces_result detail::arrange::arrange_where(mesh_view mesh, const is_box_wanted& is_wanted,
+                                                    const arrange_faces_options& options) {
+    const auto box_of = detail::base::face_boxes(mesh.points);
+    return arrange_found(
+        mesh,
+        [&](const face_pair& pair) {
+            return is_wanted(common_box(box_of(mesh.faces[pair.a]), box_of(mesh.faces[pair.b])));
+        },
+        &is_wanted, options);
 }
 
 arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {

@@ -39,21 +39,17 @@ std::optional<std::vector<std::uint32_t>> active_faces(const active_space& space
     return faces;
 }
 
-aabb<double, 3> box_of(mesh_view mesh, std::uint32_t f) {
-    aabb<double, 3> box;
-    for (const std::uint32_t corner : mesh.faces[f]) box.include(mesh.points[corner]);
-    return box;
-}
-
 }  // namespace
 
 std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
-                                                       const operand_edges& edges,
+                                                       operand_edges&& edges,
                                                        const boolean_expression& expression,
                                                        const rounding_try& options) {
     if (edges.piece.count() < fewest_components) return std::nullopt;
-    const std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
+    // What each face has a number in goes as soon as it may: the crowd is far larger than the result.
+    std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
     const surface_components components(joined.all, operand_of_face, edges);
+    edges = {};
     if (components.size() < fewest_components) return std::nullopt;
     const auto stops = [&](double done) { return options.progress && !options.progress(done); };
     if (stops(0.1)) return unmended_result{with_counts({}), {}};
@@ -74,12 +70,10 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
         faces.push_back(joined.all.faces[f]);
         operands.push_back(operand_of_face[f]);
     }
+    operand_of_face = std::vector<std::uint32_t>();
     const mesh_view active{joined.all.points, faces};
-    arrange_faces_result arranged = arrange::arrange_wanted(
-        active,
-        [&](const face_pair& pair) {
-            return space.reaches_active(common_box(box_of(active, pair.a), box_of(active, pair.b)));
-        },
+    arrange_faces_result arranged = arrange::arrange_where(
+        active, [&](const aabb<double, 3>& box) { return space.reaches_active(box); },
         {.progress = base::part_of(options.progress, 0.2, 0.5)});
     unmended_result made{with_counts(arranged), {}};
     made.result.statistics.skipped_faces = all - faces.size();

@@ -17,10 +17,10 @@ namespace treeform::detail::boolean {
 /// None where that would leave out too little to be worth it, or only the general way will do;
 /// `joined` is as before then. Otherwise it is used up.
 ///
-/// \param edges of `joined`
+/// \param edges of `joined`; used up
 /// \same  on any number of threads
 [[nodiscard]] std::optional<unmended_result> boolean_in_active_space(
-    joined_operands& joined, const operand_edges& edges, const boolean_expression& expression,
+    joined_operands& joined, operand_edges&& edges, const boolean_expression& expression,
     const rounding_try& options);
 
 }  // namespace treeform::detail::boolean

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -39,18 +40,45 @@ struct face_places {
     std::vector<std::uint8_t> is_hidden;  ///< [F'] a corner is not
 };
 
-face_places find_places(const mesh_arrangement& cut, const active_space& space) {
+/// Which points of an arrangement are in active space; each is found out where it is first asked
+/// for, by two threads at once, if need be.
+class point_places {
+  public:
+    point_places(const mesh_arrangement& cut, const active_space& space)
+        : cut_(cut), space_(space), known_(cut.given_points.size() + cut.constructed.size(), 0) {}
+
+    [[nodiscard]] bool is_active(std::uint32_t p) {
+        constexpr std::uint8_t hidden = 1, active = 2;
+        const std::atomic_ref known(known_[p]);
+        std::uint8_t place = known.load(std::memory_order_relaxed);
+        if (place == 0) {
+            place = space_.reaches_active(box_of(cut_, p)) ? active : hidden;
+            known.store(place, std::memory_order_relaxed);
+        }
+        return place == active;
+    }
+
+  private:
+    const mesh_arrangement& cut_;
+    const active_space& space_;
+    std::vector<std::uint8_t> known_;
+};
+
+face_places find_places(const mesh_arrangement& cut, const active_space& space,
+                        point_places& points) {
     face_places places;
     places.is_within.resize(cut.faces.size(), 0);
     places.is_hidden.resize(cut.faces.size(), 0);
     for_chunks(cut.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
-            std::array<box3, 3> corner;
-            for (std::size_t k = 0; k < 3; ++k) corner[k] = box_of(cut, cut.faces[f][k]);
-            const bool hidden = std::ranges::any_of(
-                corner, [&](const box3& box) { return !space.reaches_active(box); });
+            const face& corners = cut.faces[f];
+            const bool hidden =
+                !std::ranges::all_of(corners, [&](std::uint32_t p) { return points.is_active(p); });
             places.is_hidden[f] = hidden ? 1 : 0;
-            places.is_within[f] = !hidden && space.is_within_active(corner) ? 1 : 0;
+            if (hidden) continue;
+            std::array<box3, 3> corner;
+            for (std::size_t k = 0; k < 3; ++k) corner[k] = box_of(cut, corners[k]);
+            places.is_within[f] = space.is_within_active(corner) ? 1 : 0;
         }
     });
     return places;
@@ -58,16 +86,19 @@ face_places find_places(const mesh_arrangement& cut, const active_space& space) 
 
 surface_patches find_active_patches(const mesh_arrangement& cut,
                                     std::span<const std::uint32_t> operand_of_face,
-                                    const active_space& space, const face_places& places) {
+                                    const active_space& space, const face_places& places,
+                                    point_places& at) {
     const auto judge = [&](const std::array<std::uint32_t, 2>& points,
                            std::span<const arrange::face_side> sides) {
         const auto within = std::ranges::count_if(sides, [&](arrange::face_side side) {
             return places.is_within[arrange::face_of(side)] != 0;
         });
         if (within == std::ssize(sides)) return arrange::edge_use::all;
+        if (within > 0) return arrange::edge_use::junction;
+        if (!at.is_active(points[0]) || !at.is_active(points[1])) return arrange::edge_use::nothing;
         const std::array<box3, 2> ends = {box_of(cut, points[0]), box_of(cut, points[1])};
-        if (within == 0 && !space.is_within_active(ends)) return arrange::edge_use::nothing;
-        return arrange::edge_use::junction;
+        return space.is_within_active(ends) ? arrange::edge_use::junction
+                                            : arrange::edge_use::nothing;
     };
     surface_patches patches = arrange::find_patches(cut, operand_of_face, judge);
     if (patches.open_count > 0)
@@ -95,8 +126,9 @@ class cell_finder {
           cut_(cut),
           components_(components),
           at_nowhere_(at_nowhere),
-          places_(find_places(cut, space)),
-          patches_(find_active_patches(cut, operand_of_face, space, places_)),
+          points_(cut, space),
+          places_(find_places(cut, space, points_)),
+          patches_(find_active_patches(cut, operand_of_face, space, places_, points_)),
           regions_(cut, operand_of_face, patches_,
                    find_regions(mesh, cut, patches_, places_.is_within)),
           is_hidden_(patches_.count(), 0) {
@@ -153,6 +185,7 @@ class cell_finder {
     const mesh_arrangement& cut_;
     const surface_components& components_;
     const partial_expression& at_nowhere_;
+    point_places points_;
     face_places places_;
     surface_patches patches_;
     region_graph regions_;

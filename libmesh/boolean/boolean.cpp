@@ -160,13 +160,13 @@ unmended_result boolean_of(std::span<const mesh_view> operands,
     arranged_operands input{join_usable(operands), {}};
     auto& [joined, arranged] = input;
     {
-        const operand_edges edges =
+        operand_edges edges =
             detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
         if (const auto open = open_edges_of(joined, edges); open.count > 0)
             return open_result(open_input(open, joined));
         if (!options.volumes)
-            if (auto made =
-                    detail::boolean::boolean_in_active_space(joined, edges, expression, options))
+            if (auto made = detail::boolean::boolean_in_active_space(joined, std::move(edges),
+                                                                     expression, options))
                 return std::move(*made);
     }
     arrange_joined(input, part_of(options.progress, 0.2, 0.5));

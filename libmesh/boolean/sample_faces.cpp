@@ -17,6 +17,15 @@
 namespace treeform::detail::boolean {
 namespace {
 
+/// The i-th of `count` numbers below `size`, one in each of so many equal parts; in each part
+/// elsewhere, for crowds of copies repeat themselves.
+std::uint32_t sample(std::size_t i, std::size_t count, std::size_t size) {
+    constexpr double golden = 0.6180339887498949;
+    const double within = golden * static_cast<double>(i + 1);
+    const double at = static_cast<double>(i) + (within - std::floor(within));
+    return static_cast<std::uint32_t>(at / static_cast<double>(count) * static_cast<double>(size));
+}
+
 /// Places on both sides of a face, in its middle and near its corners: on both, since of faces that
 /// touch it is not the sides between them that are hidden.
 std::array<point3, 8> places_beside(mesh_view mesh, std::uint32_t f) {
@@ -85,19 +94,19 @@ face_samples sample_faces(const surface_components& components,
     for_chunks(count, samples_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         partial_expression state = at_nowhere;
         for (std::size_t i = begin; i < end; ++i) {
-            const auto f =
-                static_cast<std::uint32_t>((2 * i + 1) * mesh.faces.size() / (2 * count));
+            const std::uint32_t f = sample(i, count, mesh.faces.size());
             const std::uint32_t own = component[f];
-            neighbors += count_neighbors(components, own, f);
+            const std::size_t near = count_neighbors(components, own, f);
+            neighbors += near;
             const winding_range& range = components.range(own);
             state.add(components.operand(own), range);
             const auto places = places_beside(mesh, f);
-            if (are_settled(components, own, places, state)) ++hidden;
+            if (are_settled(components, own, places, state)) hidden += 1 + near;
             state.add(components.operand(own), {-range.low, -range.high});
         }
     });
-    const auto all = static_cast<double>(count);
-    return {static_cast<double>(hidden) / all, static_cast<double>(neighbors) / all};
+    const auto all = static_cast<double>(count), near = static_cast<double>(neighbors);
+    return {static_cast<double>(hidden) / (all + near), near / all};
 }
 
 }  // namespace treeform::detail::boolean

@@ -2,18 +2,14 @@
 /// \file
 /// Boxes on the way down to settled and active ones, and what reaches into each.
 
-#include <libmesh/base/face_boxes.hpp>
 #include <libmesh/boolean/active_space.hpp>
+#include <libmesh/boolean/component_items.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
-#include <libmesh/boolean/rough_corners.hpp>
 #include <libmesh/boolean/surface_components.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
-#include <treeform/tree/detail/box_in_space.hpp>
-#include <treeform/tree/tree.hpp>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -26,15 +22,6 @@ namespace treeform::detail::boolean {
 /// shared out among the halves; where one is settled, the faces that are in it alone pay so much.
 constexpr double budget_of_face = 16.0;
 constexpr double pay_of_face = 4.0;
-
-/// What reaches into a box of a component: all below a node of its tree, or a face of it, which is
-/// one level lower.
-struct item {
-    std::uint32_t component;
-    std::uint32_t level;
-    std::uint32_t number;
-};
-using items = std::vector<item>;  // ascending by component
 
 struct settled_component {
     std::uint32_t component;
@@ -77,24 +64,6 @@ inline bool can_be_halved(const aabb<double, 3>& box, std::size_t& axis, double&
     return box.min[axis] < at && at < box.max[axis];
 }
 
-/// Where a box of a node is along one axis: as `box_in_space`, of which the others are not needed.
-inline aabb<double, 1> extent_in_space(const tree_frame<3>& frame, const wide_node<3>& boxes,
-                                       std::size_t slot, std::size_t axis) {
-    tree_frame<1> along;
-    along.origin[0] = frame.origin[axis];
-    along.scale = frame.scale;
-    wide_node<1> only;
-    only.min[0][0] = boxes.min[axis][slot];
-    only.max[0][0] = boxes.max[axis][slot];
-    return box_in_space(along, only, 0);
-}
-
-inline bool is_larger(const aabb<double, 3>& a, const aabb<double, 3>& b) {
-    for (std::size_t k = 0; k < 3; ++k)
-        if (0.5 * a.max[k] - 0.5 * a.min[k] > 0.5 * b.max[k] - 0.5 * b.min[k]) return true;
-    return false;
-}
-
 /// Halves boxes, and says what of the components that reach into them is known in each half.
 class divider {
   public:
@@ -102,7 +71,7 @@ class divider {
             std::vector<std::uint8_t>& is_active_face)
         : components_(components),
           limits_(limits),
-          box_of_(base::face_boxes(components.mesh().points)),
+          items_(components),
           is_active_face_(is_active_face) {}
 
     [[nodiscard]] place everything() const {
@@ -138,7 +107,12 @@ class divider {
             const std::uint32_t c = i->component;
             const std::size_t in_lower = result.lower.inside.size();
             const std::size_t in_upper = result.upper.inside.size();
-            for (; i != p.inside.end() && i->component == c; ++i) sort_in_known(*i, result);
+            if (i->level == 0)
+                sort_in_root(*i++, result);
+            else
+                for (const framed_halves box = framed(c, result);
+                     i != p.inside.end() && i->component == c; ++i)
+                    sort_in_known(*i, box, result);
             if (result.lower.inside.size() == in_lower) leave(c, result.lower, settles);
             if (result.upper.inside.size() == in_upper) leave(c, result.upper, settles);
             if (result.lower.is_settled && result.upper.is_settled) return true;
@@ -177,7 +151,11 @@ class divider {
     }
 
     void mark_faces(const place& p) const {
-        for (const item& i : p.inside) mark_faces(i, p.box);
+        for (auto i = p.inside.begin(); i != p.inside.end();) {
+            const std::uint32_t c = i->component;
+            const framed_box box = items_.framed(c, p.box);
+            for (; i != p.inside.end() && i->component == c; ++i) mark_faces(*i, box);
+        }
     }
 
     /// Adds the ranges of the components that reach into a place, or takes them away.
@@ -246,82 +224,56 @@ class divider {
         return std::ranges::binary_search(p.inside, c, {}, &item::component);
     }
 
-    [[nodiscard]] bool is_face(const item& i) const {
-        return i.level == components_.tree_of(i.component).levels();
-    }
-    [[nodiscard]] std::size_t faces_below(const item& i) const {
-        if (is_face(i)) return 1;
-        const tree<3>& tree = components_.tree_of(i.component);
-        const std::size_t each = tree.capacity(i.level);
-        return std::min(each, tree.size() - each * i.number);
-    }
-    [[nodiscard]] std::uint32_t face_of(const item& i) const {
-        return components_.faces(i.component)[components_.tree_of(i.component).ids()[i.number]];
-    }
-    [[nodiscard]] aabb<double, 3> box_of(const item& i) const {
-        const tree<3>& tree = components_.tree_of(i.component);
-        if (is_face(i)) return box_of_(components_.mesh().faces[face_of(i)]);
-        if (i.level == 0) return components_.box(i.component);
-        return box_in_space(tree.frame(), tree.level(i.level - 1)[i.number / tree.width],
-                            i.number % tree.width);
+    struct framed_halves {
+        framed_box lower, upper;
+    };
+
+    [[nodiscard]] framed_halves framed(std::uint32_t c, const halves& parts) const {
+        return {items_.framed(c, parts.lower.box), items_.framed(c, parts.upper.box)};
     }
 
-    /// \pre `i` is no face
-    template <class Visit>
-    void for_children(const item& i, const Visit& visit) const {
-        const tree<3>& tree = components_.tree_of(i.component);
-        const auto first = static_cast<std::uint32_t>(tree.width * i.number);
-        const std::size_t children = tree.children(i.level, i.number);
-        for (std::uint32_t k = 0; k < children; ++k)
-            visit(item{i.component, i.level + 1, first + k});
-    }
-
-    /// Whether an item, which is in `own`, may reach into a box. Of a large face not all that its box
-    /// does.
-    [[nodiscard]] bool reaches(const item& i, const aabb<double, 3>& own,
-                               const aabb<double, 3>& box) const {
-        if (!overlaps(own, box)) return false;
-        if (!is_face(i) || !is_larger(own, box)) return true;
-        std::array<aabb<double, 3>, 3> corners;
-        for (std::size_t k = 0; k < 3; ++k)
-            corners[k].include(components_.mesh().points[components_.mesh().faces[face_of(i)][k]]);
-        return !rough_corners(corners).is_apart_from(box);
+    /// Puts a whole component into the halves that it reaches into, or opens it.
+    void sort_in_root(const item& i, halves& result) const {
+        const aabb<double, 3>& own = components_.box(i.component);
+        if (is_larger(own, result.lower.box)) {
+            const framed_halves box = framed(i.component, result);
+            items_.for_children(i, [&](const item& child) { sort_in(child, box, result); });
+        } else {
+            put(i, overlaps(own, result.lower.box), overlaps(own, result.upper.box), result);
+        }
     }
 
     /// Puts an item into the halves that it reaches into, opened where it is larger than they are.
-    void sort_in(const item& i, halves& result) const {
-        const aabb<double, 3> box = box_of(i);
-        const bool in_lower = !result.lower.is_settled && reaches(i, box, result.lower.box);
-        const bool in_upper = !result.upper.is_settled && reaches(i, box, result.upper.box);
+    void sort_in(const item& i, const framed_halves& box, halves& result) const {
+        const aabb<float, 3> own = items_.box_of(i);
+        const bool in_lower = !result.lower.is_settled && items_.reaches(i, own, box.lower);
+        const bool in_upper = !result.upper.is_settled && items_.reaches(i, own, box.upper);
         if (!in_lower && !in_upper) return;
-        if (is_face(i) || !is_larger(box, result.lower.box))
+        if (items_.is_face(i) || !is_larger(own, box.lower.in_frame))
             put(i, in_lower, in_upper, result);
         else
-            for_children(i, [&](const item& child) { sort_in(child, result); });
+            items_.for_children(i, [&](const item& child) { sort_in(child, box, result); });
     }
 
     /// The same of an item that reaches into both halves together, and is no larger: along the other
     /// axes nothing has changed.
-    void sort_in_known(const item& i, halves& result) const {
-        const tree<3>& tree = components_.tree_of(i.component);
-        if (i.level == 0 || i.level == tree.levels()) return sort_in(i, result);
+    void sort_in_known(const item& i, const framed_halves& box, halves& result) const {
+        if (items_.is_face(i)) return sort_in(i, box, result);
         const std::size_t axis = result.axis;
-        const auto extent =
-            extent_in_space(tree.frame(), tree.level(i.level - 1)[i.number / tree.width],
-                            i.number % tree.width, axis);
-        const aabb<double, 3>& lower = result.lower.box;
-        if (0.5 * extent.max[0] - 0.5 * extent.min[0] >
-            0.5 * lower.max[axis] - 0.5 * lower.min[axis])
-            for_children(i, [&](const item& child) { sort_in(child, result); });
+        const aabb<float, 1> own = items_.extent_of(i, axis);
+        const aabb<float, 3>& lower = box.lower.in_frame;
+        if (0.5F * own.max[0] - 0.5F * own.min[0] > 0.5F * lower.max[axis] - 0.5F * lower.min[axis])
+            items_.for_children(i, [&](const item& child) { sort_in(child, box, result); });
         else
-            put(i, extent.min[0] <= result.at, extent.max[0] >= result.at, result);
+            put(i, own.min[0] <= lower.max[axis], own.max[0] >= box.upper.in_frame.min[axis],
+                result);
     }
 
     void put(const item& i, bool in_lower, bool in_upper, halves& result) const {
         in_lower = in_lower && !result.lower.is_settled;
         in_upper = in_upper && !result.upper.is_settled;
         if (!in_lower && !in_upper) return;
-        const std::size_t faces = faces_below(i);
+        const std::size_t faces = items_.faces_below(i);
         if (in_lower) {
             result.lower.inside.push_back(i);
             result.lower.faces += faces;
@@ -332,18 +284,22 @@ class divider {
         }
     }
 
-    void mark_faces(const item& i, const aabb<double, 3>& box) const {
-        if (!reaches(i, box_of(i), box)) return;
-        if (is_face(i)) {
-            std::atomic_ref(is_active_face_[face_of(i)]).store(1, std::memory_order_relaxed);
+    /// \pre the item may reach into the box
+    void mark_faces(const item& i, const framed_box& box) const {
+        if (items_.is_face(i)) {
+            const std::atomic_ref mark(is_active_face_[items_.face_of(i)]);
+            if (mark.load(std::memory_order_relaxed) == 0)  // else let others keep it in reach
+                mark.store(1, std::memory_order_relaxed);
             return;
         }
-        for_children(i, [&](const item& child) { mark_faces(child, box); });
+        items_.for_children(i, [&](const item& child) {
+            if (items_.reaches(child, items_.box_of(child), box)) mark_faces(child, box);
+        });
     }
 
     const surface_components& components_;
     division_limits limits_;
-    decltype(base::face_boxes(points_view{})) box_of_;
+    component_items items_;
     std::vector<std::uint8_t>& is_active_face_;
 };
 

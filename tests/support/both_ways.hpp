@@ -17,6 +17,7 @@
 #include <support/exact_chain.hpp>
 #include <support/rational_volume.hpp>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -81,20 +82,15 @@ inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
         const auto& [a, b, c] = faces[f];
         return tf::triangle3{active.points[a], active.points[b], active.points[c]};
     };
-    const auto box_of = [&](std::uint32_t f) {
-        tf::aabb<double, 3> box;
-        for (const tf::point3& p : corners(f)) box.include(p);
-        return box;
-    };
-    std::size_t uncut = 0;
-    tf::arrange_faces_result arranged = tf::detail::arrange::arrange_wanted(
-        active,
-        [&](const tf::face_pair& pair) {
-            const bool wanted = space.reaches_active(common_box(box_of(pair.a), box_of(pair.b)));
-            uncut += wanted ? 0 : 1;
-            return wanted;
-        },
-        {});
+    std::atomic<std::size_t> uncut = 0;
+    tf::arrange_faces_result arranged =
+        tf::detail::arrange::arrange_where(active,
+                                           [&](const tf::aabb<double, 3>& box) {
+                                               const bool wanted = space.reaches_active(box);
+                                               uncut += wanted ? 0 : 1;
+                                               return wanted;
+                                           },
+                                           {});
     result.uncut = uncut;
     arranged.cut.given_points = joined.all.points;
     const auto cells =

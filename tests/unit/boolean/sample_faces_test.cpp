@@ -8,7 +8,9 @@
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,11 +31,31 @@ tf::detail::boolean::face_samples samples_of(const std::vector<tf::mesh>& solids
     return detail::sample_faces(components, {expression, tf::fill_rule::nonzero});
 }
 
+/// A prism along the third axis, from 0 up.
+tf::mesh pin(std::uint32_t sides, double radius, double height) {
+    tf::mesh result;
+    for (const double z : {0.0, height})
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            const double turn = 2 * 3.14159265358979 * i / sides;
+            result.points.push_back({radius * std::cos(turn), radius * std::sin(turn), z});
+        }
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const std::uint32_t a = i, b = (i + 1) % sides;
+        result.faces.push_back({a, b, b + sides});
+        result.faces.push_back({a, b + sides, a + sides});
+        if (i == 0 || i + 1 == sides) continue;
+        result.faces.push_back({0, b, a});
+        result.faces.push_back({sides, a + sides, b + sides});
+    }
+    return result;
+}
+
 }  // namespace
 
 TEST_CASE("face samples: what is in others is hidden, what is apart or touches is not") {
     const auto union_of = [](std::size_t n) { return tf::boolean_expression::union_of(n); };
-    const std::vector<tf::mesh> nested{ball(2, 1.0), ball(2, 0.5), ball(2, 0.25)};
+    const std::vector<tf::mesh> nested{ball(2, 1.0), ball(2, 0.3), ball(2, 0.08)};
+    CHECK(samples_of(nested, union_of(3)).neighbors == 0.0);
     CHECK(samples_of(nested, union_of(3)).hidden == doctest::Approx(2.0 / 3).epsilon(0.05));
     CHECK(samples_of(nested, {"a*b*c", 3}).hidden == doctest::Approx(2.0 / 3).epsilon(0.05));
     CHECK(samples_of(nested, {"a^b^c", 3}).hidden == 0.0);
@@ -58,4 +80,16 @@ TEST_CASE("face samples: faces that lie half in another solid are not hidden") {
     const auto samples = samples_of(cross, tf::boolean_expression::union_of(3));
     CHECK(samples.hidden == 0.0);
     CHECK(samples.neighbors > 1.0);
+}
+
+TEST_CASE("face samples: hidden faces count for what it costs to cut them") {
+    // Pins through a plate: half of all faces are their ends, out of it, where nothing is near them.
+    std::vector<tf::mesh> drilled{box(8, 8, 0.5)};
+    for (int i = 0; i < 64; ++i)
+        drilled.push_back(moved(pin(32, 0.3, 1.0), {i % 8 + 0.5, i / 8 + 0.5, -0.25}));
+    const auto samples = samples_of(drilled, tf::boolean_expression::difference_of(drilled.size()));
+    CHECK(samples.hidden > 0.0);
+    CHECK(samples.hidden < 0.25);
+    // Each face of a side has two large ones of the plate near it, and its fellows have none.
+    CHECK(samples.neighbors > 0.9);
 }
