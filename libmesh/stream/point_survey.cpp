@@ -1,5 +1,4 @@
 #include <libmesh/stream/point_survey.hpp>
-#include <treeform/mesh/point_stream.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -61,15 +60,19 @@ void extend(std::optional<box3>& box, const std::optional<box3>& more) {
 
 }  // namespace
 
-point_survey survey(const std::filesystem::path& path, const std::string& format, pacer& pace) {
-    point_reader reader(path, format);
+point_survey survey(joined_points& points, pacer& pace) {
     point_survey result;
     cloud_survey& s = result.cloud;
     sampler chosen;
     point_block block;
-    while (reader.read(block, points_a_block)) {
+    for (std::size_t i = 0; i < points.files(); ++i)
+        s.sources.push_back({.format = points.format(i)});
+    points.rewind();
+    while (points.read(block, points_a_block)) {
         extend(s.box, bounding_box(block.points));
-        s.single = s.single && fits_single(block.points);
+        cloud_survey::source& from = s.sources[points.file()];
+        from.points += block.points.size();
+        from.single = from.single && !points.file_header().las && fits_single(block.points);
         for (const point3& p : block.points) {
             if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
                 chosen.consider(s.points, p);
@@ -77,11 +80,12 @@ point_survey survey(const std::filesystem::path& path, const std::string& format
                 ++s.non_finite;
             ++s.points;
         }
-        const auto count = static_cast<double>(reader.count().value_or(s.points));
+        const auto count = static_cast<double>(points.count().value_or(s.points));
         pace.show("look", static_cast<double>(s.points) / count);
     }
-    s.format = reader.header().format;
-    s.warnings = reader.header().warnings;
+    for (const cloud_survey::source& one : s.sources) s.single = s.single && one.single;
+    s.warnings = points.warnings();
+    s.las_moved = points.moved();
     result.sample = chosen.points();
     result.sample_share = chosen.share();
     return result;
@@ -95,7 +99,13 @@ void store(const point_survey& survey, state_writer& state) {
     state.point(s.box ? s.box->min : point3{});
     state.point(s.box ? s.box->max : point3{});
     state.number(s.single ? 1 : 0);
-    state.text(s.format);
+    state.real(s.las_moved);
+    state.number(s.sources.size());
+    for (const cloud_survey::source& one : s.sources) {
+        state.number(one.points);
+        state.number(one.single ? 1 : 0);
+        state.text(one.format);
+    }
     state.number(s.warnings.size());
     for (const io_warning& w : s.warnings) {
         state.text(w.code);
@@ -113,7 +123,13 @@ point_survey load_survey(state_reader& state) {
     const point3 max = state.point();
     if (has_box) s.box = box3{min, max};
     s.single = state.number() != 0;
-    s.format = state.text();
+    s.las_moved = state.real();
+    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
+        cloud_survey::source one{.points = state.number()};
+        one.single = state.number() != 0;
+        one.format = state.text();
+        s.sources.push_back(std::move(one));
+    }
     for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
         std::string code = state.text();
         s.warnings.push_back({std::move(code), state.text()});

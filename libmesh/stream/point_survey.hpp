@@ -2,13 +2,12 @@
 /// \file
 /// What is to be known of a cloud before it is cut into tiles.
 
+#include <libmesh/stream/joined_points.hpp>
 #include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/state_record.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
 #include <cstddef>
-#include <filesystem>
-#include <string>
 #include <vector>
 
 namespace treeform::detail::stream {
@@ -23,8 +22,7 @@ struct point_survey {
 inline constexpr std::size_t points_a_block = std::size_t{1} << 15;
 
 /// Reads the cloud once, in memory that does not depend on its size. \throws io_error, cancelled
-[[nodiscard]] point_survey survey(const std::filesystem::path& path, const std::string& format,
-                                  pacer& pace);
+[[nodiscard]] point_survey survey(joined_points& points, pacer& pace);
 
 void store(const point_survey& survey, state_writer& state);
 /// The sample is not among it.

@@ -13,26 +13,26 @@ namespace treeform::detail::stream {
 
 /// Crowds take room on the disk, but not where they are welded. With the rule first they are best
 /// not cut; chains are welded crowd by crowd only where there is no other way.
-tile_slabs tile_steps::plan() const {
+tile_cuts tile_steps::plan() const {
     const std::vector<point3> some = uncrowded_sample();
     const bool crowded = 4 * some.size() <= 3 * survey_.sample.size();
     if (crowded && rule() == weld_rule::first)
-        if (const auto slabs = plan_by(some)) return *slabs;
-    if (const auto slabs = plan_by(survey_.sample)) return *slabs;
-    if (const auto slabs = plan_by(some)) return *slabs;
+        if (const auto cuts = plan_by(some)) return *cuts;
+    if (const auto cuts = plan_by(survey_.sample)) return *cuts;
+    if (const auto cuts = plan_by(some)) return *cuts;
     return {some, tolerance_, 1};
 }
 
 /// Small tiles stay in the caches while they are welded. Where halos are much of them, larger
 /// ones; where they are most of all, the tolerance is large and little will be kept: one tile.
-std::optional<tile_slabs> tile_steps::plan_by(const std::vector<point3>& sample) const {
+std::optional<tile_cuts> tile_steps::plan_by(const std::vector<point3>& sample) const {
     const auto all = static_cast<double>(survey_.cloud.points);
-    const auto slabs_of = [&](double count) {
-        return tile_slabs(sample, tolerance_,
+    const auto cuts_of = [&](double count) {
+        return tile_cuts(sample, tolerance_,
                           static_cast<std::size_t>(std::ceil(std::max(count, 1.0))));
     };
     if (task_.options.points_per_tile > 0)
-        return slabs_of(all / static_cast<double>(task_.options.points_per_tile));
+        return cuts_of(all / static_cast<double>(task_.options.points_per_tile));
     constexpr double small = 250000.0;
     constexpr double tiles = 1024.0;
     const auto points_in_memory = task_.options.memory / bytes_per_point();
@@ -45,12 +45,12 @@ std::optional<tile_slabs> tile_steps::plan_by(const std::vector<point3>& sample)
                         way{0.25 * room, 1.5}, way{room, 4.0}}) {
         double sum = 0.0;
         for (double count = all / w.most; sum <= w.with_halo * all; count = 1.25 * count + 1.0) {
-            const tile_slabs slabs = slabs_of(count);
-            const std::vector<double> size = sizes_of(slabs, survey_.sample);
-            const std::vector<double> held = sizes_of(slabs, sample);
+            const tile_cuts cuts = cuts_of(count);
+            const std::vector<double> size = sizes_of(cuts, survey_.sample);
+            const std::vector<double> held = sizes_of(cuts, sample);
             sum = std::accumulate(size.begin(), size.end(), 0.0);
             const double largest = *std::max_element(held.begin(), held.end());
-            if (sum <= w.with_halo * all && largest <= 1.25 * w.most) return slabs;
+            if (sum <= w.with_halo * all && largest <= 1.25 * w.most) return cuts;
             if (count > static_cast<double>(sample.size())) break;  // equal points
         }
     }
@@ -76,14 +76,15 @@ std::vector<point3> tile_steps::uncrowded_sample() const {
     return some;
 }
 
-/// Points in each slab, halo included, judged by a sample.
-std::vector<double> tile_steps::sizes_of(const tile_slabs& slabs,
+/// Points in each tile, halo included, judged by a sample.
+std::vector<double> tile_steps::sizes_of(const tile_cuts& cuts,
                                          const std::vector<point3>& sample) const {
-    std::vector<double> size(slabs.size(), 0.0);
+    std::vector<double> size(cuts.size(), 0.0);
+    std::vector<std::uint32_t> halos;
+    const double each = 1.0 / survey_.sample_share;
     for (const point3& p : sample) {
-        const auto place = slabs.find(p);
-        for (std::uint32_t t = place.first; t <= place.last; ++t)
-            size[t] += 1.0 / survey_.sample_share;
+        size[cuts.find(p, halos)] += each;
+        for (const std::uint32_t t : halos) size[t] += each;
     }
     return size;
 }

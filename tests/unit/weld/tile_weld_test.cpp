@@ -41,21 +41,22 @@ struct tiled {
 };
 
 std::vector<std::vector<tile_point>> scatter(const cloud& points,
-                                             const tf::detail::weld::tile_slabs& slabs) {
-    std::vector<std::vector<tile_point>> tiles(slabs.size());
-    bool in_order = true;
+                                             const tf::detail::weld::tile_cuts& cuts) {
+    std::vector<std::vector<tile_point>> tiles(cuts.size());
+    std::vector<std::uint32_t> halos;
+    bool in_range = true;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!finite(points[i])) continue;
-        const auto [own, first, last] = slabs.find(points[i]);
-        in_order = in_order && first <= own && own <= last && last < slabs.size();
-        for (std::uint32_t t = first; t <= last; ++t) {
-            const tile_role role = t != own        ? tile_role::halo
-                                   : first == last ? tile_role::own
-                                                   : tile_role::shared;
-            tiles[t].push_back(tile_point::make(i, role, points[i]));
+        const std::uint32_t own = cuts.find(points[i], halos);
+        in_range = in_range && own < cuts.size();
+        tiles[own].push_back(
+            tile_point::make(i, halos.empty() ? tile_role::own : tile_role::shared, points[i]));
+        for (const std::uint32_t t : halos) {
+            in_range = in_range && t < cuts.size() && t != own;
+            tiles[t].push_back(tile_point::make(i, tile_role::halo, points[i]));
         }
     }
-    REQUIRE(in_order);
+    REQUIRE(in_range);
     return tiles;
 }
 
@@ -107,7 +108,7 @@ tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance, std::
                     test::random& random) {
     cloud sample;
     std::copy_if(points.begin(), points.end(), std::back_inserter(sample), finite);
-    const tf::detail::weld::tile_slabs slabs(sample, tolerance, count);
+    const tf::detail::weld::tile_cuts slabs(sample, tolerance, count);
     const auto tiles = scatter(points, slabs);
     std::vector<std::size_t> order(tiles.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -201,9 +202,9 @@ TEST_CASE("tile_weld: a tolerance that is no length is refused") {
         CHECK_THROWS_AS(tf::detail::weld::border_weld(weld_rule::first, bad),
                         std::invalid_argument);
         CHECK_THROWS_AS(tf::detail::weld::crowded_chain{bad}, std::invalid_argument);
-        CHECK_THROWS_AS(tf::detail::weld::tile_slabs({}, bad, 1), std::invalid_argument);
+        CHECK_THROWS_AS(tf::detail::weld::tile_cuts({}, bad, 1), std::invalid_argument);
     }
-    CHECK_THROWS_AS(tf::detail::weld::tile_slabs({}, 0.0, 0), std::invalid_argument);
+    CHECK_THROWS_AS(tf::detail::weld::tile_cuts({}, 0.0, 0), std::invalid_argument);
 }
 
 TEST_CASE("tile_weld: tiles of random points give the groups of the whole, sparse to dense") {
