@@ -28,7 +28,7 @@ border_point border_of(numbers r) {
 
 tiles_welded tile_steps::weld_borders() {
     const std::uint64_t points = survey_.cloud.points;
-    tiles_welded w(points, rule(), tolerance_, keys_->agree());
+    tiles_welded w(points, rule(), tolerance_, keys_.agree());
     kept_points kept(points);
     const record_count borders = settle_borders(w, kept);
     kept_points without_followers(points);

@@ -46,24 +46,18 @@ std::string name_of_done(std::size_t t) { return std::to_string(t) + ".done"; }
 
 }  // namespace
 
-void tile_steps::open_source() {
-    source_.emplace(task_.inputs, task_.options.as_las);
-    keys_.emplace(source_->header(), task_.options);
-}
-
 void tile_steps::look() {
-    open_source();
     if (!take_over()) {
         const bool anew = folder_.load(plan_name).has_value();
         const std::vector<std::filesystem::path> damaged = survey_.cloud.damaged;
         folder_.clear();
         tiles_.clear();
-        survey_ = stream::survey(*source_, pace_);
+        survey_ = stream::survey(source_, pace_);
         survey_.cloud.started_anew = anew;
         survey_.cloud.damaged = damaged;
     }
     set_tolerance();
-    survey_.cloud.conditions = keys_->conditions();
+    survey_.cloud.conditions = keys_.conditions();
     if (tiles_.empty()) cuts_ = plan();
     say_plan();
 }

@@ -82,8 +82,9 @@ class unpacked {
 
 }  // namespace
 
-tile_steps::tile_steps(pacer& pace, const work_folder& folder, const tile_task& task)
-    : pace_(pace), folder_(folder), task_(task) {}
+tile_steps::tile_steps(pacer& pace, const work_folder& folder, const tile_task& task,
+                       joined_points& source, const point_keys& keys)
+    : pace_(pace), folder_(folder), task_(task), source_(source), keys_(keys) {}
 
 void tile_steps::step_done() const {
     if (task_.options.step_done) task_.options.step_done();
@@ -94,7 +95,7 @@ std::filesystem::path tile_steps::file(std::size_t t, const char* what) const {
 }
 
 weld_rule tile_steps::rule() const {
-    const bool chains_of_equal_points = !keys_->agree().is_transitive();
+    const bool chains_of_equal_points = !keys_.agree().is_transitive();
     return tolerance_ > 0.0 || chains_of_equal_points ? task_.options.rule : weld_rule::first;
 }
 
@@ -142,12 +143,12 @@ void tile_steps::rank_points() {
     row_sorter by_key(folder_, "keys", {.width = 2, .keys = 2}, sorting_memory());
     ranks_ = std::make_unique<row_sorter>(folder_, "ranks", row_sorter::shape{2, 1},
                                           sorting_memory());
-    source_->rewind();
+    source_.rewind();
     point_block block;
     std::vector<std::uint64_t> keys;
     std::uint64_t id = 0;
-    while (source_->read(block, points_a_block)) {
-        keys_->order_of(block, keys);
+    while (source_.read(block, points_a_block)) {
+        keys_.order_of(block, keys);
         for (const std::uint64_t key : keys) by_key.put(std::array{key, id++});
         pace_.show("scatter", 0.4 * static_cast<double>(id) /
                                   static_cast<double>(survey_.cloud.points));
@@ -183,9 +184,9 @@ void tile_steps::give_points() {
     std::vector<std::uint64_t> of_block;
     std::vector<std::uint32_t> halos;
     std::uint64_t id = 0;
-    source_->rewind();
-    while (source_->read(block, points_a_block)) {
-        keys_->values_of(block, of_block);
+    source_.rewind();
+    while (source_.read(block, points_a_block)) {
+        keys_.values_of(block, of_block);
         for (std::size_t i = 0; i < block.points.size(); ++i) {
             const point3& p = block.points[i];
             std::uint64_t rank = id++;
@@ -339,7 +340,7 @@ void tile_steps::weld_tile(std::size_t t) {
 }
 
 void tile_steps::weld_held(std::size_t t, tile_files& files) {
-    weld::tile_weld weld(rule(), tolerance_, keys_->agree());
+    weld::tile_weld weld(rule(), tolerance_, keys_.agree());
     const std::uint64_t room = task_.options.memory / 2 / bytes_per_point();
     weld.reserve(static_cast<std::size_t>(std::min(points_of(tiles_[t]), room)));
     each_point_of(t, files, [&](std::span<const tile_point> points, numbers values) {

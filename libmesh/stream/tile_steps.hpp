@@ -58,7 +58,8 @@ struct tiles_welded {
 /// rule goes through them. Without an order to ask for, these are their numbers.
 class tile_steps {
   public:
-    tile_steps(pacer& pace, const work_folder& folder, const tile_task& task);
+    tile_steps(pacer& pace, const work_folder& folder, const tile_task& task,
+               joined_points& source, const point_keys& keys);
 
     /// Reads the cloud once; or knows it from an earlier run, whose work will then be continued.
     /// Then says where it will be cut.
@@ -91,8 +92,8 @@ class tile_steps {
     };
 
     void step_done() const;
-    [[nodiscard]] joined_points& source() { return *source_; }
-    [[nodiscard]] const point_keys& keys() const { return *keys_; }
+    [[nodiscard]] joined_points& source() { return source_; }
+    [[nodiscard]] const point_keys& keys() const { return keys_; }
     /// For rows on their way to the disk and back.
     [[nodiscard]] std::uint64_t sorting_memory() const { return task_.options.memory / 8; }
 
@@ -112,7 +113,7 @@ class tile_steps {
     /// The rule first where it comes to the same: it holds fewer points.
     [[nodiscard]] weld_rule rule() const;
     [[nodiscard]] std::filesystem::path file(std::size_t t, const char* what) const;
-    [[nodiscard]] std::size_t values() const { return keys_->agree().size(); }
+    [[nodiscard]] std::size_t values() const { return keys_.agree().size(); }
     /// Numbers in a row of a tile's points, and of its border.
     [[nodiscard]] std::size_t point_width() const { return 4 + values(); }
     [[nodiscard]] std::size_t border_width() const {
@@ -127,7 +128,6 @@ class tile_steps {
     [[nodiscard]] std::vector<point3> uncrowded_sample() const;
     [[nodiscard]] std::vector<double> sizes_of(const tile_cuts& cuts,
                                                const std::vector<point3>& sample) const;
-    void open_source();
     void set_tolerance();
     void say_plan();
     void check_memory() const;
@@ -161,8 +161,8 @@ class tile_steps {
     pacer& pace_;
     const work_folder& folder_;
     const tile_task& task_;
-    std::optional<joined_points> source_{};
-    std::optional<point_keys> keys_{};
+    joined_points& source_;
+    const point_keys& keys_;
     point_survey survey_{};
     double tolerance_ = 0.0;
     std::optional<tile_cuts> cuts_{};  ///< until the points are in their tiles

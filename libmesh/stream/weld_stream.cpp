@@ -85,9 +85,11 @@ cloud_outline outline(const cloud_inputs& inputs) {
 struct stream_weld::state {
     state(cloud_inputs inputs, weld_stream_options options)
         : task(task_of(std::move(inputs), std::move(options))),
+          source(task.inputs, task.options.as_las),
+          keys(source.header(), task.options),
           pace(task.options.progress),
           folder(task.options.folder),
-          steps(pace, folder, task) {}
+          steps(pace, folder, task, source, keys) {}
 
     /// Where the work is cancelled, says so.
     template <class Work>
@@ -123,6 +125,8 @@ struct stream_weld::state {
     }
 
     detail::stream::tile_task task;
+    detail::stream::joined_points source;
+    detail::stream::point_keys keys;
     detail::stream::pacer pace;
     detail::stream::work_folder folder;
     detail::stream::tile_steps steps;
