@@ -1,28 +1,38 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/stream/point_survey.hpp>
+#include <libmesh/weld/near_cells.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 namespace treeform::detail::stream {
 namespace {
 
-/// Of points numbered from 0, those whose number is hashed to zeros at the end: as many zeros as
-/// it takes to have room for them. Patterns in a file do not show in it.
+std::uint64_t mix(std::uint64_t h) {
+    h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9;
+    h = (h ^ h >> 27) * 0x94d049bb133111eb;
+    return h ^ h >> 31;
+}
+
+/// Of points with keys, those whose key is hashed to zeros at the end, one a key: as many zeros as it
+/// takes to have room for them. Patterns in a file do not show in it.
 class sampler {
   public:
-    void consider(std::uint64_t id, const point3& p) {
-        const std::uint64_t mixed = mix(id);
+    explicit sampler(std::size_t most) : most_(most) {}
+
+    void consider(std::uint64_t key, const point3& p) {
+        const std::uint64_t mixed = mix(key);
         if ((mixed & mask_) != 0) return;
-        chosen_.emplace_back(mixed, p);
-        if (chosen_.size() < most) return;
+        if (!chosen_.emplace(mixed, p).second || chosen_.size() < most_) return;
         mask_ = 2 * mask_ + 1;
         std::erase_if(chosen_, [&](const auto& c) { return (c.first & mask_) != 0; });
     }
-    [[nodiscard]] double share() const { return 1.0 / (static_cast<double>(mask_) + 1.0); }
     /// Heaps of equal points count once, as they take no room where they are welded.
-    [[nodiscard]] std::vector<point3> points() const {
+    [[nodiscard]] point_survey::part part() const {
         std::vector<point3> all;
         all.reserve(chosen_.size());
         for (const auto& c : chosen_) all.push_back(c.second);
@@ -30,20 +40,13 @@ class sampler {
             return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
         });
         all.erase(std::unique(all.begin(), all.end()), all.end());
-        return all;
+        return {std::move(all), 1.0 / (static_cast<double>(mask_) + 1.0)};
     }
 
   private:
-    static constexpr std::size_t most = std::size_t{1} << 18;
-
-    static std::uint64_t mix(std::uint64_t h) {
-        h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9;
-        h = (h ^ h >> 27) * 0x94d049bb133111eb;
-        return h ^ h >> 31;
-    }
-
+    std::size_t most_;
     std::uint64_t mask_ = 0;
-    std::vector<std::pair<std::uint64_t, point3>> chosen_{};
+    std::unordered_map<std::uint64_t, point3> chosen_{};
 };
 
 void extend(std::optional<box3>& box, const std::optional<box3>& more) {
@@ -60,10 +63,24 @@ void extend(std::optional<box3>& box, const std::optional<box3>& more) {
 
 }  // namespace
 
-point_survey survey(joined_points& points, pacer& pace) {
+std::uint64_t cube_of(const point3& p, double tolerance) {
+    constexpr double far = 0x1p62;
+    const double scale = tolerance > 0.0 ? 1.74 / tolerance : std::numeric_limits<double>::infinity();
+    const auto index = [&](double x) {
+        const double steps = x * scale;
+        if (!(std::abs(steps) < far)) return std::bit_cast<std::int64_t>(x + 0.0);
+        const auto cut = static_cast<std::int64_t>(steps);
+        return static_cast<double>(cut) > steps ? cut - 1 : cut;
+    };
+    return weld::cube_map::hash(index(p.x), index(p.y), index(p.z));
+}
+
+point_survey survey(joined_points& points, std::optional<double> tolerance, std::size_t most,
+                    pacer& pace) {
     point_survey result;
     cloud_survey& s = result.cloud;
-    sampler chosen;
+    sampler chosen(most);
+    sampler places(most);
     point_block block;
     for (std::size_t i = 0; i < points.files(); ++i)
         s.sources.push_back({.format = points.format(i)});
@@ -74,11 +91,13 @@ point_survey survey(joined_points& points, pacer& pace) {
         from.points += block.points.size();
         from.single = from.single && !points.file_header().las && fits_single(block.points);
         for (const point3& p : block.points) {
-            if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
-                chosen.consider(s.points, p);
-            else
+            const std::uint64_t id = s.points++;
+            if (!base::is_finite(p)) {
                 ++s.non_finite;
-            ++s.points;
+                continue;
+            }
+            chosen.consider(id, p);
+            if (tolerance) places.consider(cube_of(p, *tolerance), p);
         }
         const auto count = static_cast<double>(points.count().value_or(s.points));
         pace.show("look", static_cast<double>(s.points) / count);
@@ -86,8 +105,8 @@ point_survey survey(joined_points& points, pacer& pace) {
     for (const cloud_survey::source& one : s.sources) s.single = s.single && one.single;
     s.warnings = points.warnings();
     s.las_moved = points.moved();
-    result.sample = chosen.points();
-    result.sample_share = chosen.share();
+    result.sample = chosen.part();
+    if (tolerance) result.places = places.part();
     return result;
 }
 

@@ -3,12 +3,15 @@
 
 #include <libmesh/stream/tile_steps.hpp>
 
+#include <algorithm>
+#include <bit>
 #include <system_error>
 
 namespace treeform::detail::stream {
 namespace {
 
 const char* const plan_name = "plan";
+constexpr std::uint64_t bytes_of_sample = 512;  ///< of a point in both samples, and plans by them
 
 void store_count(const record_count& c, state_writer& state) {
     state.number(c.records);
@@ -47,12 +50,19 @@ std::string name_of_done(std::size_t t) { return std::to_string(t) + ".done"; }
 }  // namespace
 
 void tile_steps::look() {
+    const auto points = source_.count();
+    const std::uint64_t least = points ? memory_to_stream(source_.header(), *points) : 0;
+    if (least > task_.memory) fail_for_memory(least);
     if (!take_over()) {
         const bool anew = folder_.load(plan_name).has_value();
         const std::vector<std::filesystem::path> damaged = survey_.cloud.damaged;
         folder_.clear();
         tiles_.clear();
-        survey_ = stream::survey(source_, pace_);
+        const std::size_t most = std::bit_floor(std::clamp<std::uint64_t>(
+            task_.options.memory / bytes_of_sample, 1U << 12, 1U << 18));
+        survey_ = stream::survey(
+            source_, task_.options.relative ? std::nullopt : std::optional(task_.options.tolerance),
+            most, pace_);
         survey_.cloud.started_anew = anew;
         survey_.cloud.damaged = damaged;
     }

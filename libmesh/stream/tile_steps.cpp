@@ -131,6 +131,7 @@ void tile_steps::say_plan() {
 void tile_steps::scatter() {
     if (!cuts_) return;
     survey_.sample = {};
+    survey_.places.reset();
     tiles_.resize(cuts_->size());
     if (has_order()) rank_points();
     give_points();
@@ -327,7 +328,11 @@ void tile_steps::weld_tile(std::size_t t) {
                      {file(t, ".members"), piece / 4}};
     if (has_order()) sort_points(t, files);
     const std::uint64_t room = task_.options.memory / 10 * 7 / bytes_per_point();
-    if (rule() == weld_rule::chain && points_of(mine) > room)
+    const bool held = rule() == weld_rule::first || points_of(mine) <= room;
+    if (!held && values() > 0)
+        fail_for_memory(task_.memory - task_.options.memory +
+                        points_of(mine) * bytes_per_point() / 7 * 10 + piece);
+    if (!held)
         weld_crowded(t, files);
     else
         weld_held(t, files);
@@ -350,7 +355,7 @@ void tile_steps::weld_held(std::size_t t, tile_files& files) {
     for (bool more = true; more; files.write()) more = weld.finish(files.result);
 }
 
-/// \pre no conditions, as `check_memory` has seen to
+/// \pre no conditions
 void tile_steps::weld_crowded(std::size_t t, tile_files& files) {
     weld::crowded_chain weld(tolerance_);
     const auto each = [&](const auto& take) {

@@ -123,14 +123,16 @@ class tile_steps {
         return t.points.records / point_width();
     }
 
-    [[nodiscard]] tile_cuts plan() const;
-    [[nodiscard]] std::optional<tile_cuts> plan_by(const std::vector<point3>& sample) const;
-    [[nodiscard]] std::vector<point3> uncrowded_sample() const;
-    [[nodiscard]] std::vector<double> sizes_of(const tile_cuts& cuts,
-                                               const std::vector<point3>& sample) const;
+    struct cut_sizes;
+    [[nodiscard]] tile_cuts plan();
+    [[nodiscard]] std::optional<tile_cuts> plan_by(bool by_places) const;
+    [[nodiscard]] tile_cuts plan_for_least_memory() const;
+    [[noreturn]] void fail_for_memory(std::uint64_t needed) const;
+    [[nodiscard]] point_survey::part uncrowded_sample() const;
+    [[nodiscard]] const point_survey::part& places() const;
+    [[nodiscard]] cut_sizes sizes_of(const tile_cuts& cuts) const;
     void set_tolerance();
     void say_plan();
-    void check_memory() const;
 
     [[nodiscard]] bool take_over();
     void take_over_tile(std::size_t t);
@@ -172,6 +174,8 @@ class tile_steps {
 };
 
 inline constexpr const char* numbers_name = "numbers";  ///< the file of points by rank
+inline constexpr double bytes_of_border = 100.0;  ///< of a point in the border pass, about
+inline constexpr double bytes_of_cube = 200.0;    ///< of a cube in `crowded_chain`, about
 inline constexpr std::size_t piece = std::size_t{1} << 20;  ///< bytes read or written at a time
 
 }  // namespace treeform::detail::stream

@@ -145,7 +145,12 @@ stream_weld::stream_weld(stream_weld&&) noexcept = default;
 stream_weld& stream_weld::operator=(stream_weld&&) noexcept = default;
 
 status stream_weld::look() {
-    return state::until_cancelled([&] { state_->steps.look(); });
+    try {
+        return state::until_cancelled([&] { state_->steps.look(); });
+    } catch (const weld_stream_error& error) {
+        if (error.why() == weld_stream_error::reason::memory) state_->folder.remove_unused();
+        throw;
+    }
 }
 
 const cloud_survey& stream_weld::survey() const { return state_->steps.survey(); }
@@ -217,8 +222,16 @@ std::uint64_t memory_to_weld(const mesh_file& header, std::uint64_t points) {
 }
 
 std::uint64_t memory_to_stream(const mesh_file& header, std::uint64_t points) {
-    static_cast<void>(header);
-    return base_memory + points / 4;
+    std::uint64_t row = sizeof(point3);
+    if (const element* vertices = find_element(header.attributes, "vertex"))
+        for (const column& c : vertices->columns) row += size_of(c.type);
+    constexpr std::uint64_t samples_and_buffers = std::uint64_t{6} << 20;
+    const std::uint64_t blocks = 4 * row * detail::stream::points_a_block;
+    const std::uint64_t bits = 3 * (points / 8);
+    // Pieces of rows that are sorted are fewer than their number has bytes for.
+    const auto pieces = static_cast<std::uint64_t>(
+        8.0 * std::sqrt(32.0 * 4096.0 * static_cast<double>(points)) / 4.0);
+    return base_memory + samples_and_buffers + blocks + bits + pieces;
 }
 
 }  // namespace treeform
