@@ -24,7 +24,8 @@ bool same_columns(const mesh_file& a, const mesh_file& b) {
     const element none;
     const element* const x = find_element(a.attributes, "vertex");
     const element* const y = find_element(b.attributes, "vertex");
-    return std::ranges::equal((x == nullptr ? none : *x).columns, (y == nullptr ? none : *y).columns,
+    return std::ranges::equal((x == nullptr ? none : *x).columns,
+                              (y == nullptr ? none : *y).columns,
                               [](const column& c, const column& d) {
                                   return c.name == d.name && c.type == d.type &&
                                          c.list_length == d.list_length && c.role == d.role;

@@ -93,8 +93,8 @@ void packed_points::pack(const point_block& block, std::size_t point,
     auto* const bytes = reinterpret_cast<std::byte*>(to.data() + begin);
     for (const field& f : fields_) {
         const std::size_t size = size_of(f.type);
-        std::memcpy(bytes + f.byte,
-                    block.properties.columns[f.column].values.data() + point * size, size);
+        std::memcpy(bytes + f.byte, block.properties.columns[f.column].values.data() + point * size,
+                    size);
     }
 }
 
@@ -103,8 +103,8 @@ void packed_points::unpack(numbers from, point_block& block, std::size_t point) 
     const auto* const bytes = reinterpret_cast<const std::byte*>(from.data());
     for (const field& f : fields_) {
         const std::size_t size = size_of(f.type);
-        std::memcpy(block.properties.columns[f.column].values.data() + point * size,
-                    bytes + f.byte, size);
+        std::memcpy(block.properties.columns[f.column].values.data() + point * size, bytes + f.byte,
+                    size);
     }
 }
 
@@ -149,7 +149,8 @@ void kept_rows::choose(pacer& pace) {
     std::vector<std::uint64_t> best;
     const auto finish = [&] {
         if (best.empty()) return;
-        const numbers point = keep_ == weld_keep::mean ? mean.finish() : numbers(best).subspan(before_point);
+        const numbers point =
+            keep_ == weld_keep::mean ? mean.finish() : numbers(best).subspan(before_point);
         if (best[0] != best[1]) {
             givers_.drop(best[0]);
             givers_.keep(best[1]);
@@ -192,9 +193,7 @@ double kept_rows::longest_move(pacer& pace) {
     return longest.length();
 }
 
-void kept_rows::rewind() {
-    next_.emplace(path_, count_, 1 + packed_.width(), piece);
-}
+void kept_rows::rewind() { next_.emplace(path_, count_, 1 + packed_.width(), piece); }
 
 void kept_rows::replace(point_block& block, std::size_t point) {
     if (next_->empty()) throw std::logic_error("a group without what is kept of it");

@@ -53,8 +53,7 @@ point_keys::point_keys(const mesh_file& header, const weld_stream_options& o) {
     agree_ = weld::agreement(std::move(all));
     if (o.order != weld_order::given) {
         if (o.keep != weld_keep::first)
-            throw std::invalid_argument(
-                "treeform::weld_stream: an order needs weld_keep::first");
+            throw std::invalid_argument("treeform::weld_stream: an order needs weld_keep::first");
         order_ = {weld::column_to_order_by(header.attributes, asked),
                   o.order == weld_order::lowest};
     }

@@ -65,7 +65,8 @@ void extend(std::optional<box3>& box, const std::optional<box3>& more) {
 
 std::uint64_t cube_of(const point3& p, double tolerance) {
     constexpr double far = 0x1p62;
-    const double scale = tolerance > 0.0 ? 1.74 / tolerance : std::numeric_limits<double>::infinity();
+    const double scale =
+        tolerance > 0.0 ? 1.74 / tolerance : std::numeric_limits<double>::infinity();
     const auto index = [&](double x) {
         const double steps = x * scale;
         if (!(std::abs(steps) < far)) return std::bit_cast<std::int64_t>(x + 0.0);

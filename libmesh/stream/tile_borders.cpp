@@ -165,8 +165,8 @@ tile_steps::leaders::drops tile_steps::leaders::by_rank(const tile_steps& s,
 /// From the ranks of points and of their leaders to the numbers of both: by way of the leaders'.
 void tile_steps::leaders::number(const tile_steps& s, drops& ranks) {
     row_sorter by_leader(s.folder_, "leaders", {.width = 2, .keys = 2}, s.sorting_memory());
-    sorter_ = std::make_unique<row_sorter>(s.folder_, "led", row_sorter::shape{2, 1},
-                                           s.sorting_memory());
+    sorter_ =
+        std::make_unique<row_sorter>(s.folder_, "led", row_sorter::shape{2, 1}, s.sorting_memory());
     std::uint64_t rank = 0;
     for (row_reader all = s.numbers_by_rank(); !ranks.empty(); all.pop(), ++rank) {
         std::optional<std::uint64_t> leader;

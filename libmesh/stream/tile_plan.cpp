@@ -59,7 +59,8 @@ tile_cuts tile_steps::plan() {
         return static_cast<double>(p.points.size()) / p.share;
     };
     if (!survey_.places) survey_.places = uncrowded_sample();
-    const bool crowded = 4.0 * count_of(places()) <= 3.0 * static_cast<double>(survey_.cloud.points);
+    const bool crowded =
+        4.0 * count_of(places()) <= 3.0 * static_cast<double>(survey_.cloud.points);
     if (crowded && rule() == weld_rule::first)
         if (const auto cuts = plan_by(true)) return *cuts;
     if (const auto cuts = plan_by(false)) return *cuts;
@@ -122,8 +123,8 @@ tile_cuts tile_steps::plan_for_least_memory() const {
         least = bytes;
         best.emplace(std::move(cuts));
     }
-    const std::uint64_t needed = task_.memory - task_.options.memory +
-                                 static_cast<std::uint64_t>(std::min(least, 1e18));
+    const std::uint64_t needed =
+        task_.memory - task_.options.memory + static_cast<std::uint64_t>(std::min(least, 1e18));
     if (needed > task_.memory && !task_.options.relative) fail_for_memory(needed);
     return std::move(*best);
 }

@@ -58,8 +58,8 @@ void tile_steps::look() {
         const std::vector<std::filesystem::path> damaged = survey_.cloud.damaged;
         folder_.clear();
         tiles_.clear();
-        const std::size_t most = std::bit_floor(std::clamp<std::uint64_t>(
-            task_.options.memory / bytes_of_sample, 1U << 12, 1U << 18));
+        const std::size_t most = std::bit_floor(
+            std::clamp<std::uint64_t>(task_.options.memory / bytes_of_sample, 1U << 12, 1U << 18));
         survey_ = stream::survey(
             source_, task_.options.relative ? std::nullopt : std::optional(task_.options.tolerance),
             most, pace_);

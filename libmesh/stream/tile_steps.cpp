@@ -19,8 +19,7 @@ std::array<std::uint64_t, 8> row_of(const border_point& b) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
     const point3& p = b.at;
     const point3& q = b.leader_at;
-    return {b.tag,    bits(p.x), bits(p.y), bits(p.z),
-            b.leader, bits(q.x), bits(q.y), bits(q.z)};
+    return {b.tag, bits(p.x), bits(p.y), bits(p.z), b.leader, bits(q.x), bits(q.y), bits(q.z)};
 }
 
 /// The points of tiles on their way to their files, as rows of numbers.
@@ -142,8 +141,8 @@ void tile_steps::scatter() {
 
 void tile_steps::rank_points() {
     row_sorter by_key(folder_, "keys", {.width = 2, .keys = 2}, sorting_memory());
-    ranks_ = std::make_unique<row_sorter>(folder_, "ranks", row_sorter::shape{2, 1},
-                                          sorting_memory());
+    ranks_ =
+        std::make_unique<row_sorter>(folder_, "ranks", row_sorter::shape{2, 1}, sorting_memory());
     source_.rewind();
     point_block block;
     std::vector<std::uint64_t> keys;
@@ -151,8 +150,8 @@ void tile_steps::rank_points() {
     while (source_.read(block, points_a_block)) {
         keys_.order_of(block, keys);
         for (const std::uint64_t key : keys) by_key.put(std::array{key, id++});
-        pace_.show("scatter", 0.4 * static_cast<double>(id) /
-                                  static_cast<double>(survey_.cloud.points));
+        pace_.show("scatter",
+                   0.4 * static_cast<double>(id) / static_cast<double>(survey_.cloud.points));
     }
     row_writer by_rank(folder_.file(numbers_name), piece);
     std::uint64_t rank = 0;
@@ -204,8 +203,7 @@ void tile_steps::give_points() {
             for (const std::uint32_t t : halos)
                 rows.put(t, tile_point::make(rank, tile_role::halo, p), mine, flush);
         }
-        pace_.show("scatter",
-                   static_cast<double>(id) / static_cast<double>(survey_.cloud.points));
+        pace_.show("scatter", static_cast<double>(id) / static_cast<double>(survey_.cloud.points));
     }
     rows.finish(flush);
     ranks.reset();

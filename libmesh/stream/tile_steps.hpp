@@ -27,11 +27,11 @@ namespace treeform::detail::stream {
 using weld::border_point;
 using weld::border_weld;
 using weld::longest_move;
+using weld::tile_cuts;
 using weld::tile_drop;
 using weld::tile_member;
 using weld::tile_point;
 using weld::tile_role;
-using weld::tile_cuts;
 
 struct tile_task {
     cloud_inputs inputs{};
@@ -46,9 +46,9 @@ struct tiles_welded {
                  const weld::agreement& agree)
         : kept(points), border(rule, tolerance, agree) {}
 
-    kept_points kept;                 ///< by number in the files
+    kept_points kept;                       ///< by number in the files
     std::optional<kept_points> followed{};  ///< "dropped" in it: kept with others, if asked for
-    border_weld border;               ///< names the leaders
+    border_weld border;                     ///< names the leaders
     std::uint64_t groups = 0;
     double max_displacement = 0.0;
     std::vector<record_count> drops{};  ///< of each tile, and at the end those of the borders
@@ -58,8 +58,8 @@ struct tiles_welded {
 /// rule goes through them. Without an order to ask for, these are their numbers.
 class tile_steps {
   public:
-    tile_steps(pacer& pace, const work_folder& folder, const tile_task& task,
-               joined_points& source, const point_keys& keys);
+    tile_steps(pacer& pace, const work_folder& folder, const tile_task& task, joined_points& source,
+               const point_keys& keys);
 
     /// Reads the cloud once; or knows it from an earlier run, whose work will then be continued.
     /// Then says where it will be cut.
@@ -167,15 +167,15 @@ class tile_steps {
     const point_keys& keys_;
     point_survey survey_{};
     double tolerance_ = 0.0;
-    std::optional<tile_cuts> cuts_{};  ///< until the points are in their tiles
-    record_count numbers_{};           ///< of points by rank, where there is an order
+    std::optional<tile_cuts> cuts_{};      ///< until the points are in their tiles
+    record_count numbers_{};               ///< of points by rank, where there is an order
     std::unique_ptr<row_sorter> ranks_{};  ///< of points by number, for as long as they are given
     std::vector<tile> tiles_{};
 };
 
 inline constexpr const char* numbers_name = "numbers";  ///< the file of points by rank
-inline constexpr double bytes_of_border = 100.0;  ///< of a point in the border pass, about
-inline constexpr double bytes_of_cube = 200.0;    ///< of a cube in `crowded_chain`, about
+inline constexpr double bytes_of_border = 100.0;        ///< of a point in the border pass, about
+inline constexpr double bytes_of_cube = 200.0;          ///< of a cube in `crowded_chain`, about
 inline constexpr std::size_t piece = std::size_t{1} << 20;  ///< bytes read or written at a time
 
 }  // namespace treeform::detail::stream

@@ -39,8 +39,8 @@ std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o
     }
     state.number(static_cast<std::uint64_t>(o.order));
     state.text(o.order_by);
-    for (const std::uint64_t number : {std::uint64_t{o.relative}, std::uint64_t{o.as_las}, o.memory,
-                                       o.points_per_tile})
+    for (const std::uint64_t number :
+         {std::uint64_t{o.relative}, std::uint64_t{o.as_las}, o.memory, o.points_per_tile})
         state.number(number);
     return state.bytes();
 }

@@ -121,8 +121,7 @@ class near_cells {
         for (std::int64_t x : {low[0], high[0]}) {
             for (std::int64_t y : {low[1], high[1]}) {
                 for (std::int64_t z : {low[2], high[2]}) {
-                    for (std::uint32_t i = head(x, y, z, salt); i != nobody;
-                         i = next_[i], ++met)
+                    for (std::uint32_t i = head(x, y, z, salt); i != nobody; i = next_[i], ++met)
                         meet(entries_[i], i);
                     if (low[2] == high[2]) break;
                 }

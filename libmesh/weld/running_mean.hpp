@@ -26,13 +26,11 @@ class running_mean {
     [[nodiscard]] double value() const {
         const auto count = static_cast<double>(count_);
         const double direct = first_ + sum_ / count;
-        const double result = std::isfinite(direct)
-                                  ? direct
-                                  : (first_ * scale + scaled_sum_ / count) / scale;
+        const double result =
+            std::isfinite(direct) ? direct : (first_ * scale + scaled_sum_ / count) / scale;
         // With an infinity among the values this is NaN, or infinite.
         const bool finite = std::isfinite(low_) && std::isfinite(high_) && !std::isnan(result);
-        return finite ? std::clamp(result, low_, high_)
-                      : std::numeric_limits<double>::quiet_NaN();
+        return finite ? std::clamp(result, low_, high_) : std::numeric_limits<double>::quiet_NaN();
     }
 
   private:

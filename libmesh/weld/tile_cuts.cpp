@@ -12,9 +12,10 @@ namespace {
 
 /// Each mostly along an axis, and perpendicular to no plane that people build. Less than a fourth
 /// long, so that nothing overflows.
-constexpr std::array<std::array<double, 3>, 3> directions{{{0.25 * 0.90, 0.25 * 0.34, 0.25 * 0.27},
-                                                           {0.25 * 0.27, 0.25 * 0.90, 0.25 * 0.34},
-                                                           {0.25 * 0.34, 0.25 * 0.27, 0.25 * 0.90}}};
+constexpr std::array<std::array<double, 3>, 3> directions{
+    {{0.25 * 0.90, 0.25 * 0.34, 0.25 * 0.27},
+     {0.25 * 0.27, 0.25 * 0.90, 0.25 * 0.34},
+     {0.25 * 0.34, 0.25 * 0.27, 0.25 * 0.90}}};
 
 double along(std::size_t direction, const point3& p) {
     const auto& d = directions[direction];
@@ -115,8 +116,8 @@ std::uint32_t tile_cuts::find(const point3& p, std::vector<std::uint32_t>& halos
         }
         const double x = at[n.direction];
         const bool is_above = x >= n.cut;
-        const bool near = is_above ? !(n.cut < x - slack[n.direction])
-                                   : x + slack[n.direction] >= n.cut;
+        const bool near =
+            is_above ? !(n.cut < x - slack[n.direction]) : x + slack[n.direction] >= n.cut;
         const std::uint32_t here = is_above ? n.above : i + 1;
         if (near) left[waiting++] = is_above ? i + 1 : n.above;
         i = here;

@@ -126,8 +126,7 @@ class first_in_tile {
                     std::min(found.standing_square, rounded_squared_distance(p, q.at));
             else
                 found.open.consider(q.id(), q.at);
-            if (within_fourth_.holds(p, q.at) && agree_.same(a.values, values))
-                found.covering = &q;
+            if (within_fourth_.holds(p, q.at) && agree_.same(a.values, values)) found.covering = &q;
         });
         return found;
     }
@@ -334,8 +333,7 @@ struct border_weld::state {
     state(double tolerance, agreement asked)
         : agree(std::move(asked)), within(tolerance), kept(tolerance, agree.size() > 0) {}
 
-    void settle(const border_point& p, const std::uint64_t* of_point,
-                std::vector<tile_drop>& out) {
+    void settle(const border_point& p, const std::uint64_t* of_point, std::vector<tile_drop>& out) {
         nearest_kept found(p.at);
         const std::uint64_t salt = agree.salt(of_point);
         if (p.kind() == border_kind::leaning) found.consider(p.leader, p.leader_at);

@@ -69,8 +69,8 @@ class TREEFORM_API tile_cuts {
   private:
     struct node {
         std::uint32_t direction = leaf;
-        double cut = 0.0;          ///< places from here on are above
-        std::uint32_t above = 0;   ///< node; the one below is the next. Of a leaf: the tile
+        double cut = 0.0;         ///< places from here on are above
+        std::uint32_t above = 0;  ///< node; the one below is the next. Of a leaf: the tile
     };
     static constexpr std::uint32_t leaf = 3;
 
@@ -162,7 +162,7 @@ struct tile_result {
     std::vector<tile_drop> dropped{};    ///< by ascending numbers; for good with the rule first
     std::vector<border_point> border{};  ///< by ascending numbers
     std::vector<std::uint64_t> border_values{};  ///< of these with the rule first, as for `add`
-    std::vector<tile_member> members{};  ///< with the rule chain
+    std::vector<tile_member> members{};          ///< with the rule chain
     /// Of `dropped`, with the rule chain except for the `members`.
     longest_move move{};
 };

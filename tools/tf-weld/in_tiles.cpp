@@ -237,8 +237,7 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_set
     const tf::weld_stream_options options = library_options(work, request, tiles, header);
     std::optional<tf::stream_weld> weld;
     try {
-        static_cast<void>(
-            tf::weld_conditions(header.attributes, false, request.settings.options));
+        static_cast<void>(tf::weld_conditions(header.attributes, false, request.settings.options));
         take(work, "read", [&] { return weld.emplace(inputs, options).look(); });
     } catch (const tf::weld_property_error& error) {
         throw property_failure(error, header.attributes);

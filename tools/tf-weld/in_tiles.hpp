@@ -17,8 +17,7 @@ namespace tools {
 
 /// Welds the cloud in `inputs`, whose header is known, in tiles on the disk. \throws failure
 [[nodiscard]] exit_status weld_in_tiles(job& work, const weld_request& request,
-                                        const tile_settings& tiles,
-                                        const tf::cloud_inputs& inputs,
+                                        const tile_settings& tiles, const tf::cloud_inputs& inputs,
                                         const tf::mesh_file& header);
 
 }  // namespace tools

@@ -2,9 +2,9 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/mesh_output.hpp"
+#include "tools/common/spooled_input.hpp"
 #include "tools/tf-weld/in_memory.hpp"
 #include "tools/tf-weld/in_tiles.hpp"
-#include "tools/tf-weld/spooled_input.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tf.hpp>
@@ -77,15 +77,15 @@ exit_status weld_mesh(job& work, const weld_request& request, std::uint64_t size
         return weld_in_memory(work, request);
     const auto not_enough = [&] {
         return failure(stopped, "memory",
-                       work.name + ": meshes are welded in memory, not in tiles, as their faces "
-                                   "name points anywhere; --memory is not enough for " +
+                       work.name +
+                           ": meshes are welded in memory, not in tiles, as their faces "
+                           "name points anywhere; --memory is not enough for " +
                            in_megabytes(size) + " of file");
     };
     if (size > work.options.memory) throw not_enough();
     try {
         return weld_in_memory(
-            work, request,
-            "meshes are welded in memory, not in tiles; --memory may not be enough");
+            work, request, "meshes are welded in memory, not in tiles; --memory may not be enough");
     } catch (const std::bad_alloc&) {
         throw not_enough();
     } catch (const failure& error) {
@@ -115,7 +115,7 @@ exit_status weld_files(job& work, const weld_request& request, const tile_settin
     if (only.empty()) return weld_in_tiles(work, request, tiles, inputs, cloud->header);
     throw failure(asked ? bad_usage : stopped, asked ? "usage" : "memory",
                   work.name + ": " + only + " needs the whole cloud in memory, about " +
-                      in_megabytes(needed) + "; without it, tiles would do with less");
+                      in_megabytes(needed) + "; without it, a smaller --memory would do");
 }
 
 }  // namespace

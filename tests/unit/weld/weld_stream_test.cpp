@@ -137,8 +137,9 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
                         std::invalid_argument);
     }
     options.tolerance = 0.1;
-    CHECK_THROWS_AS(tf::weld_stream({.paths = {folder.output()}}, tf::weld_stream_outputs{}, options),
-                    tf::io_error);
+    CHECK_THROWS_AS(
+        tf::weld_stream({.paths = {folder.output()}}, tf::weld_stream_outputs{}, options),
+        tf::io_error);
     fs::create_directory(folder.work());
     std::ofstream(folder.work() / "letter.txt") << "dear";
     try {

@@ -40,8 +40,8 @@ struct cloud_inputs {
 
 /// What is in files before their points are read.
 struct cloud_outline {
-    mesh_file header{};                       ///< as that of a `point_reader`
-    std::optional<std::uint64_t> points{};    ///< if all headers say it
+    mesh_file header{};                     ///< as that of a `point_reader`
+    std::optional<std::uint64_t> points{};  ///< if all headers say it
 };
 
 /// \throws io_error for what is no file of points, as `point_reader`; std::invalid_argument for
