@@ -253,6 +253,23 @@ class Large(WeldTest):
         self.check_beyond_the_limit(some + [(x + 1e-7, y, z) for x, y, z in some], "2e-7")
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_orders_and_choices_beyond_the_memory_limit_give_the_same(self):
+        rng = random.Random(9)
+        some = [(rng.random(), rng.random(), rng.random()) for _ in range(200000)]
+        points = some + [(x + 1e-7 * rng.random(), y, z) for x, y, z in some]
+        for half in (0, 1):
+            self.binary(f"{half}.ply", points[half::2])
+        for more in (["--order", "max:x"], ["--keep", "mean"], ["--keep", "max:x"],
+                     ["--same", "y=0.001", "--order", "x"]):
+            for name, limit in (("memory", []), ("tiles", ["--memory", "52M"])):
+                run = self.run_tool("0.ply", "1.ply", "--join", "-t", "5e-5", *more, "-f", *limit,
+                                    "-o", f"{name}.ply", "--map", f"{name}.map", "--removed",
+                                    f"{name}.xyz", "-v", status=0)
+                self.assertEqual(bool(limit), " tiles, about" in run.err)
+            for end in (".ply", ".map", ".xyz"):
+                self.assertTrue(self.read_bytes("memory" + end) == self.read_bytes("tiles" + end))
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_a_heap_of_equal_points_beyond_the_memory_limit_is_welded_all_the_same(self):
         rng = random.Random(6)
         points = [(0.5, 0.5, 0.5) if i % 4 else (rng.random(), rng.random(), rng.random())
