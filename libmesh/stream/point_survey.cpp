@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 namespace treeform::detail::stream {
@@ -22,31 +21,51 @@ std::uint64_t mix(std::uint64_t h) {
 /// takes to have room for them. Patterns in a file do not show in it.
 class sampler {
   public:
-    explicit sampler(std::size_t most) : most_(most) {}
+    explicit sampler(std::size_t most) : most_(most) { chosen_.reserve(most); }
 
     void consider(std::uint64_t key, const point3& p) {
         const std::uint64_t mixed = mix(key);
         if ((mixed & mask_) != 0) return;
-        if (!chosen_.emplace(mixed, p).second || chosen_.size() < most_) return;
-        mask_ = 2 * mask_ + 1;
-        std::erase_if(chosen_, [&](const auto& c) { return (c.first & mask_) != 0; });
+        std::uint64_t& seen = lately_[mixed >> 52];
+        if (seen == mixed) return;
+        seen = mixed;
+        chosen_.emplace_back(mixed, p);
+        if (chosen_.size() == most_) thin_out();
     }
     /// Heaps of equal points count once, as they take no room where they are welded.
-    [[nodiscard]] point_survey::part part() const {
+    [[nodiscard]] point_survey::part part() {
+        leave_one_a_key();
         std::vector<point3> all;
         all.reserve(chosen_.size());
         for (const auto& c : chosen_) all.push_back(c.second);
-        std::sort(all.begin(), all.end(), [](const point3& a, const point3& b) {
-            return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-        });
+        std::sort(all.begin(), all.end(), before);
         all.erase(std::unique(all.begin(), all.end()), all.end());
         return {std::move(all), 1.0 / (static_cast<double>(mask_) + 1.0)};
     }
 
   private:
+    static bool before(const point3& a, const point3& b) {
+        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    }
+    void leave_one_a_key() {
+        std::sort(chosen_.begin(), chosen_.end(), [](const auto& a, const auto& b) {
+            return a.first != b.first ? a.first < b.first : before(a.second, b.second);
+        });
+        const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
+        chosen_.erase(std::unique(chosen_.begin(), chosen_.end(), same), chosen_.end());
+    }
+    void thin_out() {
+        leave_one_a_key();
+        while (chosen_.size() > most_ / 4 * 3) {
+            mask_ = 2 * mask_ + 1;
+            std::erase_if(chosen_, [&](const auto& c) { return (c.first & mask_) != 0; });
+        }
+    }
+
     std::size_t most_;
     std::uint64_t mask_ = 0;
-    std::unordered_map<std::uint64_t, point3> chosen_{};
+    std::vector<std::pair<std::uint64_t, point3>> chosen_{};
+    std::vector<std::uint64_t> lately_ = std::vector<std::uint64_t>(4096, 0);  ///< most are known
 };
 
 void extend(std::optional<box3>& box, const std::optional<box3>& more) {

@@ -64,7 +64,8 @@ tile_cuts tile_steps::plan() {
     if (crowded && rule() == weld_rule::first)
         if (const auto cuts = plan_by(true)) return *cuts;
     if (const auto cuts = plan_by(false)) return *cuts;
-    if (const auto cuts = plan_by(true)) return *cuts;
+    if (rule() == weld_rule::first || values() == 0)
+        if (const auto cuts = plan_by(true)) return *cuts;
     return plan_for_least_memory();
 }
 

@@ -23,11 +23,10 @@ double along(std::size_t direction, const point3& p) {
 }
 
 /// The places of two points within the tolerance differ by at most a fourth of it. Each is off by
-/// at most 2^-51 of the sum of its terms' sizes (and a few denormals), and the sums of the two
-/// differ by less than the tolerance.
-double margin(std::size_t direction, const point3& p, double tolerance) {
-    const auto& d = directions[direction];
-    const double sizes = d[0] * std::abs(p.x) + d[1] * std::abs(p.y) + d[2] * std::abs(p.z);
+/// at most 2^-51 of the sum of its terms' sizes (and a few denormals), which is less than a fourth
+/// of the coordinates' sizes, and these sums of the two differ by less than the tolerance.
+double margin(const point3& p, double tolerance) {
+    const double sizes = 0.25 * std::abs(p.x) + 0.25 * std::abs(p.y) + 0.25 * std::abs(p.z);
     return 0.25 * tolerance + 0x1p-48 * (sizes + 0.25 * tolerance) + 0x1p-1000;
 }
 
@@ -91,12 +90,8 @@ std::uint32_t tile_cuts::split(std::span<point3> sample, std::size_t count) {
 
 std::uint32_t tile_cuts::find(const point3& p, std::vector<std::uint32_t>& halos) const {
     halos.clear();
-    std::array<double, 3> at;
-    std::array<double, 3> slack;
-    for (std::size_t k = 0; k < 3; ++k) {
-        at[k] = along(k, p);
-        slack[k] = margin(k, p, tolerance_);
-    }
+    const std::array<double, 3> at{along(0, p), along(1, p), along(2, p)};
+    const double slack = margin(p, tolerance_);
     // What is left of the way: nodes on the far side of a cut that is near.
     std::array<std::uint32_t, 64> left;
     std::size_t waiting = 0;
@@ -117,7 +112,7 @@ std::uint32_t tile_cuts::find(const point3& p, std::vector<std::uint32_t>& halos
         const double x = at[n.direction];
         const bool is_above = x >= n.cut;
         const bool near =
-            is_above ? !(n.cut < x - slack[n.direction]) : x + slack[n.direction] >= n.cut;
+            is_above ? !(n.cut < x - slack) : x + slack >= n.cut;
         const std::uint32_t here = is_above ? n.above : i + 1;
         if (near) left[waiting++] = is_above ? i + 1 : n.above;
         i = here;
