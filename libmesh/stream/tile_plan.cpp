@@ -55,12 +55,9 @@ const point_survey::part& tile_steps::places() const {
 /// Crowds take room on the disk, but not where they are welded. With the rule first they are best
 /// not cut; chains are welded crowd by crowd only where there is no other way.
 tile_cuts tile_steps::plan() {
-    const auto count_of = [](const point_survey::part& p) {
-        return static_cast<double>(p.points.size()) / p.share;
-    };
-    if (!survey_.places) survey_.places = uncrowded_sample();
-    const bool crowded =
-        4.0 * count_of(places()) <= 3.0 * static_cast<double>(survey_.cloud.points);
+    point_survey::part uncrowded = uncrowded_sample();
+    const bool crowded = 4 * uncrowded.points.size() <= 3 * survey_.sample.points.size();
+    if (!survey_.places) survey_.places = std::move(uncrowded);
     if (crowded && rule() == weld_rule::first)
         if (const auto cuts = plan_by(true)) return *cuts;
     if (const auto cuts = plan_by(false)) return *cuts;

@@ -111,8 +111,7 @@ std::uint32_t tile_cuts::find(const point3& p, std::vector<std::uint32_t>& halos
         }
         const double x = at[n.direction];
         const bool is_above = x >= n.cut;
-        const bool near =
-            is_above ? !(n.cut < x - slack) : x + slack >= n.cut;
+        const bool near = is_above ? !(n.cut < x - slack) : x + slack >= n.cut;
         const std::uint32_t here = is_above ? n.above : i + 1;
         if (near) left[waiting++] = is_above ? i + 1 : n.above;
         i = here;
