@@ -22,6 +22,7 @@ class kept_points {
         word |= bit;
         return was_kept;
     }
+    void keep(std::uint64_t point) { dropped_[point / 64] &= ~(std::uint64_t{1} << point % 64); }
     [[nodiscard]] bool keeps(std::uint64_t point) const {
         return (dropped_[point / 64] >> point % 64 & 1) == 0;
     }

@@ -1,8 +1,10 @@
 #include <libmesh/base/add_to_box.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/stream/point_survey.hpp>
-#include <treeform/mesh/point_stream.hpp>
+#include <libmesh/weld/near_cells.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -10,69 +12,110 @@
 namespace treeform::detail::stream {
 namespace {
 
-/// Of points numbered from 0, those whose number is hashed to zeros at the end: as many zeros as
-/// it takes to have room for them. Patterns in a file do not show in it.
+std::uint64_t mix(std::uint64_t h) {
+    h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9;
+    h = (h ^ h >> 27) * 0x94d049bb133111eb;
+    return h ^ h >> 31;
+}
+
+/// Of points with keys, those whose key is hashed to zeros at the end, one a key: as many zeros as it
+/// takes to have room for them. Patterns in a file do not show in it.
 class sampler {
   public:
-    void consider(std::uint64_t id, const point3& p) {
-        const std::uint64_t mixed = mix(id);
+    explicit sampler(std::size_t most) : most_(most) { chosen_.reserve(most); }
+
+    void consider(std::uint64_t key, const point3& p) {
+        const std::uint64_t mixed = mix(key);
         if ((mixed & mask_) != 0) return;
+        std::uint64_t& seen = lately_[mixed >> 52];
+        if (seen == mixed) return;
+        seen = mixed;
         chosen_.emplace_back(mixed, p);
-        if (chosen_.size() < most) return;
-        mask_ = 2 * mask_ + 1;
-        std::erase_if(chosen_, [&](const auto& c) { return (c.first & mask_) != 0; });
+        if (chosen_.size() == most_) thin_out();
     }
-    [[nodiscard]] double share() const { return 1.0 / (static_cast<double>(mask_) + 1.0); }
     /// Heaps of equal points count once, as they take no room where they are welded.
-    [[nodiscard]] std::vector<point3> points() const {
+    [[nodiscard]] point_survey::part part() {
+        leave_one_a_key();
         std::vector<point3> all;
         all.reserve(chosen_.size());
         for (const auto& c : chosen_) all.push_back(c.second);
-        std::sort(all.begin(), all.end(), [](const point3& a, const point3& b) {
-            return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-        });
+        std::sort(all.begin(), all.end(), before);
         all.erase(std::unique(all.begin(), all.end()), all.end());
-        return all;
+        return {std::move(all), 1.0 / (static_cast<double>(mask_) + 1.0)};
     }
 
   private:
-    static constexpr std::size_t most = std::size_t{1} << 18;
-
-    static std::uint64_t mix(std::uint64_t h) {
-        h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9;
-        h = (h ^ h >> 27) * 0x94d049bb133111eb;
-        return h ^ h >> 31;
+    static bool before(const point3& a, const point3& b) {
+        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    }
+    void leave_one_a_key() {
+        std::sort(chosen_.begin(), chosen_.end(), [](const auto& a, const auto& b) {
+            return a.first != b.first ? a.first < b.first : before(a.second, b.second);
+        });
+        const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
+        chosen_.erase(std::unique(chosen_.begin(), chosen_.end(), same), chosen_.end());
+    }
+    void thin_out() {
+        leave_one_a_key();
+        while (chosen_.size() > most_ / 4 * 3) {
+            mask_ = 2 * mask_ + 1;
+            std::erase_if(chosen_, [&](const auto& c) { return (c.first & mask_) != 0; });
+        }
     }
 
+    std::size_t most_;
     std::uint64_t mask_ = 0;
     std::vector<std::pair<std::uint64_t, point3>> chosen_{};
+    std::vector<std::uint64_t> lately_ = std::vector<std::uint64_t>(4096, 0);  ///< most are known
 };
 
 }  // namespace
 
-point_survey survey(const std::filesystem::path& path, const std::string& format, pacer& pace) {
-    point_reader reader(path, format);
+std::uint64_t cube_of(const point3& p, double tolerance) {
+    constexpr double far = 0x1p62;
+    const double scale =
+        tolerance > 0.0 ? 1.74 / tolerance : std::numeric_limits<double>::infinity();
+    const auto index = [&](double x) {
+        const double steps = x * scale;
+        if (!(std::abs(steps) < far)) return std::bit_cast<std::int64_t>(x + 0.0);
+        const auto cut = static_cast<std::int64_t>(steps);
+        return static_cast<double>(cut) > steps ? cut - 1 : cut;
+    };
+    return weld::cube_map::hash(index(p.x), index(p.y), index(p.z));
+}
+
+point_survey survey(joined_points& points, std::optional<double> tolerance, std::size_t most,
+                    pacer& pace) {
     point_survey result;
     cloud_survey& s = result.cloud;
-    sampler chosen;
+    sampler chosen(most);
+    sampler places(most);
     point_block block;
-    while (reader.read(block, points_a_block)) {
+    for (std::size_t i = 0; i < points.files(); ++i)
+        s.sources.push_back({.format = points.format(i)});
+    points.rewind();
+    while (points.read(block, points_a_block)) {
         base::add_to_box(s.box, bounding_box(block.points));
-        s.single = s.single && fits_single(block.points);
+        cloud_survey::source& from = s.sources[points.file()];
+        from.points += block.points.size();
+        from.single = from.single && !points.file_header().las && fits_single(block.points);
         for (const point3& p : block.points) {
-            if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
-                chosen.consider(s.points, p);
-            else
+            const std::uint64_t id = s.points++;
+            if (!base::is_finite(p)) {
                 ++s.non_finite;
-            ++s.points;
+                continue;
+            }
+            chosen.consider(id, p);
+            if (tolerance) places.consider(cube_of(p, *tolerance), p);
         }
-        const auto count = static_cast<double>(reader.count().value_or(s.points));
+        const auto count = static_cast<double>(points.count().value_or(s.points));
         pace.show("look", static_cast<double>(s.points) / count);
     }
-    s.format = reader.header().format;
-    s.warnings = reader.header().warnings;
-    result.sample = chosen.points();
-    result.sample_share = chosen.share();
+    for (const cloud_survey::source& one : s.sources) s.single = s.single && one.single;
+    s.warnings = points.warnings();
+    s.las_moved = points.moved();
+    result.sample = chosen.part();
+    if (tolerance) result.places = places.part();
     return result;
 }
 
@@ -84,7 +127,13 @@ void store(const point_survey& survey, state_writer& state) {
     state.point(s.box ? s.box->min : point3{});
     state.point(s.box ? s.box->max : point3{});
     state.number(s.single ? 1 : 0);
-    state.text(s.format);
+    state.real(s.las_moved);
+    state.number(s.sources.size());
+    for (const cloud_survey::source& one : s.sources) {
+        state.number(one.points);
+        state.number(one.single ? 1 : 0);
+        state.text(one.format);
+    }
     state.number(s.warnings.size());
     for (const io_warning& w : s.warnings) {
         state.text(w.code);
@@ -102,7 +151,13 @@ point_survey load_survey(state_reader& state) {
     const point3 max = state.point();
     if (has_box) s.box = box3{min, max};
     s.single = state.number() != 0;
-    s.format = state.text();
+    s.las_moved = state.real();
+    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
+        cloud_survey::source one{.points = state.number()};
+        one.single = state.number() != 0;
+        one.format = state.text();
+        s.sources.push_back(std::move(one));
+    }
     for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
         std::string code = state.text();
         s.warnings.push_back({std::move(code), state.text()});

@@ -2,29 +2,40 @@
 /// \file
 /// What is to be known of a cloud before it is cut into tiles.
 
+#include <libmesh/stream/joined_points.hpp>
 #include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/state_record.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
 #include <cstddef>
-#include <filesystem>
-#include <string>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace treeform::detail::stream {
 
 struct point_survey {
     cloud_survey cloud{};
-    std::vector<point3> sample{};  ///< finite points, all different
-    double sample_share = 1.0;     ///< of all points
+    struct part {
+        std::vector<point3> points{};  ///< finite, all different
+        double share = 1.0;            ///< of what it stands for
+    };
+    part sample{};  ///< of all points
+    /// Of the cubes whose diagonal is the tolerance, a point in each: about what is kept. None where
+    /// the tolerance was not known yet.
+    std::optional<part> places{};
 };
 
 /// Points read at a time.
 inline constexpr std::size_t points_a_block = std::size_t{1} << 15;
 
-/// Reads the cloud once, in memory that does not depend on its size. \throws io_error, cancelled
-[[nodiscard]] point_survey survey(const std::filesystem::path& path, const std::string& format,
-                                  pacer& pace);
+/// Reads the cloud once, in memory that does not depend on its size. Samples have `most` points.
+/// \throws io_error, cancelled
+[[nodiscard]] point_survey survey(joined_points& points, std::optional<double> tolerance,
+                                  std::size_t most, pacer& pace);
+
+/// The number of the cube of a point, equal for those of one cube; with tolerance 0 of the point.
+[[nodiscard]] std::uint64_t cube_of(const point3& p, double tolerance);
 
 void store(const point_survey& survey, state_writer& state);
 /// The sample is not among it.

@@ -65,12 +65,19 @@ requires(std::is_trivially_copyable_v<Record> && sizeof(Record) % 8 == 0) class 
         if (held_.size() == most_) flush();
     }
     void put(std::span<const Record> records) {
-        for (const Record& r : records) put(r);
+        if (held_.empty() && !records.empty()) held_.reserve(most_ + records.size());
+        held_.insert(held_.end(), records.begin(), records.end());
+        if (held_.size() >= most_) flush();
     }
     /// Writes out the rest. \throws weld_stream_error
     record_count finish() {
-        flush();
+        const record_count all = finish_unsynced();
         sync_file(path_);
+        return all;
+    }
+    /// The same for what need not outlive the process.
+    record_count finish_unsynced() {
+        flush();
         held_ = {};
         return {written_, digest_.value()};
     }
@@ -94,8 +101,12 @@ requires(std::is_trivially_copyable_v<Record> && sizeof(Record) % 8 == 0) class 
 template <class Record>
 class record_reader {
   public:
-    record_reader(std::filesystem::path path, record_count expected, std::size_t bytes)
-        : path_(std::move(path)), expected_(expected), most_(bytes / sizeof(Record) + 1) {}
+    /// Reads about `bytes` at a time, a multiple of `together` records.
+    record_reader(std::filesystem::path path, record_count expected, std::size_t bytes,
+                  std::size_t together = 1)
+        : path_(std::move(path)),
+          expected_(expected),
+          most_((bytes / sizeof(Record) / together + 1) * together) {}
 
     /// The next records, no longer valid at the next call; none at the end.
     /// \throws weld_stream_error when the file is not what was written

@@ -4,6 +4,8 @@
 #include <libmesh/stream/tile_steps.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -14,12 +16,22 @@ namespace {
 constexpr std::uint64_t records_a_check = 65536;
 const char* const settled_name = "border.drops";
 
+border_point border_of(numbers r) {
+    const auto at = [&](std::size_t i) {
+        const auto x = [&](std::size_t k) { return std::bit_cast<double>(r[i + k]); };
+        return point3{x(0), x(1), x(2)};
+    };
+    return {r[0], at(1), r[4], at(5)};
+}
+
 }  // namespace
 
 tiles_welded tile_steps::weld_borders() {
-    tiles_welded w(survey_.cloud.points, rule(), tolerance_);
-    const record_count borders = settle_borders(w);
-    kept_points without_followers(survey_.cloud.points);
+    const std::uint64_t points = survey_.cloud.points;
+    tiles_welded w(points, rule(), tolerance_, keys_.agree());
+    kept_points kept(points);
+    const record_count borders = settle_borders(w, kept);
+    kept_points without_followers(points);
     longest_move longest = w.border.move();
     if (rule() == weld_rule::first)
         w.border = {rule(), tolerance_};  // for its memory
@@ -27,9 +39,9 @@ tiles_welded tile_steps::weld_borders() {
         longest = longest_chain_move(w.border);
     const auto follow = [&](const std::filesystem::path& path, const record_count& count) {
         record_reader<tile_drop> reader(path, count, piece);
-        for (auto row = reader.next(); !row.empty(); row = reader.next()) {
-            for (const tile_drop& d : row) {
-                w.kept.drop(d.id);
+        for (auto drops = reader.next(); !drops.empty(); drops = reader.next()) {
+            for (const tile_drop& d : drops) {
+                kept.drop(d.id);
                 w.groups += without_followers.drop(w.border.leader_of(d.leader)) ? 1 : 0;
             }
             pace_.check();
@@ -41,28 +53,42 @@ tiles_welded tile_steps::weld_borders() {
         longest.consider(tiles_[t].move);
     }
     follow(folder_.file(settled_name), borders);
-    if (w.kept.shares_a_drop(without_followers))
+    if (kept.shares_a_drop(without_followers))
         throw std::logic_error("a point belongs to one that was dropped");
     w.max_displacement = longest.length();
+    if (has_order())
+        number_kept(kept, w.kept);
+    else
+        w.kept = std::move(kept);
+    if (task_.options.keep != weld_keep::first) w.followed.emplace(std::move(without_followers));
     step_done();
     return w;
 }
 
+void tile_steps::number_kept(const kept_points& by_rank, kept_points& kept) const {
+    std::uint64_t rank = 0;
+    for (row_reader all = numbers_by_rank(); !all.empty(); all.pop(), ++rank)
+        if (!by_rank.keeps(rank)) kept.drop(all.front()[0]);
+}
+
 /// Writes what the border pass drops, and returns how much that is.
-record_count tile_steps::settle_borders(tiles_welded& w) const {
-    std::vector<record_reader<border_point>> readers;
+record_count tile_steps::settle_borders(tiles_welded& w, kept_points& kept) const {
+    std::vector<row_reader> readers;
     for (std::size_t t = 0; t < tiles_.size(); ++t)
-        readers.emplace_back(file(t, ".border"), tiles_[t].border, bytes_per_reader());
-    record_merge merge(std::move(readers), [](const border_point& p) { return p.id(); });
+        readers.emplace_back(file(t, ".border"), tiles_[t].border, border_width(),
+                             bytes_per_reader());
+    row_merge merge(std::move(readers), 1);
     record_writer<tile_drop> settled(folder_.file(settled_name), piece);
     std::vector<tile_drop> dropped;
     const auto take = [&] {
-        for (const tile_drop& d : dropped) w.kept.drop(d.id);
+        for (const tile_drop& d : dropped) kept.drop(d.id);
         settled.put(dropped);
         dropped.clear();
     };
     for (std::uint64_t count = 0; !merge.empty(); merge.pop(), ++count) {
-        w.border.add({&merge.front(), 1}, dropped);
+        const numbers r = merge.front();
+        const border_point p = border_of(r);
+        w.border.add({&p, 1}, dropped, r.subspan(8));
         take();
         if (count % records_a_check == 0) pace_.check();
     }
@@ -110,8 +136,8 @@ std::vector<record_count> tile_steps::sorted_members(const border_weld& border) 
     };
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
         record_reader<tile_member> reader(file(t, ".members"), tiles_[t].members, piece);
-        for (auto row = reader.next(); !row.empty(); row = reader.next())
-            for (const tile_member& m : row) {
+        for (auto some = reader.next(); !some.empty(); some = reader.next())
+            for (const tile_member& m : some) {
                 held.push_back(border.settled(m));
                 if (held.size() == most) write();
             }
@@ -120,12 +146,56 @@ std::vector<record_count> tile_steps::sorted_members(const border_weld& border) 
     return pieces;
 }
 
-tile_steps::drops tile_steps::all_drops(const tiles_welded& w) const {
+tile_steps::leaders::leaders(const tile_steps& steps, const tiles_welded& welded)
+    : border_(welded.border), drops_(by_rank(steps, welded)) {
+    if (!steps.has_order()) return;
+    number(steps, *drops_);
+    drops_.reset();
+}
+
+tile_steps::leaders::drops tile_steps::leaders::by_rank(const tile_steps& s,
+                                                        const tiles_welded& w) {
     std::vector<record_reader<tile_drop>> readers;
-    for (std::size_t t = 0; t < tiles_.size(); ++t)
-        readers.emplace_back(file(t, ".drops"), w.drops[t], bytes_per_reader());
-    readers.emplace_back(folder_.file(settled_name), w.drops.back(), bytes_per_reader());
+    for (std::size_t t = 0; t < s.tiles_.size(); ++t)
+        readers.emplace_back(s.file(t, ".drops"), w.drops[t], s.bytes_per_reader());
+    readers.emplace_back(s.folder_.file(settled_name), w.drops.back(), s.bytes_per_reader());
     return drops(std::move(readers), {});
+}
+
+/// From the ranks of points and of their leaders to the numbers of both: by way of the leaders'.
+void tile_steps::leaders::number(const tile_steps& s, drops& ranks) {
+    row_sorter by_leader(s.folder_, "leaders", {.width = 2, .keys = 2}, s.sorting_memory());
+    sorter_ =
+        std::make_unique<row_sorter>(s.folder_, "led", row_sorter::shape{2, 1}, s.sorting_memory());
+    std::uint64_t rank = 0;
+    for (row_reader all = s.numbers_by_rank(); !ranks.empty(); all.pop(), ++rank) {
+        std::optional<std::uint64_t> leader;
+        for (; !ranks.empty() && ranks.front().id == rank; ranks.pop())
+            leader = border_.leader_of(ranks.front().leader);
+        if (leader) by_leader.put(std::array{*leader, all.front()[0]});
+        if (rank % records_a_check == 0) s.pace_.check();
+    }
+    rank = 0;
+    row_reader all = s.numbers_by_rank();
+    for (row_merge led = by_leader.sorted(); !led.empty(); led.pop()) {
+        for (; rank < led.front()[0]; ++rank) all.pop();
+        sorter_->put(std::array{led.front()[1], all.front()[0]});
+    }
+    rows_.emplace(sorter_->sorted());
+}
+
+std::uint64_t tile_steps::leaders::of(std::uint64_t point) {
+    std::uint64_t leader = point;
+    if (rows_) {
+        if (!rows_->empty() && rows_->front()[0] == point) {
+            leader = rows_->front()[1];
+            rows_->pop();
+        }
+        return leader;
+    }
+    for (; !drops_->empty() && drops_->front().id == point; drops_->pop())
+        leader = drops_->front().leader;
+    return border_.leader_of(leader);
 }
 
 }  // namespace treeform::detail::stream

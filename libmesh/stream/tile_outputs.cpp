@@ -1,6 +1,7 @@
 #include <libmesh/stream/tile_outputs.hpp>
 #include <treeform/mesh/point_stream.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -36,20 +37,21 @@ class points_out {
 class giving_back {
   public:
     giving_back(pacer& pace, const tile_task& task, const weld_stream_outputs& asked,
-                const tile_steps& steps, tiles_welded& welded)
+                tile_steps& steps, tiles_welded& welded, kept_rows* rows)
         : pace_(pace),
+          task_(task),
           asked_(asked),
           survey_(steps.survey()),
           steps_(steps),
           welded_(welded),
-          input_(task.input),
-          reader_(task.input, task.options.format),
-          head_(reader_.header()) {
+          rows_(rows),
+          head_(steps.source().header()) {
         head_.stored_as = survey_.single ? precision::float32 : precision::float64;
         open_files();
+        if (rows_ != nullptr) rows_->rewind();
         if (asked_.map || !asked_.label.empty()) {
             welded_.kept.number();
-            drops_.emplace(steps.all_drops(welded));
+            leaders_.emplace(steps, welded);
         }
     }
 
@@ -59,16 +61,24 @@ class giving_back {
     }
 
   private:
+    [[nodiscard]] bool drops_nothing() const { return asked_.withhold || !asked_.label.empty(); }
+    /// Whether coordinates of `welded` are not those of points.
+    [[nodiscard]] bool has_means() const { return task_.options.keep == weld_keep::mean; }
+
     void open_files() {
         const std::uint64_t dropped = welded_.kept.dropped();
         if (asked_.removed) removed_.emplace(*asked_.removed, removed_head(), dropped);
         if (!asked_.welded) return;
-        const bool labeled = !asked_.label.empty();
-        if (labeled)
+        if (has_means() && !rows_->single()) head_.stored_as = precision::float64;
+        if (!asked_.label.empty())
             written_.label_replaced =
                 set_column(obtain_element(head_.attributes, "vertex", 0),
                            {.name = asked_.label, .type = scalar_type::uint32});
-        result_.emplace(*asked_.welded, head_, labeled ? survey_.points : survey_.points - dropped);
+        if (asked_.withhold)
+            set_column(obtain_element(head_.attributes, "vertex", 0),
+                       {.name = "withheld", .type = scalar_type::uint8});
+        result_.emplace(*asked_.welded, head_,
+                        drops_nothing() ? survey_.points : survey_.points - dropped);
     }
 
     /// Of the header only the points and what they have.
@@ -76,22 +86,26 @@ class giving_back {
         mesh_file head;
         head.format = head_.format;
         head.stored_as = head_.stored_as;
+        head.las = head_.las;
         if (const element* vertices = find_element(head_.attributes, "vertex"))
             head.attributes.elements.push_back(*vertices);
         return head;
     }
 
     void give_all() {
+        joined_points& source = steps_.source();
+        source.rewind();
         point_block block;
-        while (reader_.read(block, points_a_block)) {
+        while (source.read(block, points_a_block)) {
             give(block);
             first_ += block.points.size();
             pace_.show("write", static_cast<double>(first_) / static_cast<double>(survey_.points));
         }
         steps_.step_done();
+        const fs::path& input = task_.inputs.paths.front();
         if (first_ != survey_.points)
-            throw weld_stream_error(weld_stream_error::reason::input_changed, input_,
-                                    input_.string() + ": the file changed while it was read");
+            throw weld_stream_error(weld_stream_error::reason::input_changed, input,
+                                    input.string() + ": the file changed while it was read");
         if (given_ != survey_.points - welded_.kept.dropped())
             throw std::logic_error("points in are not points kept and points removed");
         if (removed_) written_.removed = removed_->commit();
@@ -99,49 +113,76 @@ class giving_back {
     }
 
     void give(point_block& block) {
-        if (drops_) number(block.points.size());
+        if (leaders_) number(block.points.size());
         kept_.clear();
         gone_.clear();
-        for (std::uint32_t row = 0; row < block.points.size(); ++row)
-            (welded_.kept.keeps(first_ + row) ? kept_ : gone_).push_back(row);
+        for (std::uint32_t row = 0; row < block.points.size(); ++row) {
+            if (welded_.kept.keeps(first_ + row)) kept_.push_back(row);
+            if (!gives(first_ + row)) gone_.push_back(row);
+        }
         given_ += kept_.size();
         if (asked_.map) asked_.map(groups_);
         if (removed_) removed_->write(block, gone_);
         if (!result_) return;
-        if (asked_.label.empty()) {
-            result_->write(block, kept_);
+        if (drops_nothing()) {
+            mark(block);
+            result_->write(block);
             return;
         }
-        const std::vector<std::uint32_t> groups(groups_.begin(), groups_.end());
-        block.properties.rows = groups.size();
-        set_column(block.properties, make_column<std::uint32_t>(asked_.label, groups));
-        result_->write(block);
+        if (rows_ != nullptr) put_rows(block);
+        result_->write(block, kept_);
+    }
+
+    [[nodiscard]] bool gives(std::uint64_t point) const {
+        return rows_ != nullptr ? rows_->gives(point) : welded_.kept.keeps(point);
+    }
+
+    void put_rows(point_block& block) {
+        for (const std::uint32_t row : kept_)
+            if (!welded_.followed->keeps(first_ + row)) rows_->replace(block, row);
+        if (!has_means() || !task_.options.as_las || !head_.las) return;
+        mesh_file file;
+        file.las = las_header{.scale = head_.las->scale, .offset = head_.las->offset};
+        file.mesh.points = std::move(block.points);
+        written_.las_moved = std::max(written_.las_moved, round_to_las(file));
+        block.points = std::move(file.mesh.points);
+    }
+
+    /// Labels, and flags as `treeform::withhold` sets them.
+    void mark(point_block& block) {
+        block.properties.rows = block.points.size();
+        if (!asked_.label.empty()) {
+            const std::vector<std::uint32_t> groups(groups_.begin(), groups_.end());
+            set_column(block.properties, make_column<std::uint32_t>(asked_.label, groups));
+        }
+        if (!asked_.withhold) return;
+        std::vector<std::uint8_t> flags(block.points.size());
+        const column* const before = find_column(block.properties, "withheld");
+        for (std::size_t i = 0; i < flags.size(); ++i)
+            flags[i] = before != nullptr && !before->list_length && number_at(*before, i) != 0.0;
+        for (const std::uint32_t row : gone_) flags[row] = 1;
+        set_column(block.properties, make_column<std::uint8_t>("withheld", flags));
     }
 
     /// The groups of the points of a block.
     void number(std::size_t count) {
         groups_.resize(count);
-        for (std::size_t row = 0; row < count; ++row) {
-            const std::uint64_t point = first_ + row;
-            std::uint64_t leader = point;
-            for (; !drops_->empty() && drops_->front().id == point; drops_->pop())
-                leader = drops_->front().leader;
-            groups_[row] = welded_.kept.number_of(welded_.border.leader_of(leader));
-        }
+        for (std::size_t row = 0; row < count; ++row)
+            groups_[row] = welded_.kept.number_of(leaders_->of(first_ + row));
     }
 
     pacer& pace_;
+    const tile_task& task_;
     const weld_stream_outputs& asked_;
     const cloud_survey& survey_;
-    const tile_steps& steps_;
+    tile_steps& steps_;
     tiles_welded& welded_;
-    const fs::path& input_;
-    point_reader reader_;
+    kept_rows* rows_;
     mesh_file head_;
     weld_stream_written written_{};
     std::optional<points_out> removed_{};
     std::optional<points_out> result_{};
-    std::optional<tile_steps::drops> drops_{};
+    std::optional<tile_steps::leaders> leaders_{};
     std::uint64_t first_ = 0;  ///< number of the block's first point
     std::uint64_t given_ = 0;
     std::vector<std::uint64_t> groups_{};
@@ -161,13 +202,13 @@ void remove_leftovers(const work_folder& folder) {
 }
 
 weld_stream_written give_back(pacer& pace, const tile_task& task,
-                              const weld_stream_outputs& outputs, const tile_steps& steps,
-                              tiles_welded& welded, const work_folder& folder) {
+                              const weld_stream_outputs& outputs, tile_steps& steps,
+                              tiles_welded& welded, kept_rows* rows, const work_folder& folder) {
     state_writer state;
     state.number(outputs.unfinished.size());
     for (const fs::path& path : outputs.unfinished) state.text(fs::absolute(path).string());
     folder.store(leftovers, state);
-    return giving_back(pace, task, outputs, steps, welded).run();
+    return giving_back(pace, task, outputs, steps, welded, rows).run();
 }
 
 }  // namespace treeform::detail::stream

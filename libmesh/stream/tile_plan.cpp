@@ -1,91 +1,152 @@
 /// \file
-/// How a cloud is cut into tiles, judged by a sample of its points.
+/// How a cloud is cut into tiles, judged by samples of its points.
 
 #include <libmesh/stream/tile_steps.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
+#include <limits>
+#include <string>
 #include <utility>
 
 namespace treeform::detail::stream {
+namespace {
+
+std::string in_megabytes(std::uint64_t bytes) {
+    return std::to_string((bytes + (1U << 20) - 1) >> 20) + "M";
+}
+
+}  // namespace
+
+/// What some cuts come to.
+struct tile_steps::cut_sizes {
+    double points = 0.0;   ///< of all tiles, halos included
+    double largest = 0.0;  ///< points in a tile
+    double held = 0.0;     ///< places in a tile, which are about what it has to hold
+    double border = 0.0;   ///< places in several tiles
+};
+
+tile_steps::cut_sizes tile_steps::sizes_of(const tile_cuts& cuts) const {
+    std::vector<std::uint32_t> halos;
+    const auto count = [&](const point_survey::part& sample, double& largest, double& several) {
+        std::vector<double> size(cuts.size(), 0.0);
+        const double each = 1.0 / sample.share;
+        double sum = 0.0;
+        for (const point3& p : sample.points) {
+            size[cuts.find(p, halos)] += each;
+            for (const std::uint32_t t : halos) size[t] += each;
+            if (!halos.empty()) several += each;
+            sum += each * static_cast<double>(1 + halos.size());
+        }
+        largest = *std::max_element(size.begin(), size.end());
+        return sum;
+    };
+    cut_sizes sizes;
+    double ignored = 0.0;
+    sizes.points = count(survey_.sample, sizes.largest, ignored);
+    static_cast<void>(count(places(), sizes.held, sizes.border));
+    return sizes;
+}
+
+const point_survey::part& tile_steps::places() const {
+    return survey_.places ? *survey_.places : survey_.sample;
+}
 
 /// Crowds take room on the disk, but not where they are welded. With the rule first they are best
 /// not cut; chains are welded crowd by crowd only where there is no other way.
-tile_slabs tile_steps::plan() const {
-    const std::vector<point3> some = uncrowded_sample();
-    const bool crowded = 4 * some.size() <= 3 * survey_.sample.size();
+tile_cuts tile_steps::plan() {
+    point_survey::part uncrowded = uncrowded_sample();
+    const bool crowded = 4 * uncrowded.points.size() <= 3 * survey_.sample.points.size();
+    if (!survey_.places) survey_.places = std::move(uncrowded);
     if (crowded && rule() == weld_rule::first)
-        if (const auto slabs = plan_by(some)) return *slabs;
-    if (const auto slabs = plan_by(survey_.sample)) return *slabs;
-    if (const auto slabs = plan_by(some)) return *slabs;
-    return {some, tolerance_, 1};
+        if (const auto cuts = plan_by(true)) return *cuts;
+    if (const auto cuts = plan_by(false)) return *cuts;
+    if (rule() == weld_rule::first || values() == 0)
+        if (const auto cuts = plan_by(true)) return *cuts;
+    return plan_for_least_memory();
 }
 
 /// Small tiles stay in the caches while they are welded. Where halos are much of them, larger
 /// ones; where they are most of all, the tolerance is large and little will be kept: one tile.
-std::optional<tile_slabs> tile_steps::plan_by(const std::vector<point3>& sample) const {
+std::optional<tile_cuts> tile_steps::plan_by(bool by_places) const {
     const auto all = static_cast<double>(survey_.cloud.points);
-    const auto slabs_of = [&](double count) {
-        return tile_slabs(sample, tolerance_,
-                          static_cast<std::size_t>(std::ceil(std::max(count, 1.0))));
+    const std::vector<point3>& sample = by_places ? places().points : survey_.sample.points;
+    const auto cuts_of = [&](double count) {
+        return tile_cuts(sample, tolerance_,
+                         static_cast<std::size_t>(std::ceil(std::max(count, 1.0))));
     };
     if (task_.options.points_per_tile > 0)
-        return slabs_of(all / static_cast<double>(task_.options.points_per_tile));
+        return cuts_of(all / static_cast<double>(task_.options.points_per_tile));
     constexpr double small = 250000.0;
     constexpr double tiles = 1024.0;
     const auto points_in_memory = task_.options.memory / bytes_per_point();
     const double room = 0.6 * static_cast<double>(points_in_memory);
+    const double border_room = 0.5 * static_cast<double>(task_.options.memory) / bytes_of_border;
     struct way {
         double most;       ///< points in a tile, about
         double with_halo;  ///< points of all tiles, of all points
     };
     for (const way w : {way{std::min(0.25 * room, std::max(small, all / tiles)), 1.1},
                         way{0.25 * room, 1.5}, way{room, 4.0}}) {
-        double sum = 0.0;
-        for (double count = all / w.most; sum <= w.with_halo * all; count = 1.25 * count + 1.0) {
-            const tile_slabs slabs = slabs_of(count);
-            const std::vector<double> size = sizes_of(slabs, survey_.sample);
-            const std::vector<double> held = sizes_of(slabs, sample);
-            sum = std::accumulate(size.begin(), size.end(), 0.0);
-            const double largest = *std::max_element(held.begin(), held.end());
-            if (sum <= w.with_halo * all && largest <= 1.25 * w.most) return slabs;
+        cut_sizes sizes;
+        for (double count = all / w.most; sizes.points <= w.with_halo * all;
+             count = 1.25 * count + 1.0) {
+            const tile_cuts cuts = cuts_of(count);
+            sizes = sizes_of(cuts);
+            const double held = by_places ? sizes.held : sizes.largest;
+            if (sizes.points <= w.with_halo * all && held <= 1.25 * w.most &&
+                sizes.border <= border_room)
+                return cuts;
             if (count > static_cast<double>(sample.size())) break;  // equal points
         }
     }
     return std::nullopt;
 }
 
-/// Of the points of a cube whose diagonal is the tolerance, one.
-std::vector<point3> tile_steps::uncrowded_sample() const {
-    std::vector<std::pair<std::array<double, 3>, point3>> by_cube;
-    for (const point3& p : survey_.sample) {
-        std::array<double, 3> cube{p.x, p.y, p.z};
-        if (tolerance_ > 0.0)
-            for (double& c : cube) c = std::floor(c / tolerance_ * 1.74);
-        by_cube.emplace_back(cube, p);
+/// As many tiles as hold least at a time. \throws weld_stream_error where that is too much
+tile_cuts tile_steps::plan_for_least_memory() const {
+    std::optional<tile_cuts> best;
+    double least = std::numeric_limits<double>::infinity();
+    const double points = static_cast<double>(places().points.size());
+    for (double count = 1.0; count <= std::max(1.0, points / 64.0); count *= 2.0) {
+        tile_cuts cuts(places().points, tolerance_, static_cast<std::size_t>(count));
+        const cut_sizes sizes = sizes_of(cuts);
+        const double each = static_cast<double>(bytes_per_point());
+        double held = sizes.held * each;
+        if (rule() == weld_rule::chain)  // or cube by cube, which conditions rule out
+            held = values() > 0 ? sizes.largest * each
+                                : std::min(sizes.largest * each, sizes.held * bytes_of_cube);
+        const double bytes = std::max(held / 0.7, sizes.border * bytes_of_border / 0.7);
+        if (bytes >= least) continue;
+        least = bytes;
+        best.emplace(std::move(cuts));
     }
+    const std::uint64_t needed =
+        task_.memory - task_.options.memory + static_cast<std::uint64_t>(std::min(least, 1e18));
+    if (needed > task_.memory && !task_.options.relative) fail_for_memory(needed);
+    return std::move(*best);
+}
+
+void tile_steps::fail_for_memory(std::uint64_t needed) const {
+    throw weld_stream_error(weld_stream_error::reason::memory, folder_.path(),
+                            "--memory " + in_megabytes(task_.memory) + " is too little; " +
+                                in_megabytes(needed) + " would be enough",
+                            needed);
+}
+
+/// Of the points of a cube whose diagonal is the tolerance, one.
+point_survey::part tile_steps::uncrowded_sample() const {
+    std::vector<std::pair<std::uint64_t, point3>> by_cube;
+    by_cube.reserve(survey_.sample.points.size());
+    for (const point3& p : survey_.sample.points) by_cube.emplace_back(cube_of(p, tolerance_), p);
     const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
     const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
     std::stable_sort(by_cube.begin(), by_cube.end(), before);
     by_cube.erase(std::unique(by_cube.begin(), by_cube.end(), same), by_cube.end());
-    std::vector<point3> some;
-    some.reserve(by_cube.size());
-    for (const auto& [cube, p] : by_cube) some.push_back(p);
+    point_survey::part some{.share = survey_.sample.share};
+    some.points.reserve(by_cube.size());
+    for (const auto& [cube, p] : by_cube) some.points.push_back(p);
     return some;
-}
-
-/// Points in each slab, halo included, judged by a sample.
-std::vector<double> tile_steps::sizes_of(const tile_slabs& slabs,
-                                         const std::vector<point3>& sample) const {
-    std::vector<double> size(slabs.size(), 0.0);
-    for (const point3& p : sample) {
-        const auto place = slabs.find(p);
-        for (std::uint32_t t = place.first; t <= place.last; ++t)
-            size[t] += 1.0 / survey_.sample_share;
-    }
-    return size;
 }
 
 }  // namespace treeform::detail::stream

@@ -18,49 +18,78 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string identity_of(const fs::path& input, const weld_stream_options& o) {
+std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o) {
     detail::stream::state_writer state;
     state.text(version_string());
-    state.text(fs::absolute(input).string());
-    std::error_code error;
-    const std::uint64_t size = fs::file_size(input, error);
-    if (error) throw io_error(input.string() + ": cannot be read: " + error.message());
-    state.number(size);
-    state.number(static_cast<std::uint64_t>(fs::last_write_time(input).time_since_epoch().count()));
-    state.text(o.format);
+    for (const fs::path& input : inputs.paths) {
+        state.text(fs::absolute(input).string());
+        std::error_code error;
+        const std::uint64_t size = fs::file_size(input, error);
+        if (error) throw io_error(input.string() + ": cannot be read: " + error.message());
+        state.number(size);
+        state.number(
+            static_cast<std::uint64_t>(fs::last_write_time(input).time_since_epoch().count()));
+    }
+    state.text(inputs.format);
     state.number(static_cast<std::uint64_t>(o.rule));
     state.real(o.tolerance);
-    state.number(o.relative ? 1 : 0);
-    state.number(o.memory);
-    state.number(o.points_per_tile);
+    for (const weld_condition& c : o.same) {
+        state.text(c.property);
+        state.real(c.tolerance);
+    }
+    state.number(static_cast<std::uint64_t>(o.order));
+    state.text(o.order_by);
+    for (const std::uint64_t number :
+         {std::uint64_t{o.relative}, std::uint64_t{o.as_las}, o.memory, o.points_per_tile})
+        state.number(number);
     return state.bytes();
+}
+
+cloud_inputs named(cloud_inputs inputs) {
+    if (inputs.paths.empty()) throw std::invalid_argument("treeform::weld_stream: no input");
+    if (inputs.names.empty())
+        for (const fs::path& path : inputs.paths) inputs.names.push_back(path.string());
+    if (inputs.names.size() != inputs.paths.size())
+        throw std::invalid_argument("treeform::weld_stream: not one name for each input");
+    return inputs;
 }
 
 /// Of an empty cloud: the program, its threads and what is read and written.
 constexpr std::uint64_t base_memory = std::uint64_t{32} << 20;
 
-detail::stream::tile_task task_of(fs::path input, weld_stream_options options) {
+detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options options) {
     if (!(options.tolerance >= 0.0) || !std::isfinite(options.tolerance))
         throw std::invalid_argument(
             "treeform::weld_stream: the tolerance must be finite and not negative");
+    inputs = named(std::move(inputs));
     if (options.memory == 0) options.memory = default_memory();
+    const std::uint64_t memory = options.memory;
     options.memory -= std::min(base_memory, options.memory / 2);
-    if (options.folder.empty()) options.folder = input.string() + ".tiles";
-    std::string identity = identity_of(input, options);
-    return {std::move(input), std::move(options), std::move(identity)};
+    if (options.folder.empty()) options.folder = inputs.paths.front().string() + ".tiles";
+    std::string identity = identity_of(inputs, options);
+    return {std::move(inputs), std::move(options), std::move(identity), memory};
 }
 
 }  // namespace
 
-weld_stream_error::weld_stream_error(reason why, fs::path path, const std::string& text)
-    : std::runtime_error(text), why_(why), path_(std::move(path)) {}
+weld_stream_error::weld_stream_error(reason why, fs::path path, const std::string& text,
+                                     std::uint64_t needed)
+    : std::runtime_error(text), why_(why), path_(std::move(path)), needed_(needed) {}
+
+cloud_outline outline(const cloud_inputs& inputs) {
+    const cloud_inputs all = named(inputs);
+    const detail::stream::joined_points points(all, false);
+    return {points.header(), points.count()};
+}
 
 struct stream_weld::state {
-    state(fs::path input, weld_stream_options options)
-        : task(task_of(std::move(input), std::move(options))),
+    state(cloud_inputs inputs, weld_stream_options options)
+        : task(task_of(std::move(inputs), std::move(options))),
+          source(task.inputs, task.options.as_las),
+          keys(source.header(), task.options),
           pace(task.options.progress),
           folder(task.options.folder),
-          steps(pace, folder, task) {}
+          steps(pace, folder, task, source, keys) {}
 
     /// Where the work is cancelled, says so.
     template <class Work>
@@ -73,17 +102,42 @@ struct stream_weld::state {
         return status::ok;
     }
 
+    /// Of what was written, which is another cloud where points are not as they were.
+    void count_still_within(const weld_stream_outputs& outputs) {
+        if (!written.welded || outputs.withhold || !outputs.label.empty()) return;
+        written.still_within = 0;
+        const weld_stream_options& o = task.options;
+        const bool rounded = written.welded->max_displacement > 0.0;
+        if (o.keep == weld_keep::first && !rounded) return;
+        weld_stream_options again = o;
+        again.tolerance = steps.survey().tolerance;
+        again.relative = false;
+        again.keep = weld_keep::first;
+        again.as_las = false;
+        again.memory = task.memory;
+        again.folder += ".again";
+        again.step_done = {};
+        const cloud_inputs input{.paths = {outputs.welded->path},
+                                 .format = outputs.welded->options.format};
+        const weld_stream_result result = weld_stream(input, {}, again);
+        if (result.status == status::cancelled) throw detail::stream::cancelled{};
+        written.still_within = result.survey.points - result.counts.kept;
+    }
+
     detail::stream::tile_task task;
+    detail::stream::joined_points source;
+    detail::stream::point_keys keys;
     detail::stream::pacer pace;
     detail::stream::work_folder folder;
     detail::stream::tile_steps steps;
     std::optional<detail::stream::tiles_welded> welded{};
+    std::optional<detail::stream::kept_rows> rows{};
     weld_stream_counts counts{};
     weld_stream_written written{};
 };
 
-stream_weld::stream_weld(fs::path input, weld_stream_options options)
-    : state_(std::make_unique<state>(std::move(input), std::move(options))) {
+stream_weld::stream_weld(cloud_inputs inputs, weld_stream_options options)
+    : state_(std::make_unique<state>(std::move(inputs), std::move(options))) {
     detail::stream::remove_leftovers(state_->folder);
 }
 stream_weld::~stream_weld() = default;
@@ -91,7 +145,12 @@ stream_weld::stream_weld(stream_weld&&) noexcept = default;
 stream_weld& stream_weld::operator=(stream_weld&&) noexcept = default;
 
 status stream_weld::look() {
-    return state::until_cancelled([&] { state_->steps.look(); });
+    try {
+        return state::until_cancelled([&] { state_->steps.look(); });
+    } catch (const weld_stream_error& error) {
+        if (error.why() == weld_stream_error::reason::memory) state_->folder.remove_unused();
+        throw;
+    }
 }
 
 const cloud_survey& stream_weld::survey() const { return state_->steps.survey(); }
@@ -105,6 +164,8 @@ status stream_weld::weld() {
         state& s = *state_;
         s.steps.weld_tiles();
         s.welded.emplace(s.steps.weld_borders());
+        if (s.task.options.keep != weld_keep::first)
+            s.rows.emplace(s.pace, s.folder, s.task, s.steps, *s.welded);
         s.counts = {survey().points - s.welded->kept.dropped(), s.welded->groups,
                     s.welded->max_displacement};
     });
@@ -115,8 +176,9 @@ const weld_stream_counts& stream_weld::counts() const { return state_->counts; }
 status stream_weld::write(const weld_stream_outputs& outputs) {
     return state::until_cancelled([&] {
         state& s = *state_;
-        s.written =
-            detail::stream::give_back(s.pace, s.task, outputs, s.steps, *s.welded, s.folder);
+        s.written = detail::stream::give_back(s.pace, s.task, outputs, s.steps, *s.welded,
+                                              s.rows ? &*s.rows : nullptr, s.folder);
+        s.count_still_within(outputs);
     });
 }
 
@@ -124,9 +186,9 @@ const weld_stream_written& stream_weld::written() const { return state_->written
 
 void stream_weld::remove_folder() { state_->folder.remove(); }
 
-weld_stream_result weld_stream(const fs::path& input, const weld_stream_outputs& outputs,
+weld_stream_result weld_stream(const cloud_inputs& inputs, const weld_stream_outputs& outputs,
                                const weld_stream_options& options) {
-    stream_weld work(input, options);
+    stream_weld work(inputs, options);
     weld_stream_result result;
     result.status = work.look();
     if (result.status == status::ok) result.status = work.scatter();
@@ -143,7 +205,7 @@ weld_stream_result weld_stream(const fs::path& input, const fs::path& output,
                                const weld_stream_options& options) {
     weld_stream_outputs outputs;
     outputs.welded = {output, {}};
-    return weld_stream(input, outputs, options);
+    return weld_stream(cloud_inputs{.paths = {input}}, outputs, options);
 }
 
 std::uint64_t default_memory() {
@@ -157,6 +219,19 @@ std::uint64_t memory_to_weld(const mesh_file& header, std::uint64_t points) {
         for (const column& c : vertices->columns)
             if (c.role == column_role::data) properties += size_of(c.type);
     return points * (sizeof(point3) + 2 * properties + 48);
+}
+
+std::uint64_t memory_to_stream(const mesh_file& header, std::uint64_t points) {
+    std::uint64_t row = sizeof(point3);
+    if (const element* vertices = find_element(header.attributes, "vertex"))
+        for (const column& c : vertices->columns) row += size_of(c.type);
+    constexpr std::uint64_t samples_and_buffers = std::uint64_t{6} << 20;
+    const std::uint64_t blocks = 4 * row * detail::stream::points_a_block;
+    const std::uint64_t bits = 3 * (points / 8);
+    // Pieces of rows that are sorted are fewer than their number has bytes for.
+    const auto pieces = static_cast<std::uint64_t>(
+        8.0 * std::sqrt(32.0 * 4096.0 * static_cast<double>(points)) / 4.0);
+    return base_memory + samples_and_buffers + blocks + bits + pieces;
 }
 
 }  // namespace treeform

@@ -6,6 +6,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -91,6 +92,13 @@ void work_folder::store(const std::string& name, const state_writer& state) cons
 void work_folder::clear() const {
     for (const auto& entry : fs::directory_iterator(path_))
         if (entry.path().filename() != lock_name) fs::remove(entry.path());
+}
+
+void work_folder::remove_unused() {
+    const fs::directory_iterator all(path_);
+    if (std::all_of(begin(all), end(all),
+                    [](const auto& entry) { return entry.path().filename() == lock_name; }))
+        remove();
 }
 
 void work_folder::remove() {

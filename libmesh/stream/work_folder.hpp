@@ -41,6 +41,8 @@ class work_folder {
     void clear() const;
     /// Removes the folder.
     void remove();
+    /// The same where nothing is stored in it.
+    void remove_unused();
 
   private:
     std::filesystem::path path_;

@@ -1,40 +1,20 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/weld/kept_values.hpp>
 #include <libmesh/weld/property_groups.hpp>
+#include <libmesh/weld/running_mean.hpp>
 #include <libmesh/weld/vertex_values.hpp>
 #include <treeform/tree/parallel.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
 
 namespace treeform::detail::weld {
 namespace {
 
-/// The mean of value(i) over several i, rounded as the header of `weld` says; NaN when one of
-/// them is not finite. Where a sum of differences is beyond the doubles it is taken of values
-/// scaled by 2^-64: 2^32 differences of less than 2^961 each. What this drops of small values is
-/// nothing beside such differences.
 template <class Value>
 double mean(std::span<const std::uint32_t> members, const Value& value) {
-    const auto rough = [&](double scale) {
-        const double first = value(members[0]) * scale;
-        double sum = 0.0;
-        for (const std::uint32_t i : members) sum += value(i) * scale - first;
-        return (first + sum / static_cast<double>(members.size())) / scale;
-    };
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const std::uint32_t i : members) {
-        low = std::min(low, value(i));
-        high = std::max(high, value(i));
-    }
-    const double direct = rough(1.0);
-    const double result = std::isfinite(direct) ? direct : rough(0x1p-64);
-    // With an infinity among the values this is NaN, or infinite.
-    const bool finite = std::isfinite(low) && std::isfinite(high) && !std::isnan(result);
-    return finite ? std::clamp(result, low, high) : std::numeric_limits<double>::quiet_NaN();
+    running_mean all;
+    for (const std::uint32_t i : members) all.add(value(i));
+    return all.value();
 }
 
 template <class Body>

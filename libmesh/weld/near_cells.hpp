@@ -84,11 +84,12 @@ class cube_map {
 };
 
 /// Points by cube. Cubes start wide, so that a look mostly meets one of them, and shrink when they
-/// are crowded.
+/// are crowded. Those with different salts are mostly not met: they are as in other cubes.
 template <class Entry>  // has a point3 `at`
 class near_cells {
   public:
-    explicit near_cells(double tolerance) : cubes_(tolerance), heads_(least_heads, nobody) {}
+    explicit near_cells(double tolerance, bool salted = false)
+        : cubes_(tolerance), heads_(least_heads, nobody), salted_(salted) {}
 
     void reserve(std::size_t count) {
         entries_.reserve(count);
@@ -99,8 +100,10 @@ class near_cells {
     }
     [[nodiscard]] std::size_t size() const { return entries_.size(); }
 
-    void add(const Entry& entry) {
+    /// Entries are numbered as they come. \pre `salt` is 0 unless salted
+    void add(const Entry& entry, std::uint64_t salt = 0) {
         entries_.push_back(entry);
+        if (salted_) salts_.push_back(salt);
         next_.push_back(nobody);
         if (2 * entries_.size() > heads_.size()) {
             heads_.assign(2 * heads_.size(), nobody);
@@ -110,16 +113,16 @@ class near_cells {
         }
     }
 
-    /// Calls `meet(entry)` for those within reach of `p` and others; for some more than once.
+    /// Calls `meet(entry, number)` for those within reach of `p` and others; for some more than once.
     template <class Meet>
-    void visit(const point3& p, const Meet& meet) {
+    void visit(const point3& p, std::uint64_t salt, const Meet& meet) {
         const auto [low, high] = cubes_.around(p);
         std::size_t met = 0;
         for (std::int64_t x : {low[0], high[0]}) {
             for (std::int64_t y : {low[1], high[1]}) {
                 for (std::int64_t z : {low[2], high[2]}) {
-                    for (std::uint32_t i = head(x, y, z); i != nobody; i = next_[i], ++met)
-                        meet(entries_[i]);
+                    for (std::uint32_t i = head(x, y, z, salt); i != nobody; i = next_[i], ++met)
+                        meet(entries_[i], i);
                     if (low[2] == high[2]) break;
                 }
                 if (low[1] == high[1]) break;
@@ -130,14 +133,14 @@ class near_cells {
     }
 
     /// Asks memory for what `visit` reads first.
-    void prefetch(const point3& p) const {
+    void prefetch(const point3& p, std::uint64_t salt = 0) const {
         const auto cube = cubes_.of(p);
-        __builtin_prefetch(&heads_[slot(cube[0], cube[1], cube[2])]);
+        __builtin_prefetch(&heads_[slot(cube[0], cube[1], cube[2], salt)]);
     }
     /// Later: for what it reads then.
-    void prefetch_entry(const point3& p) const {
+    void prefetch_entry(const point3& p, std::uint64_t salt = 0) const {
         const auto cube = cubes_.of(p);
-        const std::uint32_t i = head(cube[0], cube[1], cube[2]);
+        const std::uint32_t i = head(cube[0], cube[1], cube[2], salt);
         if (i == nobody) return;
         __builtin_prefetch(&entries_[i]);
         __builtin_prefetch(&next_[i]);
@@ -147,15 +150,17 @@ class near_cells {
     static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
     static constexpr std::size_t least_heads = 1024;
 
-    [[nodiscard]] std::size_t slot(std::int64_t x, std::int64_t y, std::int64_t z) const {
-        return cube_map::hash(x, y, z) & (heads_.size() - 1);
+    [[nodiscard]] std::size_t slot(std::int64_t x, std::int64_t y, std::int64_t z,
+                                   std::uint64_t salt) const {
+        return (cube_map::hash(x, y, z) ^ salt) & (heads_.size() - 1);
     }
-    [[nodiscard]] std::uint32_t head(std::int64_t x, std::int64_t y, std::int64_t z) const {
-        return heads_[slot(x, y, z)];
+    [[nodiscard]] std::uint32_t head(std::int64_t x, std::int64_t y, std::int64_t z,
+                                     std::uint64_t salt) const {
+        return heads_[slot(x, y, z, salt)];
     }
     void hang(std::uint32_t i) {
         const auto cube = cubes_.of(entries_[i].at);
-        std::uint32_t& first = heads_[slot(cube[0], cube[1], cube[2])];
+        std::uint32_t& first = heads_[slot(cube[0], cube[1], cube[2], salted_ ? salts_[i] : 0)];
         next_[i] = first;
         first = i;
     }
@@ -180,6 +185,8 @@ class near_cells {
     std::vector<Entry> entries_{};
     std::vector<std::uint32_t> next_{};
     std::vector<std::uint32_t> heads_;
+    bool salted_;
+    std::vector<std::uint64_t> salts_{};
     std::size_t looks_ = 0;
     std::size_t met_ = 0;
 };

@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 namespace treeform::detail::weld {
 namespace {
@@ -34,42 +36,68 @@ struct remembered {
 /// The rule first inside a tile.
 class first_in_tile {
   public:
-    explicit first_in_tile(double tolerance)
-        : within_(tolerance),
+    first_in_tile(double tolerance, const agreement& agree)
+        : agree_(agree),
+          within_(tolerance),
           // Where 1.26 tolerances leave the doubles, open points stand for equal ones only.
           within_fourth_(tolerance < largest ? 0.25 * tolerance : 0.0),
           within_more_(tolerance < largest ? cube_map::reach * tolerance : tolerance),
-          cells_(tolerance) {}
+          cells_(tolerance, agree.size() > 0) {}
 
-    void reserve(std::size_t points) { cells_.reserve(points); }
+    void reserve(std::size_t points) {
+        cells_.reserve(points);
+        values_.reserve(points * agree_.size());
+    }
 
-    void add(std::span<const tile_point> points, tile_result& out) {
+    void add(std::span<const tile_point> points, std::span<const std::uint64_t> values,
+             tile_result& out) {
         constexpr std::size_t ahead = 12;
+        const auto salt = [&](std::size_t i) {
+            return agree_.salt(values.data() + i * agree_.size());
+        };
         for (std::size_t i = 0; i < points.size(); ++i) {
-            if (i + 2 * ahead < points.size()) cells_.prefetch(points[i + 2 * ahead].at);
-            if (i + ahead < points.size()) cells_.prefetch_entry(points[i + ahead].at);
-            add(points[i], out);
+            if (i + 2 * ahead < points.size())
+                cells_.prefetch(points[i + 2 * ahead].at, salt(i + 2 * ahead));
+            if (i + ahead < points.size())
+                cells_.prefetch_entry(points[i + ahead].at, salt(i + ahead));
+            add({points[i], values.data() + i * agree_.size(), salt(i)}, out);
         }
     }
 
   private:
     static constexpr double largest = 0x1p1000;
 
-    void add(const tile_point& p, tile_result& out) {
+    struct arrival {
+        const tile_point& point;
+        const std::uint64_t* values;
+        std::uint64_t salt;
+    };
+
+    void add(const arrival& a, tile_result& out) {
+        const tile_point& p = a.point;
         const bool own = p.role() != tile_role::halo;
-        const neighbors around = look(p.at);
+        const neighbors around = look(a);
         if (around.kept.any()) {
-            if (own) drop(p, around, out);
+            if (own) drop(a, around, out);
         } else if (!own || around.some_open) {
-            if (own) out.border.push_back(at(p, border_kind::open));
+            if (own) put(at(p, border_kind::open), a, out);
             if (around.covering != nullptr)
                 around.covering->stand();
             else
-                cells_.add(remembered::make(p.id(), p.at, true));
+                remember(a, true);
         } else {
-            if (p.role() == tile_role::shared) out.border.push_back(at(p, border_kind::kept));
-            cells_.add(remembered::make(p.id(), p.at, false));
+            if (p.role() == tile_role::shared) put(at(p, border_kind::kept), a, out);
+            remember(a, false);
         }
+    }
+
+    void remember(const arrival& a, bool open) {
+        cells_.add(remembered::make(a.point.id(), a.point.at, open), a.salt);
+        values_.insert(values_.end(), a.values, a.values + agree_.size());
+    }
+    void put(const border_point& b, const arrival& a, tile_result& out) const {
+        out.border.push_back(b);
+        out.border_values.insert(out.border_values.end(), a.values, a.values + agree_.size());
     }
 
     struct neighbors {
@@ -80,26 +108,31 @@ class first_in_tile {
         remembered* covering;
     };
 
-    neighbors look(const point3& p) {
+    neighbors look(const arrival& a) {
+        const point3& p = a.point.at;
         neighbors found{nearest_kept(p), nearest_kept(p), infinity, false, nullptr};
-        cells_.visit(p, [&](remembered& q) {
+        cells_.visit(p, a.salt, [&](remembered& q, std::size_t number) {
+            const std::uint64_t* const values = values_.data() + number * agree_.size();
             if (!q.open()) {
-                if (within_.holds(p, q.at)) found.kept.consider(q.id(), q.at);
+                if (within_.holds(p, q.at) && agree_.holds(a.values, values))
+                    found.kept.consider(q.id(), q.at);
                 return;
             }
             if (!(q.stands() ? within_more_ : within_).holds(p, q.at)) return;
+            if (!agree_.holds(a.values, values)) return;
             found.some_open = true;
             if (q.stands())
                 found.standing_square =
                     std::min(found.standing_square, rounded_squared_distance(p, q.at));
             else
                 found.open.consider(q.id(), q.at);
-            if (within_fourth_.holds(p, q.at)) found.covering = &q;
+            if (within_fourth_.holds(p, q.at) && agree_.same(a.values, values)) found.covering = &q;
         });
         return found;
     }
 
-    void drop(const tile_point& p, const neighbors& around, tile_result& out) {
+    void drop(const arrival& a, const neighbors& around, tile_result& out) const {
+        const tile_point& p = a.point;
         const nearest_kept& kept = around.kept;
         if (!open_may_precede(p.at, around)) {
             out.dropped.push_back({p.id(), kept.id()});
@@ -109,7 +142,7 @@ class first_in_tile {
         border_point leaning = at(p, border_kind::leaning);
         leaning.leader = kept.id();
         leaning.leader_at = kept.at();
-        out.border.push_back(leaning);
+        put(leaning, a, out);
     }
 
     /// What stands for others is nearer by a fourth of the tolerance, as far as is known.
@@ -134,23 +167,28 @@ class first_in_tile {
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
+    const agreement& agree_;
     reach within_;
     reach within_fourth_;
     reach within_more_;
     near_cells<remembered> cells_;
+    std::vector<std::uint64_t> values_{};  ///< of what the cells have, in the order of its numbers
 };
 
 /// The rule chain inside a tile.
 class chain_in_tile {
   public:
-    explicit chain_in_tile(double tolerance) : tolerance_(tolerance) {}
+    chain_in_tile(double tolerance, const agreement& agree)
+        : agree_(agree), tolerance_(tolerance) {}
 
     void reserve(std::size_t points) {
         points_.reserve(points);
         tags_.reserve(points);
+        values_.reserve(points * agree_.size());
     }
 
-    void add(std::span<const tile_point> points) {
+    void add(std::span<const tile_point> points, std::span<const std::uint64_t> values) {
+        values_.insert(values_.end(), values.begin(), values.end());
         for (const tile_point& p : points) {
             points_.push_back(p.at);
             tags_.push_back(p.tag);
@@ -173,16 +211,26 @@ class chain_in_tile {
 
   private:
     void group() {
-        groups_ = group_points(points_, {.tolerance = tolerance_, .rule = weld_rule::chain});
+        weld_options options{.tolerance = tolerance_, .rule = weld_rule::chain};
+        const std::vector<std::uint32_t> labels = agree_.labels(values_);
+        options.label = labels;
+        if (!agree_.is_transitive())
+            options.may_merge = [&](std::uint32_t i, std::uint32_t j) {
+                return agree_.holds(values_.data() + i * agree_.size(),
+                                    values_.data() + j * agree_.size());
+            };
+        groups_ = group_points(points_, options);
         elsewhere_.assign(groups_.first_of_group.size(), false);
         for (std::size_t i = 0; i < tags_.size(); ++i)
             if (tile_point{tags_[i], {}}.role() != tile_role::own)
                 elsewhere_[groups_.group_of_point[i]] = true;
     }
 
+    const agreement& agree_;
     double tolerance_;
     std::vector<point3> points_{};
     std::vector<std::uint64_t> tags_{};
+    std::vector<std::uint64_t> values_{};
     point_groups groups_{};
     std::vector<bool> elsewhere_{};  ///< [G] some of the group's points are in other tiles, too
     std::size_t next_ = 0;
@@ -249,16 +297,19 @@ double longest_move::length() const {
 }
 
 struct tile_weld::state {
+    agreement agree{};
     std::optional<first_in_tile> first{};
     std::optional<chain_in_tile> chain{};
 };
 
-tile_weld::tile_weld(weld_rule rule, double tolerance) : state_(std::make_unique<state>()) {
+tile_weld::tile_weld(weld_rule rule, double tolerance, agreement agree)
+    : state_(std::make_unique<state>()) {
     check_tolerance("tile_weld", tolerance);
+    state_->agree = std::move(agree);
     if (rule == weld_rule::first)
-        state_->first.emplace(tolerance);
+        state_->first.emplace(tolerance, state_->agree);
     else
-        state_->chain.emplace(tolerance);
+        state_->chain.emplace(tolerance, state_->agree);
 }
 tile_weld::~tile_weld() = default;
 tile_weld::tile_weld(tile_weld&&) noexcept = default;
@@ -269,28 +320,35 @@ void tile_weld::reserve(std::size_t points) {
     if (state_->chain) state_->chain->reserve(points);
 }
 
-void tile_weld::add(std::span<const tile_point> points, tile_result& out) {
-    if (state_->first) state_->first->add(points, out);
-    if (state_->chain) state_->chain->add(points);
+void tile_weld::add(std::span<const tile_point> points, tile_result& out,
+                    std::span<const std::uint64_t> values) {
+    assert(values.size() == points.size() * state_->agree.size());
+    if (state_->first) state_->first->add(points, values, out);
+    if (state_->chain) state_->chain->add(points, values);
 }
 
 bool tile_weld::finish(tile_result& out) { return state_->chain && state_->chain->finish(out); }
 
 struct border_weld::state {
-    explicit state(double tolerance) : within(tolerance), kept(tolerance) {}
+    state(double tolerance, agreement asked)
+        : agree(std::move(asked)), within(tolerance), kept(tolerance, agree.size() > 0) {}
 
-    void settle(const border_point& p, std::vector<tile_drop>& out) {
+    void settle(const border_point& p, const std::uint64_t* of_point, std::vector<tile_drop>& out) {
         nearest_kept found(p.at);
+        const std::uint64_t salt = agree.salt(of_point);
         if (p.kind() == border_kind::leaning) found.consider(p.leader, p.leader_at);
         if (p.kind() != border_kind::kept)
-            kept.visit(p.at, [&](const remembered& q) {
-                if (within.holds(p.at, q.at)) found.consider(q.id(), q.at);
+            kept.visit(p.at, salt, [&](const remembered& q, std::size_t number) {
+                if (within.holds(p.at, q.at) &&
+                    agree.holds(of_point, values.data() + number * agree.size()))
+                    found.consider(q.id(), q.at);
             });
         if (found.any()) {
             out.push_back({p.id(), found.id()});
             move.consider(p.at, found.at());
         } else {
-            kept.add(remembered::make(p.id(), p.at, false));
+            kept.add(remembered::make(p.id(), p.at, false), salt);
+            values.insert(values.end(), of_point, of_point + agree.size());
         }
     }
 
@@ -300,27 +358,30 @@ struct border_weld::state {
         last_link = p;
     }
 
+    agreement agree;
     reach within;
     near_cells<remembered> kept;
+    std::vector<std::uint64_t> values{};  ///< of those
     longest_move move{};
     std::optional<border_point> last_link{};
     sparse_sets sets{};
 };
 
-border_weld::border_weld(weld_rule, double tolerance) {
+border_weld::border_weld(weld_rule, double tolerance, agreement agree) {
     check_tolerance("border_weld", tolerance);
-    state_ = std::make_unique<state>(tolerance);
+    state_ = std::make_unique<state>(tolerance, std::move(agree));
 }
 border_weld::~border_weld() = default;
 border_weld::border_weld(border_weld&&) noexcept = default;
 border_weld& border_weld::operator=(border_weld&&) noexcept = default;
 
-void border_weld::add(std::span<const border_point> points, std::vector<tile_drop>& out) {
-    for (const border_point& p : points)
-        if (p.kind() == border_kind::link)
-            state_->join(p);
+void border_weld::add(std::span<const border_point> points, std::vector<tile_drop>& out,
+                      std::span<const std::uint64_t> values) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (points[i].kind() == border_kind::link)
+            state_->join(points[i]);
         else
-            state_->settle(p, out);
+            state_->settle(points[i], values.data() + i * state_->agree.size(), out);
 }
 
 void border_weld::finish(std::vector<tile_drop>& out) {

@@ -2,8 +2,8 @@
 /// \file
 /// Clouds larger than memory, welded tile by tile with the groups that `group_points` finds.
 ///
-/// A tile gets the points of its slab of space, its own, and those of its halo: all others within
-/// the tolerance of the slab. It sees every neighbor of its own points, but not all of those of
+/// A tile gets the points of its part of space, its own, and those of its halo: all others within
+/// the tolerance of that part. It sees every neighbor of its own points, but not all of those of
 /// its halo; what it says for certain is true of the whole cloud, and what hangs on its halo is
 /// left to one pass over the borders of all tiles. There are no rounds, and tiles need not know of
 /// each other: they may be done in any order, at any time, by any process.
@@ -27,12 +27,16 @@
 /// stands for all, with a reach as much longer. More points may be called open then, none wrongly
 /// kept or dropped, and what a tile remembers is bounded by its volume, not by its points.
 ///
+/// Conditions. Points whose values do not agree are no neighbors, whatever is said above; one open
+/// point stands for others of the same values only.
+///
 /// Rule `chain`. The points that are linked inside a tile are one component there. A component of
-/// the cloud is one of tiles' components that share points, and shared are points of a slab that
+/// the cloud is one of tiles' components that share points, and shared are points of a tile that
 /// are in the halo of another: the border pass joins what they name. How far its points are from
 /// the lowest is known to no tile before; a tile names the points of components that may be larger,
 /// each with the lowest it knows of, and `chain_moves` measures when all are brought together.
 
+#include <libmesh/weld/agreement.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -45,38 +49,42 @@
 
 namespace treeform::detail::weld {
 
-/// Space cut into slabs by planes. All points, also those of no sample, are in one slab; points
-/// within the tolerance of each other are in slabs that know of both.
-class TREEFORM_API tile_slabs {
+/// Space cut by planes, and each part again. All points, also those of no sample, are in one tile;
+/// points within the tolerance of each other are in tiles that know of both.
+class TREEFORM_API tile_cuts {
   public:
-    /// At most `count` slabs with about equal shares of `sample`, whose points are finite.
+    /// At most `count` tiles with about equal shares of `sample`, whose points are finite.
     ///
     /// \throws std::invalid_argument for a count of 0 or a tolerance that is negative or not finite
     /// \cost O(n log n) for n points of the sample
-    tile_slabs(points_view sample, double tolerance, std::size_t count);
+    tile_cuts(points_view sample, double tolerance, std::size_t count);
 
-    [[nodiscard]] std::size_t size() const { return cuts_.size() + 1; }
+    [[nodiscard]] std::size_t size() const { return size_; }
 
-    struct place {
-        std::uint32_t own;    ///< the slab that the point is in
-        std::uint32_t first;  ///< the slabs that it is in or in the halo of: `first` to `last`,
-        std::uint32_t last;   ///< both included
-    };
+    /// The tile that the point is in. The others whose halo it is in replace the content of `halos`.
+    ///
     /// \pre `p` is finite
-    [[nodiscard]] place find(const point3& p) const;
+    [[nodiscard]] std::uint32_t find(const point3& p, std::vector<std::uint32_t>& halos) const;
 
   private:
-    [[nodiscard]] double along(const point3& p) const;
+    struct node {
+        std::uint32_t direction = leaf;
+        double cut = 0.0;         ///< places from here on are above
+        std::uint32_t above = 0;  ///< node; the one below is the next. Of a leaf: the tile
+    };
+    static constexpr std::uint32_t leaf = 3;
 
-    point3 direction_{};
+    std::uint32_t split(std::span<point3> sample, std::size_t count);
+
     double tolerance_;
-    std::vector<double> cuts_{};  ///< ascending
+    std::uint32_t size_ = 0;
+    std::vector<node> nodes_{};
 };
 
 /// What a point is to a tile.
 enum class tile_role : std::uint8_t {
-    own,     ///< in its slab, and in no other tile
-    shared,  ///< in its slab, and in the halo of others
+    own,     ///< in its part of space, and in no other tile
+    shared,  ///< in its part of space, and in the halo of others
     halo
 };
 
@@ -153,7 +161,8 @@ class TREEFORM_API longest_move {
 struct tile_result {
     std::vector<tile_drop> dropped{};    ///< by ascending numbers; for good with the rule first
     std::vector<border_point> border{};  ///< by ascending numbers
-    std::vector<tile_member> members{};  ///< with the rule chain
+    std::vector<std::uint64_t> border_values{};  ///< of these with the rule first, as for `add`
+    std::vector<tile_member> members{};          ///< with the rule chain
     /// Of `dropped`, with the rule chain except for the `members`.
     longest_move move{};
 };
@@ -162,7 +171,7 @@ struct tile_result {
 class TREEFORM_API tile_weld {
   public:
     /// \throws std::invalid_argument for a tolerance that is negative or not finite
-    tile_weld(weld_rule rule, double tolerance);
+    tile_weld(weld_rule rule, double tolerance, agreement agree = {});
     ~tile_weld();
     tile_weld(tile_weld&&) noexcept;
     tile_weld& operator=(tile_weld&&) noexcept;
@@ -174,9 +183,10 @@ class TREEFORM_API tile_weld {
     /// With the rule first only points that are kept or open take memory from then on, some 60
     /// bytes each; with the rule chain all do, some 100 each, and `crowded_chain` is for more.
     ///
-    /// \pre all coordinates are finite
+    /// \pre all coordinates are finite, and `values` are those of the agreement, point by point
     /// \cost O(1) a point with the rule first, expected, where those kept or open are not crowded
-    void add(std::span<const tile_point> points, tile_result& out);
+    void add(std::span<const tile_point> points, tile_result& out,
+             std::span<const std::uint64_t> values = {});
 
     /// The end of the tile, a piece of the result at a time: call it until it returns false.
     /// \throws std::invalid_argument for the rule chain and more than 2^32 - 2 points
@@ -192,7 +202,7 @@ class TREEFORM_API tile_weld {
 class TREEFORM_API border_weld {
   public:
     /// \throws std::invalid_argument for a tolerance that is negative or not finite
-    border_weld(weld_rule rule, double tolerance);
+    border_weld(weld_rule rule, double tolerance, agreement agree = {});
     ~border_weld();
     border_weld(border_weld&&) noexcept;
     border_weld& operator=(border_weld&&) noexcept;
@@ -200,7 +210,8 @@ class TREEFORM_API border_weld {
     /// Takes the next points, whose numbers ascend over all calls and tiles (those of links may be
     /// equal), and appends those that are dropped. Only kept points and linked components take
     /// memory, some 60 and 100 bytes each.
-    void add(std::span<const border_point> points, std::vector<tile_drop>& out);
+    void add(std::span<const border_point> points, std::vector<tile_drop>& out,
+             std::span<const std::uint64_t> values = {});
 
     /// The end; call it once, after which the rest holds. For the rule chain it appends points that
     /// may be in a tile's `dropped` as well, with a leader that comes to the same.

@@ -43,7 +43,18 @@ bool differ_by_at_most(std::uint64_t a, std::uint64_t b, double t) {
     return t >= 0x1p64 || d <= static_cast<std::uint64_t>(t);
 }
 
+/// The inverse of an ascending key; NaN comes back as NaN, -0 as +0.
+double number_of_key(std::uint64_t key) {
+    constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+    return std::bit_cast<double>((key & sign) != 0 ? key ^ sign : ~key);
+}
+
 }  // namespace
+
+bool keys_agree(bool whole, std::uint64_t a, std::uint64_t b, double tolerance) {
+    return whole ? differ_by_at_most(a, b, tolerance)
+                 : differ_by_at_most(number_of_key(a), number_of_key(b), tolerance);
+}
 
 vertex_values::vertex_values(points_view points, const attributes& properties,
                              const std::string& name) {

@@ -13,6 +13,9 @@
 
 namespace treeform::detail::weld {
 
+/// Whether values with these ascending keys agree, as `vertex_values::agree` says.
+[[nodiscard]] bool keys_agree(bool whole, std::uint64_t a, std::uint64_t b, double tolerance);
+
 class vertex_values {
   public:
     /// The column `name` of "vertex", or coordinates for "x", "y" and "z".
@@ -35,6 +38,9 @@ class vertex_values {
     /// Whether the values differ by at most `tolerance`, finite and not negative; NaN differs from
     /// all but NaN.
     [[nodiscard]] bool agree(std::size_t i, std::size_t j, double tolerance) const;
+
+    /// Whether they are whole numbers of 64 bits.
+    [[nodiscard]] bool is_whole() const { return whole_.size() > 0; }
 
     /// The values in one or two columns of doubles, which are equal where the values are.
     [[nodiscard]] std::vector<buffer<double>> take_columns() &&;

@@ -3,6 +3,7 @@
 from weld_support import *
 
 import random
+import re
 import signal
 
 FORMATS = ("ply", "xyz", "pcd", "csv")
@@ -132,10 +133,10 @@ class Large(WeldTest):
 
     def test_what_only_memory_can_do_is_refused_in_words(self):
         self.write("in.ply", ply(cloud(200), ascii=False))
-        for more in (["--keep", "mean"], ["--order", "number"], ["--same", "number"],
-                     ["--keep-manifold"], ["--precision", "float"]):
-            run = self.run_tool("in.ply", "-t", "0.02", "-o", "out.ply", "--tile-points", 50,
-                                *more, status=2)
+        for out, more in (("out.ply", ["--keep-manifold"]), ("out.ply", ["--borders"]),
+                          ("out.las", []), ("-", ["--keep", "mean", "--output-format", "ply"])):
+            run = self.run_tool("in.ply", "-t", "0.02", "-o", out, "--tile-points", 50, *more,
+                                status=2)
             self.assertIn("memory", run.err)
         self.assertEqual(self.listing(), ["in.ply"])
 
@@ -252,6 +253,23 @@ class Large(WeldTest):
         self.check_beyond_the_limit(some + [(x + 1e-7, y, z) for x, y, z in some], "2e-7")
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_orders_and_choices_beyond_the_memory_limit_give_the_same(self):
+        rng = random.Random(9)
+        some = [(rng.random(), rng.random(), rng.random()) for _ in range(200000)]
+        points = some + [(x + 1e-7 * rng.random(), y, z) for x, y, z in some]
+        for half in (0, 1):
+            self.binary(f"{half}.ply", points[half::2])
+        for more in (["--order", "max:x"], ["--keep", "mean"], ["--keep", "max:x"],
+                     ["--same", "y=0.001", "--order", "x"]):
+            for name, limit in (("memory", []), ("tiles", ["--memory", "52M"])):
+                run = self.run_tool("0.ply", "1.ply", "--join", "-t", "5e-5", *more, "-f", *limit,
+                                    "-o", f"{name}.ply", "--map", f"{name}.map", "--removed",
+                                    f"{name}.xyz", "-v", status=0)
+                self.assertEqual(bool(limit), " tiles, about" in run.err)
+            for end in (".ply", ".map", ".xyz"):
+                self.assertTrue(self.read_bytes("memory" + end) == self.read_bytes("tiles" + end))
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_a_heap_of_equal_points_beyond_the_memory_limit_is_welded_all_the_same(self):
         rng = random.Random(6)
         points = [(0.5, 0.5, 0.5) if i % 4 else (rng.random(), rng.random(), rng.random())
@@ -270,17 +288,46 @@ class Large(WeldTest):
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_what_is_welded_in_memory_says_so_where_memory_is_limited(self):
-        self.binary("in.ply", [(i % 100, i // 100 % 100, i // 10000) for i in range(200000)])
         corners = b"".join(struct.pack("<12fH", *(3 * [0.0]), *(float(i % 97 + k) for k in range(9)),
                                        0) for i in range(100000))
         self.write("in.stl", 80 * b" " + struct.pack("<I", 100000) + corners)
-        for inputs, enough in ((["in.stl"], "70M"), (["--join", "in.ply", "in.ply"], "140M")):
-            command = [*inputs, "-o", "out.ply", "-f"]
-            self.assertNotIn("--memory", self.run_tool(*command, status=0).err)
-            report = self.report(*command, "--memory", enough, status=0)
-            self.assertIn("in-memory", [w["code"] for w in report["files"][0]["warnings"]])
-            run = self.run_tool(*command, "--memory", "16M", status=5)
-            self.assertIn("in memory, not in tiles", run.err)
+        command = ["in.stl", "-o", "out.ply", "-f"]
+        self.assertNotIn("--memory", self.run_tool(*command, status=0).err)
+        report = self.report(*command, "--memory", "70M", status=0)
+        self.assertIn("in-memory", [w["code"] for w in report["files"][0]["warnings"]])
+        run = self.run_tool(*command, "--memory", "16M", status=5)
+        self.assertIn("in memory, not in tiles", run.err)
+        self.write("in.stl", 80 * b" " + struct.pack("<I", 800000))
+        os.truncate(self.path("in.stl"), 84 + 50 * 800000)  # more than the memory
+        run = self.run_tool(*command, "--memory", "32M", status=5)
+        self.assertIn("faces name points anywhere", run.err)
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_memory_that_is_too_little_is_said_at_once_with_what_would_be_enough(self):
+        rng = random.Random(8)
+        self.binary("in.ply", [(rng.random(), rng.random(), rng.random()) for _ in range(500000)])
+        for rule in ("first", "chain"):
+            for tolerance in ("0.002", "0.008"):
+                command = ["in.ply", "-t", tolerance, "--rule", rule, "-f"]
+                self.run_tool(*command, "-o", "memory.ply", status=0)
+                run = self.run_tool(*command, "-o", "out.ply", "--memory", "33M", status=5)
+                self.assertEqual(self.listing(), ["in.ply", "memory.ply"])
+                for _ in range(2):  # from what the header says, and from samples
+                    enough = re.search("([0-9]+M) would be enough", run.err)[1]
+                    run = self.run_tool(*command, "-o", "out.ply", "--memory", enough)
+                    if run.status == 0:
+                        break
+                    self.assertEqual(self.listing(), ["in.ply", "memory.ply"])
+                self.assertEqual(run.status, 0, msg=run.err)
+                self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+                os.remove(self.path("out.ply"))
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_what_tiles_cannot_do_is_refused_where_memory_is_limited(self):
+        self.binary("in.ply", [(i % 100, i // 100 % 100, i // 10000) for i in range(400000)])
+        run = self.run_tool("in.ply", "-o", "out.las", "--memory", "40M", status=5)
+        self.assertRegex(run.err, "LAS of what is in another format needs .* in memory, about")
+        self.assertEqual(self.listing(), ["in.ply"])
 
 
 if __name__ == "__main__":

@@ -100,8 +100,7 @@ class Las(WeldTest):
     def test_withhold_is_refused_where_it_means_nothing(self):
         for more in (["-o", "out.ply"], ["-o", "out.las", "--label", "g"], ["--check"],
                      ["-o", "out.las", "--removed", "gone.las"],
-                     ["-o", "out.las", "--keep", "mean"],
-                     ["-o", "out.las", "--tile-points", 2]):
+                     ["-o", "out.las", "--keep", "mean"]):
             run = self.run_tool("in.las", "--withhold", *more, status=2)
             self.assertIn("withhold", run.err)
         self.assertEqual(self.listing(), ["in.las"])

@@ -119,10 +119,10 @@ class Report(WeldTest):
                   "property float x\nproperty float y\nproperty float z\nend_header\n")
         self.write("in.ply", header)
         os.truncate(self.path("in.ply"), len(header) + 12 * count)  # all of them in one place
-        run = self.run_tool("in.ply", "-o", "out.ply", "--memory", "100M", "--keep", "mean",
-                            status=5)  # means are not made in tiles
-        self.assertIn("memory", run.err)
-        self.assertEqual(self.listing(), ["in.ply"])
+        for output, memory in (("out.las", "100M"), ("out.ply", "40M")):  # too little for tiles, too
+            run = self.run_tool("in.ply", "-o", output, "--memory", memory, "--keep", "mean", status=5)
+            self.assertIn("--memory", run.err)
+            self.assertEqual(self.listing(), ["in.ply"])
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_a_limit_too_small_for_threads_is_no_bug(self):

@@ -71,17 +71,14 @@ void label(job& work, tf::mesh_file& file, const welding& w, const std::string& 
     tf::element& vertices = tf::obtain_element(file.attributes, "vertex", file.mesh.points.size());
     if (tf::set_column(vertices,
                        tf::make_column<std::uint32_t>(name, w.result.groups.group_of_point)))
-        work.warn("replaced", "property " + name + " was there before; its values are replaced");
+        warn_of_replaced(work, name);
 }
 
 /// Where the output is LAS: as it will be there, so that what is decided holds for what is written.
 void fit_to_las(job& work, tf::mesh_file& file, const std::string& why) {
     const auto path = mesh_output(work.options, work.path);
     if (!path || !form_of(work, file, *path).is_las()) return;
-    const double moved = tf::round_to_las(file);
-    if (moved > 0.0)
-        work.warn("las-grid",
-                  why + " are rounded to the steps of the LAS file, by at most " + brief(moved));
+    warn_of_las_grid(work, why, tf::round_to_las(file));
 }
 
 }  // namespace

@@ -38,6 +38,8 @@ failure failure_of(const job& work, const tf::weld_stream_error& error) {
             return {bad_input, "read", error.what()};
         case damaged:
             return {bad_input, "damaged", error.what()};
+        case memory:
+            return {stopped, "memory", work.name + ": " + error.what()};
         case input_changed:
             break;
     }
@@ -58,13 +60,20 @@ void take(job& work, const char* timed, const Step& step) {
 }
 
 tf::weld_stream_options library_options(job& work, const weld_request& request,
-                                        const tile_settings& tiles) {
+                                        const tile_settings& tiles, const tf::mesh_file& header) {
     const distance& tolerance = request.settings.tolerance;
+    const tf::weld_options& asked = request.settings.options;
     tf::weld_stream_options options;
     options.tolerance = tolerance.value;
     options.relative = tolerance.relative;
-    options.rule = request.settings.options.rule;
-    options.format = work.options.format;
+    options.rule = asked.rule;
+    options.same = asked.same;
+    options.keep = asked.keep;
+    options.keep_by = asked.keep_by;
+    options.order = asked.order;
+    options.order_by = asked.order_by;
+    const auto path = mesh_output(work.options, work.path);
+    options.as_las = path && form_of(work, header, *path).is_las();
     options.memory = work.options.memory;
     options.folder = folder_for(work, request, tiles);
     options.points_per_tile = tiles.points_per_tile;
@@ -92,18 +101,31 @@ void say_of_earlier_work(job& work, const tf::cloud_survey& survey, const fs::pa
                       counted(survey.tiles, "tile", "tiles") + " finished before");
 }
 
-void enter_source(job& work, const tf::cloud_survey& survey, const fs::path& input) {
-    json source{{"input", work.path}};
-    const std::string sum = work.options.detailed() ? sha256_of_file(input) : std::string();
-    source["format"] = survey.format;
-    source["sha256"] = sum.empty() ? json(nullptr) : json(sum);
-    source["precision_in"] = survey.single ? "float" : "double";
-    source["points"] = survey.points;
-    source["faces"] = 0;
-    source["first_point"] = 0;
-    for (const char* key : {"format", "sha256", "precision_in"}) work.entry[key] = source[key];
-    work.entry["sources"].push_back(std::move(source));
-    work.warn(survey.warnings);
+void enter_sources(job& work, const tf::cloud_survey& survey, const tf::cloud_inputs& inputs) {
+    const job::timer timing = work.time("read");
+    const auto precision = [](bool single) { return single ? "float" : "double"; };
+    std::uint64_t first_point = 0;
+    for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
+        const tf::cloud_survey::source& from = survey.sources[i];
+        json source{{"input", inputs.names[i]}};
+        const std::string sum =
+            work.options.detailed() ? sha256_of_file(inputs.paths[i]) : std::string();
+        source["format"] = from.format;
+        source["sha256"] = sum.empty() ? json(nullptr) : json(sum);
+        source["precision_in"] = precision(from.single);
+        source["points"] = from.points;
+        source["faces"] = 0;
+        source["first_point"] = first_point;
+        first_point += from.points;
+        work.entry["sources"].push_back(std::move(source));
+    }
+    const json& first = work.entry["sources"].front();
+    for (const char* key : {"format", "sha256"})
+        work.entry[key] = inputs.paths.size() == 1 ? first[key] : json(nullptr);
+    work.entry["precision_in"] = precision(survey.single);
+    for (const tf::io_warning& w : survey.warnings)
+        work.warn(w.code, w.code == "left-out" ? w.text + " by --join" : w.text);
+    warn_of_las_grid(work, "coordinates", survey.las_moved);
 }
 
 void say_plan(job& work, const tf::cloud_survey& survey, const fs::path& folder) {
@@ -122,7 +144,7 @@ void say_plan(job& work, const tf::cloud_survey& survey, const fs::path& folder)
 class stream_files {
   public:
     stream_files(job& work, const weld_request& request, const tf::mesh_file& header)
-        : work_(work), asked_(request.outputs), outputs_(work) {
+        : work_(work), request_(request), asked_(request.outputs), outputs_(work) {
         const common_options& o = work.options;
         if (!asked_.map.empty()) open_map();
         if (!asked_.removed.empty() && !o.dry_run)
@@ -133,6 +155,7 @@ class stream_files {
             to_.welded = {outputs_.add(*path_, o.force || o.in_place),
                           write_options_for(o, form_of(work, header, *path_))};
         to_.label = asked_.label;
+        to_.withhold = asked_.withhold;
         to_.unfinished = outputs_.unfinished();
         if (map_ && !map_->folder().empty()) to_.unfinished.push_back(map_->folder());
     }
@@ -144,8 +167,10 @@ class stream_files {
             throw failure(bad_output, "output", outputs_.said_of_paths(error.what()));
         }
         enter(weld.written());
+        const job::timer timing = work_.time("write");
         if (map_) map_->commit();
         outputs_.commit();
+        weld.remove_folder();
     }
 
   private:
@@ -161,16 +186,15 @@ class stream_files {
     }
 
     void enter(const tf::weld_stream_written& written) {
-        if (written.label_replaced)
-            work_.warn("replaced",
-                       "property " + asked_.label + " was there before; its values are replaced");
+        if (written.label_replaced) warn_of_replaced(work_, asked_.label);
         if (written.removed) work_.warn(written.removed->warnings);
-        if (!written.welded) return;
-        enter_output(work_, *path_, *written.welded);
-        work_.entry["output"]["within_tolerance"] = or_null(asked_.label.empty(), 0);
+        warn_of_las_grid(work_, "means", written.las_moved);
+        if (written.welded)
+            enter_result(work_, request_, *path_, *written.welded, written.still_within);
     }
 
     job& work_;
+    const weld_request& request_;
     const weld_outputs& asked_;
     pending_outputs outputs_;
     std::optional<fs::path> path_{};
@@ -183,6 +207,7 @@ welding in_words_of_memory(const tf::cloud_survey& survey, const tf::weld_stream
     w.points = survey.points;
     w.box = survey.box;
     w.tolerance = survey.tolerance;
+    w.conditions = survey.conditions;
     w.result.statistics.non_finite = survey.non_finite;
     w.result.statistics.max_displacement = counts.max_displacement;
     w.result.statistics.groups = counts.groups;
@@ -205,16 +230,21 @@ fs::path folder_for(const job& work, const weld_request& request, const tile_set
 }
 
 exit_status weld_in_tiles(job& work, const weld_request& request, const tile_settings& tiles,
-                          const fs::path& input, const tf::mesh_file& header) {
+                          const tf::cloud_inputs& inputs, const tf::mesh_file& header) {
     enter_blank_report(work, request);
     check_outputs(work, {request.outputs.map}, {request.outputs.removed});
     check_formats(work, request, header);
-    const tf::weld_stream_options options = library_options(work, request, tiles);
+    const tf::weld_stream_options options = library_options(work, request, tiles, header);
     std::optional<tf::stream_weld> weld;
-    take(work, "read", [&] { return weld.emplace(input, options).look(); });
+    try {
+        static_cast<void>(tf::weld_conditions(header.attributes, false, request.settings.options));
+        take(work, "read", [&] { return weld.emplace(inputs, options).look(); });
+    } catch (const tf::weld_property_error& error) {
+        throw property_failure(error, header.attributes);
+    }
     const tf::cloud_survey& survey = weld->survey();
     say_of_earlier_work(work, survey, options.folder);
-    enter_source(work, survey, input);
+    enter_sources(work, survey, inputs);
     if (survey.points == 0) throw failure(bad_input, "no-points", work.name + ": no points");
     if (!request.outputs.label.empty() && survey.points > std::numeric_limits<std::uint32_t>::max())
         throw failure(bad_input, "label", work.name + ": too many points for --label");
@@ -229,7 +259,6 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_set
     work.entry["polygons"] = {{"in", 0}, {"out", 0}};
     warn_of_defects(work, w);
     stream_files(work, request, header).write(*weld);
-    weld->remove_folder();
     return request.outputs.check && w.removed() > 0 ? found : done;
 }
 

@@ -5,6 +5,7 @@
 #include "tools/tf-weld/out_of_core.hpp"
 #include "tools/tf-weld/settings.hpp"
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/weld_stream.hpp>
 
 #include <filesystem>
 
@@ -14,10 +15,9 @@ namespace tools {
 [[nodiscard]] std::filesystem::path folder_for(const job& work, const weld_request& request,
                                                const tile_settings& tiles);
 
-/// Welds the cloud at `input`, whose header is known, in tiles on the disk. \throws failure
+/// Welds the cloud in `inputs`, whose header is known, in tiles on the disk. \throws failure
 [[nodiscard]] exit_status weld_in_tiles(job& work, const weld_request& request,
-                                        const tile_settings& tiles,
-                                        const std::filesystem::path& input,
+                                        const tile_settings& tiles, const tf::cloud_inputs& inputs,
                                         const tf::mesh_file& header);
 
 }  // namespace tools

@@ -2,11 +2,10 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/mesh_output.hpp"
+#include "tools/common/spooled_input.hpp"
 #include "tools/tf-weld/in_memory.hpp"
 #include "tools/tf-weld/in_tiles.hpp"
-#include "tools/tf-weld/spooled_input.hpp"
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tf.hpp>
 
@@ -20,23 +19,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool has_lists(const tf::mesh_file& header) {
+    const tf::element* const vertices = tf::find_element(header.attributes, "vertex");
+    return vertices != nullptr && std::ranges::any_of(vertices->columns, [](const auto& column) {
+               return column.list_length.has_value();
+           });
+}
+
 /// Why only memory will do; empty where tiles will, too.
 std::string what_needs_memory(const job& work, const weld_request& request,
                               const tf::mesh_file& header) {
     const tf::weld_options& o = request.settings.options;
-    if (o.keep != tf::weld_keep::first) return "--keep " + keep_in_words(o);
-    if (request.outputs.withhold) return "--withhold";
-    if (o.order != tf::weld_order::given) return "--order " + order_in_words(o);
     if (o.only_borders) return "--borders";
     if (o.keep_manifold) return "--keep-manifold";
-    try {
-        if (!tf::weld_conditions(header.attributes, false, o).empty()) return "--same";
-    } catch (const tf::weld_property_error& error) {
-        throw property_failure(error, header.attributes);
-    }
-    if (work.options.precision == "float" && header.stored_as != tf::precision::float32)
-        return "--precision float";
+    const bool chooses = o.keep != tf::weld_keep::first;
+    if (chooses && has_lists(header)) return "--keep of points with lists";
     const auto path = mesh_output(work.options, work.path);
+    if (path && *path == "-" && (chooses || work.options.precision == "float"))
+        return "looking again at what goes to standard output";
     const fs::path& removed = request.outputs.removed;
     if (!header.las && ((path && form_of(work, header, *path).is_las()) ||
                         written_form{extension_of(removed)}.is_las()))
@@ -44,43 +44,48 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     return {};
 }
 
-/// A cloud that can be read by blocks; none for anything else.
-std::optional<tf::point_reader> cloud_at(const job& work, const fs::path& path) {
+/// None for what is no cloud that can be read by blocks.
+std::optional<tf::cloud_outline> cloud_at(const tf::cloud_inputs& inputs) {
     try {
-        return tf::point_reader(path, work.options.format);
+        return tf::outline(inputs);
     } catch (const tf::io_error&) {
         return std::nullopt;  // reading all of it will say why
+    } catch (const std::invalid_argument&) {
+        return std::nullopt;
     }
 }
 
 /// What is not a file counts as nothing.
-std::uint64_t size_of_inputs(const job& work) {
+std::uint64_t size_of(const tf::cloud_inputs& inputs) {
     std::uint64_t sum = 0;
-    for (const std::string& name : work.options.inputs) {
+    for (const fs::path& path : inputs.paths) {
         std::error_code error;
-        const std::uint64_t size = fs::file_size(name, error);
+        const std::uint64_t size = fs::file_size(path, error);
         if (!error) sum += size;
     }
     return sum;
 }
 
-/// Clouds and meshes take at most about so many bytes in memory for each of their file.
+std::string in_megabytes(std::uint64_t bytes) { return grouped(bytes / 1000000 + 1) + " MB"; }
+
+/// Meshes take at most about so many bytes in memory for each of their file.
 constexpr std::uint64_t most_per_byte = 16;
 
 /// Where memory is limited and this may need more: says so before, and why when it does.
-exit_status weld_held(job& work, const weld_request& request, const std::string& what,
-                      std::uint64_t size) {
+exit_status weld_mesh(job& work, const weld_request& request, std::uint64_t size) {
     if (work.options.memory == 0 || size < work.options.memory / most_per_byte)
         return weld_in_memory(work, request);
     const auto not_enough = [&] {
         return failure(stopped, "memory",
-                       work.name + ": " + what +
-                           " in memory, not in tiles, and --memory is not "
-                           "enough for that");
+                       work.name +
+                           ": meshes are welded in memory, not in tiles, as their faces "
+                           "name points anywhere; --memory is not enough for " +
+                           in_megabytes(size) + " of file");
     };
+    if (size > work.options.memory) throw not_enough();
     try {
-        return weld_in_memory(work, request,
-                              what + " in memory, not in tiles; --memory may not be enough");
+        return weld_in_memory(
+            work, request, "meshes are welded in memory, not in tiles; --memory may not be enough");
     } catch (const std::bad_alloc&) {
         throw not_enough();
     } catch (const failure& error) {
@@ -89,42 +94,50 @@ exit_status weld_held(job& work, const weld_request& request, const std::string&
     }
 }
 
-exit_status weld_file(job& work, const weld_request& request, const tile_settings& tiles,
-                      const fs::path& path) {
+exit_status weld_files(job& work, const weld_request& request, const tile_settings& tiles,
+                       const tf::cloud_inputs& inputs) {
     const bool asked = tiles.points_per_tile > 0;
     const std::uint64_t allowed =
         work.options.memory > 0 ? work.options.memory : tf::default_memory();
-    std::error_code error;
-    const std::uint64_t size = fs::file_size(path, error);
-    if (error || (!asked && size < allowed / 64)) return weld_in_memory(work, request);
-    tf::mesh_file header;
-    std::uint64_t needed = 0;
+    const std::uint64_t size = size_of(inputs);
+    if (size == 0 || (!asked && size < allowed / 64)) return weld_in_memory(work, request);
+    std::optional<tf::cloud_outline> cloud;
     {
-        const auto cloud = cloud_at(work, path);
-        if (!cloud) return weld_held(work, request, "meshes are welded", size);
-        header = cloud->header();
-        needed = tf::memory_to_weld(header, cloud->count().value_or(size / 16));
+        const job::timer timing = work.time("read");
+        cloud = cloud_at(inputs);
     }
-    constexpr std::uint64_t of_empty_cloud = std::uint64_t{32} << 20;
-    if (!asked && needed + of_empty_cloud <= allowed) return weld_in_memory(work, request);
-    const std::string only = what_needs_memory(work, request, header);
-    if (only.empty()) return weld_in_tiles(work, request, tiles, path, header);
-    const std::string text =
-        only + " needs the whole cloud in memory, about " + grouped(needed / 1000000 + 1) + " MB";
-    if (asked) throw failure(bad_usage, "usage", text);
-    return weld_in_memory(work, request, text + "; without it, less memory would do");
+    if (!cloud) return weld_mesh(work, request, size);
+    const std::uint64_t needed =
+        (std::uint64_t{32} << 20) +
+        tf::memory_to_weld(cloud->header, cloud->points.value_or(size / 16));
+    if (!asked && needed <= allowed) return weld_in_memory(work, request);
+    const std::string only = what_needs_memory(work, request, cloud->header);
+    if (only.empty()) return weld_in_tiles(work, request, tiles, inputs, cloud->header);
+    throw failure(asked ? bad_usage : stopped, asked ? "usage" : "memory",
+                  work.name + ": " + only + " needs the whole cloud in memory, about " +
+                      in_megabytes(needed) + "; without it, a smaller --memory would do");
 }
 
 }  // namespace
 
 exit_status weld_somewhere(job& work, const weld_request& request, const tile_settings& tiles) {
-    if (work.options.joined && work.options.inputs.size() > 1)
-        return weld_held(work, request, "inputs are joined", size_of_inputs(work));
-    if (work.path != "-") return weld_file(work, request, tiles, work.path);
-    if (work.options.memory == 0 && tiles.points_per_tile == 0)
-        return weld_in_memory(work, request);
-    const spooled_input spooled(work, folder_for(work, request, tiles));
-    return weld_file(work, request, tiles, spooled.path());
+    const common_options& o = work.options;
+    tf::cloud_inputs inputs{.format = o.format};
+    if (o.joined)
+        inputs.names = o.inputs;
+    else
+        inputs.names = {work.path};
+    inputs.paths.assign(inputs.names.begin(), inputs.names.end());
+    const auto piped = std::ranges::find(inputs.paths, fs::path("-"));
+    if (piped == inputs.paths.end()) return weld_files(work, request, tiles, inputs);
+    if (o.memory == 0 && tiles.points_per_tile == 0) return weld_in_memory(work, request);
+    std::optional<spooled_input> spooled;
+    {
+        const job::timer timing = work.time("read");
+        spooled.emplace(work, folder_for(work, request, tiles));
+    }
+    *piped = spooled->path();
+    return weld_files(work, request, tiles, inputs);
 }
 
 }  // namespace tools

@@ -196,6 +196,24 @@ void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& fil
     work.warn(written.warnings);
 }
 
+void warn_of_replaced(job& work, const std::string& label) {
+    work.warn("replaced", "property " + label + " was there before; its values are replaced");
+}
+
+void warn_of_las_grid(job& work, const std::string& what, double moved) {
+    if (moved > 0.0)
+        work.warn("las-grid",
+                  what + " are rounded to the steps of the LAS file, by at most " + brief(moved));
+}
+
+void enter_result(job& work, const weld_request& request, const std::filesystem::path& path,
+                  const tf::write_result& written, std::optional<std::uint64_t> again) {
+    enter_output(work, path, written);
+    work.entry["output"]["within_tolerance"] = again;
+    warn_of_rounding(work, written.max_displacement);
+    warn_of_near_points(work, written.max_displacement > 0.0, again.value_or(0), request);
+}
+
 void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& welded,
                   const welding& w, const weld_request& request,
                   const std::filesystem::path& path) {
@@ -205,10 +223,7 @@ void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& weld
     std::optional<std::uint64_t> again;
     if (!request.outputs.drops_nothing())
         again = still_within(work, welded, w, request.settings, written.written_as);
-    enter_output(work, path, written);
-    work.entry["output"]["within_tolerance"] = again;
-    warn_of_rounding(work, written.max_displacement);
-    warn_of_near_points(work, written.max_displacement > 0.0, again.value_or(0), request);
+    enter_result(work, request, path, written, again);
     if (written.max_displacement > 0.0 && w.result.statistics.non_finite == 0)
         look_for_folds(work, welded.mesh);
 }

@@ -55,6 +55,14 @@ void write_map(output_file& file, const welding& w, bool as_csv);
 void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& file, const welding& w,
                    const std::filesystem::path& path);
 
+/// What files are not as they were.
+void warn_of_replaced(job& work, const std::string& label);
+void warn_of_las_grid(job& work, const std::string& what, double moved);
+
+/// Enters what was written, and says what rounding has done to it.
+void enter_result(job& work, const weld_request& request, const std::filesystem::path& path,
+                  const tf::write_result& written, std::optional<std::uint64_t> again);
+
 /// The set at `path`, in the precision asked for; what is written is looked at in that precision.
 void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& welded,
                   const welding& w, const weld_request& request, const std::filesystem::path& path);

@@ -41,21 +41,22 @@ struct tiled {
 };
 
 std::vector<std::vector<tile_point>> scatter(const cloud& points,
-                                             const tf::detail::weld::tile_slabs& slabs) {
-    std::vector<std::vector<tile_point>> tiles(slabs.size());
-    bool in_order = true;
+                                             const tf::detail::weld::tile_cuts& cuts) {
+    std::vector<std::vector<tile_point>> tiles(cuts.size());
+    std::vector<std::uint32_t> halos;
+    bool in_range = true;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!finite(points[i])) continue;
-        const auto [own, first, last] = slabs.find(points[i]);
-        in_order = in_order && first <= own && own <= last && last < slabs.size();
-        for (std::uint32_t t = first; t <= last; ++t) {
-            const tile_role role = t != own        ? tile_role::halo
-                                   : first == last ? tile_role::own
-                                                   : tile_role::shared;
-            tiles[t].push_back(tile_point::make(i, role, points[i]));
+        const std::uint32_t own = cuts.find(points[i], halos);
+        in_range = in_range && own < cuts.size();
+        tiles[own].push_back(
+            tile_point::make(i, halos.empty() ? tile_role::own : tile_role::shared, points[i]));
+        for (const std::uint32_t t : halos) {
+            in_range = in_range && t < cuts.size() && t != own;
+            tiles[t].push_back(tile_point::make(i, tile_role::halo, points[i]));
         }
     }
-    REQUIRE(in_order);
+    REQUIRE(in_range);
     return tiles;
 }
 
@@ -69,11 +70,28 @@ void in_blocks(const std::vector<tile_point>& points, test::random& random, cons
     }
 }
 
+/// What must agree, and the values of all points.
+struct values_of_points {
+    tf::detail::weld::agreement agree{};
+    std::vector<std::uint64_t> values{};
+
+    [[nodiscard]] const std::uint64_t* at(std::uint64_t id) const {
+        return values.data() + id * agree.size();
+    }
+    [[nodiscard]] std::vector<std::uint64_t> of(std::span<const tile_point> points) const {
+        std::vector<std::uint64_t> all;
+        for (const tile_point& p : points)
+            all.insert(all.end(), at(p.id()), at(p.id()) + agree.size());
+        return all;
+    }
+};
+
 tf::detail::weld::tile_result weld_tile(const std::vector<tile_point>& points, weld_rule rule,
-                                        double tolerance, test::random& random) {
-    tf::detail::weld::tile_weld tile(rule, tolerance);
+                                        double tolerance, test::random& random,
+                                        const values_of_points& more = {}) {
+    tf::detail::weld::tile_weld tile(rule, tolerance, more.agree);
     tf::detail::weld::tile_result result;
-    in_blocks(points, random, [&](auto block) { tile.add(block, result); });
+    in_blocks(points, random, [&](auto block) { tile.add(block, result, more.of(block)); });
     while (tile.finish(result)) {
     }
     return result;
@@ -104,10 +122,10 @@ void check_equal(const tf::detail::weld::tile_result& a, const tf::detail::weld:
 
 /// The leader of each point by `count` tiles, done in an order of `random`, in blocks of any size.
 tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance, std::size_t count,
-                    test::random& random) {
+                    test::random& random, const values_of_points& more = {}) {
     cloud sample;
     std::copy_if(points.begin(), points.end(), std::back_inserter(sample), finite);
-    const tf::detail::weld::tile_slabs slabs(sample, tolerance, count);
+    const tf::detail::weld::tile_cuts slabs(sample, tolerance, count);
     const auto tiles = scatter(points, slabs);
     std::vector<std::size_t> order(tiles.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -121,8 +139,11 @@ tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance, std::
     std::vector<border_point> border;
     std::vector<tf::detail::weld::tile_member> members;
     for (const std::size_t t : order) {
-        const tf::detail::weld::tile_result result = weld_tile(tiles[t], rule, tolerance, random);
-        if (rule == weld_rule::chain && tiles.size() <= 3)
+        const tf::detail::weld::tile_result result =
+            weld_tile(tiles[t], rule, tolerance, random, more);
+        if (rule == weld_rule::first)
+            REQUIRE(result.border_values.size() == result.border.size() * more.agree.size());
+        if (rule == weld_rule::chain && tiles.size() <= 3 && more.agree.size() == 0)
             check_equal(result, weld_crowded(tiles[t], tolerance, random));
         const auto by_id = [](const auto& a, const auto& b) { return a < b; };
         REQUIRE(std::is_sorted(result.dropped.begin(), result.dropped.end(),
@@ -138,9 +159,12 @@ tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance, std::
                      [](const border_point& a, const border_point& b) { return a.id() < b.id(); });
     all.border = border.size();
 
-    tf::detail::weld::border_weld pass(rule, tolerance);
+    tf::detail::weld::border_weld pass(rule, tolerance, more.agree);
     std::vector<tile_drop> settled;
-    pass.add(border, settled);
+    std::vector<std::uint64_t> values;
+    for (const border_point& p : border)
+        values.insert(values.end(), more.at(p.id()), more.at(p.id()) + more.agree.size());
+    pass.add(border, settled, values);
     pass.finish(settled);
     longest.consider(pass.move());
     for (tf::detail::weld::tile_member& m : members) m = pass.settled(m);
@@ -201,9 +225,9 @@ TEST_CASE("tile_weld: a tolerance that is no length is refused") {
         CHECK_THROWS_AS(tf::detail::weld::border_weld(weld_rule::first, bad),
                         std::invalid_argument);
         CHECK_THROWS_AS(tf::detail::weld::crowded_chain{bad}, std::invalid_argument);
-        CHECK_THROWS_AS(tf::detail::weld::tile_slabs({}, bad, 1), std::invalid_argument);
+        CHECK_THROWS_AS(tf::detail::weld::tile_cuts({}, bad, 1), std::invalid_argument);
     }
-    CHECK_THROWS_AS(tf::detail::weld::tile_slabs({}, 0.0, 0), std::invalid_argument);
+    CHECK_THROWS_AS(tf::detail::weld::tile_cuts({}, 0.0, 0), std::invalid_argument);
 }
 
 TEST_CASE("tile_weld: tiles of random points give the groups of the whole, sparse to dense") {
@@ -345,6 +369,56 @@ TEST_CASE("tile_weld: what a tile decides for itself does not go to the border")
     const tiled found = weld_in_tiles(points, weld_rule::first, 0.005, 4, random);
     CHECK(found.border > 0);
     CHECK(found.border < 2000);
+}
+
+TEST_CASE("tile_weld: points whose values do not agree stay apart, as in the whole cloud") {
+    test::random random(15);
+    constexpr std::uint64_t zero = std::uint64_t{1} << 63;  // the key of 0.0
+    for (const double size : {1.0, 0.2}) {
+        cloud points = uniform(500, random);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k) points[i][k] *= i % 2 == 0 ? 1.0 : size;
+        values_of_points more;
+        more.agree = tf::detail::weld::agreement({{false, 0.0}, {true, 2.0}});
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            more.values.push_back(zero + random.below(3));
+            more.values.push_back(random.below(6));
+        }
+        std::vector<std::uint32_t> label;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            label.push_back(static_cast<std::uint32_t>(more.at(i)[0] - zero));
+        for (const weld_rule rule : rules)
+            for (const double tolerance : {0.0, 0.05, 0.15, 0.4}) {
+                tf::weld_options options{.tolerance = tolerance, .rule = rule, .label = label};
+                options.may_merge = [&](std::uint32_t i, std::uint32_t j) {
+                    const std::uint64_t a = more.at(i)[1];
+                    const std::uint64_t b = more.at(j)[1];
+                    return (a < b ? b - a : a - b) <= 2;
+                };
+                const auto groups = tf::group_points(points, options);
+                std::vector<std::uint64_t> expected;
+                for (const std::uint32_t g : groups.group_of_point)
+                    expected.push_back(groups.first_of_group[g]);
+                for (const std::size_t count : {1U, 2U, 7U, 50U})
+                    CHECK(weld_in_tiles(points, rule, tolerance, count, random, more).leader ==
+                          expected);
+            }
+    }
+}
+
+TEST_CASE("tile_cuts: halos of compact tiles do not grow with their count as those of slabs do") {
+    test::random random(16);
+    const cloud points = uniform(20000, random);
+    std::vector<std::uint32_t> halos;
+    std::size_t copies = 0;
+    const tf::detail::weld::tile_cuts cuts(points, 0.01, 64);
+    CHECK(cuts.size() == 64);
+    for (const point3& p : points) {
+        static_cast<void>(cuts.find(p, halos));
+        copies += halos.size();
+    }
+    // Cubes of side 1/4 have a sixth of the points in halos, and tilted cuts more; 64 slabs all.
+    CHECK(copies < points.size() / 3);
 }
 
 TEST_CASE("crowded_chain: two crowds a hair more than the tolerance apart stay two") {

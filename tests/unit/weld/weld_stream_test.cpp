@@ -40,6 +40,7 @@ class stream_folder {
     stream_folder& operator=(const stream_folder&) = delete;
 
     [[nodiscard]] fs::path input() const { return path_ / "in.ply"; }
+    [[nodiscard]] tf::cloud_inputs inputs() const { return {.paths = {input()}}; }
     [[nodiscard]] fs::path output() const { return path_ / "out.ply"; }
     [[nodiscard]] fs::path work() const { return path_ / "work"; }
     [[nodiscard]] const std::vector<tf::point3>& points() const { return points_; }
@@ -76,7 +77,7 @@ TEST_CASE("weld_stream: files, map and counts are what weld gives") {
         outputs.map = [&](std::span<const std::uint64_t> next) {
             for (const std::uint64_t n : next) map.push_back(static_cast<std::uint32_t>(n));
         };
-        const auto streamed = tf::weld_stream(folder.input(), outputs, folder.options(rule));
+        const auto streamed = tf::weld_stream(folder.inputs(), outputs, folder.options(rule));
         const auto whole = tf::weld(folder.points(), {.tolerance = 0.02, .rule = rule});
         CHECK(streamed.status == tf::status::ok);
         CHECK(streamed.survey.points == 2000);
@@ -99,7 +100,7 @@ TEST_CASE("weld_stream: a relative tolerance is a share of the diagonal") {
     tf::weld_stream_options options = folder.options(tf::weld_rule::first);
     options.tolerance = 0.05;
     options.relative = true;
-    const auto streamed = tf::weld_stream(folder.input(), tf::weld_stream_outputs{}, options);
+    const auto streamed = tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
     const double length = 0.05 * tf::diagonal(*tf::bounding_box(folder.points()));
     CHECK(streamed.survey.tolerance == length);
     CHECK(streamed.counts.kept == tf::weld(folder.points(), {.tolerance = length}).points.size());
@@ -116,11 +117,11 @@ TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the nex
         options.progress = [&](std::string_view step, double share) {
             return step != at || share < 0.5;
         };
-        CHECK(tf::weld_stream(folder.input(), outputs, options).status == tf::status::cancelled);
+        CHECK(tf::weld_stream(folder.inputs(), outputs, options).status == tf::status::cancelled);
         CHECK_FALSE(fs::exists(folder.output()));
         CHECK(fs::exists(folder.work()));
         options.progress = {};
-        const auto again = tf::weld_stream(folder.input(), outputs, options);
+        const auto again = tf::weld_stream(folder.inputs(), outputs, options);
         CHECK(again.survey.continued == (at == std::string("weld") || at == std::string("write")));
         CHECK(tf::read(folder.output()).mesh.points == whole.points);
         fs::remove(folder.output());
@@ -132,25 +133,26 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
     tf::weld_stream_options options = folder.options(tf::weld_rule::first);
     for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
         options.tolerance = bad;
-        CHECK_THROWS_AS(tf::weld_stream(folder.input(), tf::weld_stream_outputs{}, options),
+        CHECK_THROWS_AS(tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options),
                         std::invalid_argument);
     }
     options.tolerance = 0.1;
-    CHECK_THROWS_AS(tf::weld_stream(folder.output(), tf::weld_stream_outputs{}, options),
-                    tf::io_error);
+    CHECK_THROWS_AS(
+        tf::weld_stream({.paths = {folder.output()}}, tf::weld_stream_outputs{}, options),
+        tf::io_error);
     fs::create_directory(folder.work());
     std::ofstream(folder.work() / "letter.txt") << "dear";
     try {
-        tf::weld_stream(folder.input(), tf::weld_stream_outputs{}, options);
+        tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
         FAIL("not refused");
     } catch (const tf::weld_stream_error& error) {
         CHECK(error.why() == tf::weld_stream_error::reason::folder_foreign);
         CHECK(error.path() == folder.work());
     }
     fs::remove_all(folder.work());
-    const tf::stream_weld holds(folder.input(), options);
+    const tf::stream_weld holds(folder.inputs(), options);
     try {
-        tf::weld_stream(folder.input(), tf::weld_stream_outputs{}, options);
+        tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
         FAIL("not refused");
     } catch (const tf::weld_stream_error& error) {
         CHECK(error.why() == tf::weld_stream_error::reason::folder_in_use);

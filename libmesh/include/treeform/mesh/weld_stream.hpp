@@ -4,10 +4,11 @@
 ///
 ///     tf::weld_stream("scan.ply", "thin.ply", {.tolerance = 0.5});
 ///
-/// The cloud is read three times: to look at it (its box, the number of its points, a sample that
-/// says where to cut), to give each tile its points, and to write what is kept. Tiles are in a
-/// folder on the disk. It stays when the process is killed, and the same call goes on from there.
-/// The output is the same, byte for byte, as `weld` of the whole cloud would give.
+/// The cloud, in one file or several, is read three times: to look at it (its box, the number of its
+/// points, a sample that says where to cut), to give each tile its points, and to write what is
+/// kept; an order and a choice of what is kept read it once more. Tiles are in a folder on the disk.
+/// It stays when the process is killed, and the same call goes on from there. The output is the
+/// same, byte for byte, as `weld` of the whole cloud would give, or of what `join` makes of several.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -30,12 +31,36 @@
 
 namespace treeform {
 
+/// Files that are one cloud, all points of the first before those of the next.
+struct cloud_inputs {
+    std::vector<std::filesystem::path> paths{};
+    std::string format{};              ///< as for `read`
+    std::vector<std::string> names{};  ///< for warnings; empty: the paths
+};
+
+/// What is in files before their points are read.
+struct cloud_outline {
+    mesh_file header{};                     ///< as that of a `point_reader`
+    std::optional<std::uint64_t> points{};  ///< if all headers say it
+};
+
+/// \throws io_error for what is no file of points, as `point_reader`; std::invalid_argument for
+///         columns that `join` cannot unite
+[[nodiscard]] TREEFORM_API cloud_outline outline(const cloud_inputs& inputs);
+
 /// How to weld, and with how much memory.
 struct weld_stream_options {
     double tolerance = 0.0;  ///< as in `weld_options`
     bool relative = false;   ///< `tolerance` is a share of the diagonal of the cloud's box
     weld_rule rule = weld_rule::first;
-    std::string format{};               ///< of the input, as for `read`
+    std::vector<weld_condition> same{};  ///< as in `weld_options`, and so are the next four
+    weld_keep keep = weld_keep::first;   ///< others need points without lists
+    std::string keep_by{};
+    weld_order order = weld_order::given;
+    std::string order_by{};
+    /// Coordinates, and means of them, are rounded to the steps of the first file, which is LAS,
+    /// before anything is decided of them.
+    bool as_las = false;
     std::uint64_t memory = 0;           ///< bytes that the process may take; 0: `default_memory`
     std::filesystem::path folder{};     ///< for the tiles; empty: the input's name and ".tiles"
     std::uint64_t points_per_tile = 0;  ///< at most about this many; 0: as the memory allows
@@ -51,10 +76,17 @@ struct cloud_survey {
     std::uint64_t points = 0;
     std::uint64_t non_finite = 0;  ///< points with a NaN or infinite coordinate; all are kept
     std::optional<box3> box{};     ///< of the finite points
-    bool single = true;            ///< float32 holds every coordinate exactly
-    std::string format{};          ///< "ply-binary", ...
+    bool single = true;            ///< float32 holds every coordinate exactly, and no file is LAS
+    struct source {
+        std::uint64_t points = 0;
+        bool single = true;
+        std::string format{};  ///< "ply-binary", ...
+    };
+    std::vector<source> sources{};  ///< of each file
     std::vector<io_warning> warnings{};
+    double las_moved = 0.0;  ///< the furthest that a coordinate went to a step of LAS
     double tolerance = 0.0;  ///< as a length
+    std::vector<weld_condition> conditions{};  ///< on single columns
     std::size_t tiles = 0;
     std::size_t finished_tiles = 0;  ///< by an earlier run
     bool continued = false;          ///< this run goes on from what an earlier one has left
@@ -81,6 +113,8 @@ struct weld_stream_outputs {
     std::optional<file> removed{};  ///< the dropped points
     /// If set, `welded` gets all points, with the group of each in a uint32 property of this name.
     std::string label{};
+    /// `welded` gets all points, and those that are not kept have the flag "withheld" of LAS.
+    bool withhold = false;
     /// Called with the new numbers of the next input points, from the first to the last.
     std::function<void(std::span<const std::uint64_t>)> map{};
     /// Folders with names that begin with ".unfinished-", which the caller removes after `write`.
@@ -93,6 +127,9 @@ struct weld_stream_written {
     std::optional<write_result> welded{};
     std::optional<write_result> removed{};
     bool label_replaced = false;  ///< the input had a property of that name
+    double las_moved = 0.0;       ///< the furthest that a mean went to a step of LAS
+    /// As `count_still_within` for `welded`; none when all points are in it.
+    std::optional<std::uint64_t> still_within{};
 };
 
 /// All that is known after `weld_stream`.
@@ -113,31 +150,36 @@ class TREEFORM_API weld_stream_error : public std::runtime_error {
         write,           ///< a tile cannot be written
         read,            ///< a tile cannot be read
         damaged,         ///< a tile has changed since it was written
+        memory,          ///< it is not enough; `needed()` would be
         input_changed    ///< the input has changed while it was welded
     };
-    weld_stream_error(reason why, std::filesystem::path path, const std::string& text);
+    weld_stream_error(reason why, std::filesystem::path path, const std::string& text,
+                      std::uint64_t needed = 0);
 
     [[nodiscard]] reason why() const { return why_; }
+    [[nodiscard]] std::uint64_t needed() const { return needed_; }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   private:
     reason why_;
     std::filesystem::path path_;
+    std::uint64_t needed_;
 };
 
-/// Welds the cloud in the file `input` (PLY without faces, PCD, XYZ, CSV), and writes the outputs.
-/// Each output appears whole or not at all.
+/// Welds the cloud in the files `inputs` (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV), and
+/// writes the outputs. Each output appears whole or not at all.
 ///
-/// \throws io_error when `input` cannot be read or an output cannot be written, weld_stream_error,
-///         std::invalid_argument for a tolerance that is negative or not finite
-/// \cost   O(V log V) time; memory as the options say, plus one bit a point; 34 bytes a point on
-///         the disk
+/// \throws io_error when an input cannot be read or an output cannot be written, weld_stream_error,
+///         std::invalid_argument for a tolerance that is negative or not finite, and as `weld` for
+///         properties
+/// \cost   O(V log V) time; memory as the options say; 34 bytes a point on the disk, 8 more for
+///         each condition, 48 for an order, and points as in memory for a choice of what is kept
 /// \same   on any number of threads, with any memory and any folder
-TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
+TREEFORM_API weld_stream_result weld_stream(const cloud_inputs& inputs,
                                             const weld_stream_outputs& outputs,
                                             const weld_stream_options& options);
 
-/// The same with one output, the welded cloud.
+/// The same from one file to one, the welded cloud.
 TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
                                             const std::filesystem::path& output,
                                             const weld_stream_options& options);
@@ -147,7 +189,7 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
 class TREEFORM_API stream_weld {
   public:
     /// Takes the folder for itself, and removes what a killed run has left elsewhere.
-    stream_weld(std::filesystem::path input, weld_stream_options options);
+    stream_weld(cloud_inputs inputs, weld_stream_options options);
     ~stream_weld();
     stream_weld(stream_weld&&) noexcept;
     stream_weld& operator=(stream_weld&&) noexcept;
@@ -179,5 +221,11 @@ class TREEFORM_API stream_weld {
 /// process itself takes some 32 MB more.
 [[nodiscard]] TREEFORM_API std::uint64_t memory_to_weld(const mesh_file& header,
                                                         std::uint64_t points);
+
+/// The least `weld_stream_options::memory` with which `points` points can be welded in tiles, as long
+/// as tiles can be as small as they should be. Where points are crowded the limit may turn out to be
+/// higher (`weld_stream_error`).
+[[nodiscard]] TREEFORM_API std::uint64_t memory_to_stream(const mesh_file& header,
+                                                          std::uint64_t points);
 
 }  // namespace treeform

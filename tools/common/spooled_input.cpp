@@ -1,4 +1,4 @@
-#include "tools/tf-weld/spooled_input.hpp"
+#include "tools/common/spooled_input.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

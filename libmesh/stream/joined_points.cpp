@@ -1,0 +1,116 @@
+#include <libmesh/io/vertex_columns.hpp>
+#include <libmesh/stream/joined_points.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/write.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace treeform::detail::stream {
+namespace {
+
+/// `points` as a file like `header`.
+mesh_file file_of(const mesh_file& header, point_block points) {
+    mesh_file file = header;
+    file.warnings.clear();
+    file.mesh.points = std::move(points.points);
+    if (!points.properties.columns.empty())
+        obtain_element(file.attributes, "vertex", 0) = std::move(points.properties);
+    return file;
+}
+
+bool same_columns(const mesh_file& a, const mesh_file& b) {
+    const element none;
+    const element* const x = find_element(a.attributes, "vertex");
+    const element* const y = find_element(b.attributes, "vertex");
+    return std::ranges::equal((x == nullptr ? none : *x).columns,
+                              (y == nullptr ? none : *y).columns,
+                              [](const column& c, const column& d) {
+                                  return c.name == d.name && c.type == d.type &&
+                                         c.list_length == d.list_length && c.role == d.role;
+                              });
+}
+
+void clear_rows(mesh_file& file) {
+    file.mesh.points.clear();
+    for (element& e : file.attributes.elements) {
+        const element before = std::move(e);
+        io::restart(e, before);
+    }
+}
+
+}  // namespace
+
+joined_points::joined_points(const cloud_inputs& inputs, bool as_las)
+    : inputs_(inputs), as_las_(as_las) {
+    std::vector<mesh_file> firsts;
+    for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
+        open(i);
+        formats_.push_back(reader_->header().format);
+        const auto count = reader_->count();
+        count_ = count_ && count ? std::optional(*count_ + *count) : std::nullopt;
+        if (inputs.paths.size() == 1) {
+            head_ = reader_->header();
+            return;
+        }
+        // With a point, where there is one: of files without any, no property is missed.
+        point_block first;
+        reader_->read(first, 1);
+        firsts.push_back(file_of(reader_->header(), std::move(first)));
+    }
+    std::vector<std::string> names = inputs.names;
+    head_ = join(std::move(firsts), names);
+    of_join_ = std::exchange(head_.warnings, {});
+    clear_rows(head_);
+    rewind();
+}
+
+void joined_points::open(std::size_t file) {
+    reader_.reset();
+    reader_.emplace(inputs_.paths[file], inputs_.format);
+    file_ = file;
+}
+
+void joined_points::rewind() {
+    warnings_.clear();
+    open(0);
+    fits_ = same_columns(head_, reader_->header());
+}
+
+bool joined_points::read(point_block& block, std::size_t most) {
+    while (!reader_->read(block, most)) {
+        take_warnings();
+        if (file_ + 1 == inputs_.paths.size()) return false;
+        open(file_ + 1);
+        fits_ = same_columns(head_, reader_->header());
+    }
+    fit(block);
+    return true;
+}
+
+void joined_points::take_warnings() {
+    const bool alone = inputs_.paths.size() == 1;
+    for (const io_warning& w : reader_->header().warnings)
+        warnings_.push_back({w.code, alone ? w.text : inputs_.names[file_] + ": " + w.text});
+    if (file_ + 1 == inputs_.paths.size())
+        warnings_.insert(warnings_.end(), of_join_.begin(), of_join_.end());
+}
+
+void joined_points::fit(point_block& block) {
+    if (!fits_) {
+        std::vector<mesh_file> both{head_, file_of(reader_->header(), std::move(block))};
+        const std::vector<std::string> names(2);
+        mesh_file file = join(std::move(both), names);
+        block.points = std::move(file.mesh.points);
+        block.properties = std::move(obtain_element(file.attributes, "vertex", 0));
+    }
+    if (!as_las_ || !head_.las) return;
+    mesh_file file;
+    file.las = las_header{.scale = head_.las->scale, .offset = head_.las->offset};
+    file.mesh.points = std::move(block.points);
+    moved_ = std::max(moved_, round_to_las(file));
+    block.points = std::move(file.mesh.points);
+}
+
+}  // namespace treeform::detail::stream

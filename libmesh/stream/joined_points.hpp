@@ -1,0 +1,63 @@
+#pragma once
+/// \file
+/// Clouds in any number of files, read as one from the first point to the last.
+
+#include <treeform/mesh/point_stream.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+/// All blocks together are what `join` makes of the files. One file is open at a time.
+class joined_points {
+  public:
+    /// Reads what precedes the points of each file. With `as_las`, coordinates become those that a
+    /// LAS file with the first one's scale and offset holds.
+    ///
+    /// \throws io_error, std::invalid_argument as `join`
+    joined_points(const cloud_inputs& inputs, bool as_las);
+
+    /// Of all files together, without points.
+    [[nodiscard]] const mesh_file& header() const { return head_; }
+    [[nodiscard]] std::optional<std::uint64_t> count() const { return count_; }
+
+    /// Starts again with the first point.
+    void rewind();
+    /// The next points, of one file; false when none are left.
+    bool read(point_block& block, std::size_t most);
+    /// The file that the last block came from, and its header.
+    [[nodiscard]] std::size_t file() const { return file_; }
+    [[nodiscard]] const mesh_file& file_header() const { return reader_->header(); }
+
+    [[nodiscard]] std::size_t files() const { return formats_.size(); }
+    [[nodiscard]] const std::string& format(std::size_t file) const { return formats_[file]; }
+
+    /// Of files that were read to their ends.
+    [[nodiscard]] const std::vector<io_warning>& warnings() const { return warnings_; }
+    /// The furthest that LAS has moved a coordinate.
+    [[nodiscard]] double moved() const { return moved_; }
+
+  private:
+    void open(std::size_t file);
+    void take_warnings();
+    void fit(point_block& block);
+
+    const cloud_inputs& inputs_;
+    bool as_las_;
+    mesh_file head_{};
+    std::optional<std::uint64_t> count_{0};
+    std::vector<std::string> formats_{};
+    std::vector<io_warning> of_join_{};
+    std::vector<io_warning> warnings_{};
+    std::optional<point_reader> reader_{};
+    std::size_t file_ = 0;
+    bool fits_ = true;  ///< the file has the columns of all
+    double moved_ = 0.0;
+};
+
+}  // namespace treeform::detail::stream

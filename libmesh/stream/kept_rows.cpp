@@ -1,0 +1,204 @@
+#include <libmesh/stream/kept_rows.hpp>
+#include <libmesh/weld/running_mean.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+namespace treeform::detail::stream {
+namespace {
+
+constexpr std::size_t before_point = 3;  ///< numbers in a member's row
+constexpr std::uint64_t rows_a_check = 65536;
+
+point3 place_of(numbers packed) {
+    const auto x = [&](std::size_t k) { return std::bit_cast<double>(packed[k]); };
+    return {x(0), x(1), x(2)};
+}
+
+/// The means of points that come one by one, in the properties of the first.
+class mean_point {
+  public:
+    explicit mean_point(const packed_points& packed) {
+        for (std::size_t k = 0; k < 3; ++k) numbers_.push_back({8 * k, scalar_type::float64});
+        for (const packed_points::field& f : packed.fields())
+            if (f.type == scalar_type::float32 || f.type == scalar_type::float64)
+                numbers_.push_back({f.byte, f.type});
+    }
+
+    void start(numbers packed) {
+        first_.assign(packed.begin(), packed.end());
+        for (number& n : numbers_) n.mean = {};
+        add(packed);
+    }
+    void add(numbers packed) {
+        const auto* const bytes = reinterpret_cast<const std::byte*>(packed.data());
+        for (number& n : numbers_) {
+            float single = 0.0F;
+            double value = 0.0;
+            if (n.type == scalar_type::float32) {
+                std::memcpy(&single, bytes + n.byte, sizeof single);
+                value = static_cast<double>(single);
+            } else {
+                std::memcpy(&value, bytes + n.byte, sizeof value);
+            }
+            n.mean.add(value);
+        }
+    }
+    [[nodiscard]] numbers finish() {
+        auto* const bytes = reinterpret_cast<std::byte*>(first_.data());
+        for (const number& n : numbers_) {
+            const double value = n.mean.value();
+            const auto single = static_cast<float>(value);
+            if (n.type == scalar_type::float32)
+                std::memcpy(bytes + n.byte, &single, sizeof single);
+            else
+                std::memcpy(bytes + n.byte, &value, sizeof value);
+        }
+        return first_;
+    }
+
+  private:
+    struct number {
+        std::size_t byte;
+        scalar_type type;
+        weld::running_mean mean{};
+    };
+    std::vector<number> numbers_{};
+    std::vector<std::uint64_t> first_{};
+};
+
+}  // namespace
+
+packed_points::packed_points(const mesh_file& header) {
+    std::size_t bytes = 3 * sizeof(double);
+    if (const element* const vertices = find_element(header.attributes, "vertex"))
+        for (std::size_t c = 0; c < vertices->columns.size(); ++c) {
+            const column& from = vertices->columns[c];
+            if (from.role != column_role::data || from.list_length) continue;
+            fields_.push_back({c, bytes, from.type});
+            bytes += size_of(from.type);
+        }
+    width_ = (bytes + 7) / 8;
+}
+
+void packed_points::pack(const point_block& block, std::size_t point,
+                         std::vector<std::uint64_t>& to) const {
+    const std::size_t begin = to.size();
+    to.resize(begin + width_, 0);
+    for (std::size_t k = 0; k < 3; ++k)
+        to[begin + k] = std::bit_cast<std::uint64_t>(block.points[point][k]);
+    auto* const bytes = reinterpret_cast<std::byte*>(to.data() + begin);
+    for (const field& f : fields_) {
+        const std::size_t size = size_of(f.type);
+        std::memcpy(bytes + f.byte, block.properties.columns[f.column].values.data() + point * size,
+                    size);
+    }
+}
+
+void packed_points::unpack(numbers from, point_block& block, std::size_t point) const {
+    block.points[point] = place_of(from);
+    const auto* const bytes = reinterpret_cast<const std::byte*>(from.data());
+    for (const field& f : fields_) {
+        const std::size_t size = size_of(f.type);
+        std::memcpy(block.properties.columns[f.column].values.data() + point * size, bytes + f.byte,
+                    size);
+    }
+}
+
+kept_rows::kept_rows(pacer& pace, const work_folder& folder, const tile_task& task,
+                     tile_steps& steps, tiles_welded& w)
+    : keep_(task.options.keep),
+      packed_(steps.source().header()),
+      members_(folder, "members.of", {.width = before_point + packed_.width(), .keys = 2},
+               steps.sorting_memory()),
+      givers_(w.kept),
+      path_(folder.file("kept.rows")) {
+    gather(pace, steps, w);
+    choose(pace);
+    w.max_displacement = longest_move(pace);
+}
+
+void kept_rows::gather(pacer& pace, tile_steps& steps, const tiles_welded& w) {
+    tile_steps::leaders leaders(steps, w);
+    joined_points& source = steps.source();
+    source.rewind();
+    point_block block;
+    std::vector<std::uint64_t> keys;
+    std::vector<std::uint64_t> member;
+    std::uint64_t id = 0;
+    while (source.read(block, points_a_block)) {
+        steps.keys().choice_of(block, keys);
+        for (std::size_t i = 0; i < block.points.size(); ++i, ++id) {
+            const std::uint64_t leader = leaders.of(id);
+            if (w.kept.keeps(id) && w.followed->keeps(id)) continue;  // alone
+            member.assign({leader, id, keys[i]});
+            packed_.pack(block, i, member);
+            members_.put(member);
+        }
+        pace.check();
+    }
+}
+
+/// Of points of equal keys the first is kept, as by `kept_points`.
+void kept_rows::choose(pacer& pace) {
+    row_writer rows(path_, piece);
+    mean_point mean(packed_);
+    std::vector<std::uint64_t> best;
+    const auto finish = [&] {
+        if (best.empty()) return;
+        const numbers point =
+            keep_ == weld_keep::mean ? mean.finish() : numbers(best).subspan(before_point);
+        if (best[0] != best[1]) {
+            givers_.drop(best[0]);
+            givers_.keep(best[1]);
+        }
+        const point3 at = place_of(point);
+        single_ = single_ && fits_single({&at, 1});
+        rows.put(best[0]);
+        rows.put(point);
+    };
+    std::uint64_t count = 0;
+    for (row_merge all = members_.sorted(); !all.empty(); all.pop()) {
+        const numbers member = all.front();
+        const numbers point = member.subspan(before_point);
+        if (best.empty() || best[0] != member[0]) {
+            finish();
+            best.assign(member.begin(), member.end());
+            if (keep_ == weld_keep::mean) mean.start(point);
+        } else if (keep_ == weld_keep::mean) {
+            mean.add(point);
+        } else if (keep_ == weld_keep::last || member[2] < best[2]) {
+            best.assign(member.begin(), member.end());
+        }
+        if (++count % rows_a_check == 0) pace.check();
+    }
+    finish();
+    count_ = rows.finish_unsynced();
+}
+
+double kept_rows::longest_move(pacer& pace) {
+    weld::longest_move longest;
+    rewind();
+    std::uint64_t count = 0;
+    for (row_merge all = members_.sorted(); !all.empty(); all.pop()) {
+        const numbers member = all.front();
+        while (next_->front()[0] != member[0]) next_->pop();
+        longest.consider(place_of(member.subspan(before_point)),
+                         place_of(next_->front().subspan(1)));
+        if (++count % rows_a_check == 0) pace.check();
+    }
+    return longest.length();
+}
+
+void kept_rows::rewind() { next_.emplace(path_, count_, 1 + packed_.width(), piece); }
+
+void kept_rows::replace(point_block& block, std::size_t point) {
+    if (next_->empty()) throw std::logic_error("a group without what is kept of it");
+    packed_.unpack(next_->front().subspan(1), block, point);
+    next_->pop();
+}
+
+}  // namespace treeform::detail::stream

@@ -1,0 +1,68 @@
+#pragma once
+/// \file
+/// What is kept of groups of several points, where it is not simply the first of them.
+
+#include <libmesh/stream/tile_steps.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+/// Points with their properties as rows of numbers: three for the coordinates, then the bytes of
+/// the columns.
+class packed_points {
+  public:
+    explicit packed_points(const mesh_file& header);
+
+    [[nodiscard]] std::size_t width() const { return width_; }
+    void pack(const point_block& block, std::size_t point, std::vector<std::uint64_t>& to) const;
+    void unpack(numbers from, point_block& block, std::size_t point) const;
+
+    struct field {
+        std::size_t column;
+        std::size_t byte;  ///< in the row
+        scalar_type type;
+    };
+    [[nodiscard]] const std::vector<field>& fields() const { return fields_; }
+
+  private:
+    std::size_t width_ = 3;
+    std::vector<field> fields_{};
+};
+
+/// The rows that stand for the groups of several points, by ascending number of their first.
+class kept_rows {
+  public:
+    /// Reads the cloud once. Replaces the longest move of `w` by that to what is kept.
+    kept_rows(pacer& pace, const work_folder& folder, const tile_task& task, tile_steps& steps,
+              tiles_welded& w);
+
+    /// Whether the point gives its properties to what is kept.
+    [[nodiscard]] bool gives(std::uint64_t point) const { return givers_.keeps(point); }
+    /// Whether float32 holds the coordinates of all rows.
+    [[nodiscard]] bool single() const { return single_; }
+
+    /// From the first row again.
+    void rewind();
+    /// Puts the next row in the place of a point of `block`.
+    void replace(point_block& block, std::size_t point);
+
+  private:
+    void gather(pacer& pace, tile_steps& steps, const tiles_welded& w);
+    void choose(pacer& pace);
+    [[nodiscard]] double longest_move(pacer& pace);
+
+    weld_keep keep_;
+    packed_points packed_;
+    row_sorter members_;  ///< leader, number, key, and the packed point
+    kept_points givers_;
+    bool single_ = true;
+    std::filesystem::path path_;
+    record_count count_{};
+    std::optional<row_reader> next_{};  ///< leader, and the packed point
+};
+
+}  // namespace treeform::detail::stream

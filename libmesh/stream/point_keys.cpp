@@ -1,0 +1,96 @@
+#include <libmesh/stream/point_keys.hpp>
+#include <libmesh/weld/property_groups.hpp>
+#include <libmesh/weld/vertex_values.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace treeform::detail::stream {
+namespace {
+
+/// Calls `look` with the properties of `block` as attributes.
+template <class Look>
+void with_properties(point_block& block, const Look& look) {
+    attributes all;
+    all.elements.push_back(std::move(block.properties));
+    look(all);
+    block.properties = std::move(all.elements.front());
+}
+
+bool is_whole(const attributes& properties, const std::string& name) {
+    const element* const vertices = find_element(properties, "vertex");
+    const column* const c = vertices == nullptr ? nullptr : find_column(*vertices, name);
+    return c != nullptr && c->role == column_role::data &&
+           (c->type == scalar_type::int64 || c->type == scalar_type::uint64);
+}
+
+void refuse_lists(const mesh_file& header) {
+    if (const element* const vertices = find_element(header.attributes, "vertex"))
+        for (const column& c : vertices->columns)
+            if (c.list_length)
+                throw std::invalid_argument(
+                    "treeform::weld_stream: in tiles, points with lists are kept as they come, by "
+                    "weld_keep::first");
+}
+
+}  // namespace
+
+point_keys::point_keys(const mesh_file& header, const weld_stream_options& o) {
+    const weld_options asked{.same = o.same,
+                             .keep = o.keep,
+                             .keep_by = o.keep_by,
+                             .order = o.order,
+                             .order_by = o.order_by};
+    conditions_ = weld_conditions(header.attributes, false, asked);
+    std::vector<weld::agreement::condition> all;
+    for (const weld_condition& c : conditions_) {
+        if (!(c.tolerance >= 0.0) || !std::isfinite(c.tolerance))
+            throw std::invalid_argument("treeform::weld_stream: the tolerance of '" + c.property +
+                                        "' must be finite and not negative");
+        all.push_back({is_whole(header.attributes, c.property), c.tolerance});
+    }
+    agree_ = weld::agreement(std::move(all));
+    if (o.order != weld_order::given) {
+        if (o.keep != weld_keep::first)
+            throw std::invalid_argument("treeform::weld_stream: an order needs weld_keep::first");
+        order_ = {weld::column_to_order_by(header.attributes, asked),
+                  o.order == weld_order::lowest};
+    }
+    if (o.keep == weld_keep::lowest || o.keep == weld_keep::highest)
+        choice_ = {weld::column_to_keep_by(header.attributes, asked), o.keep == weld_keep::lowest};
+    if (o.keep != weld_keep::first) refuse_lists(header);
+}
+
+void point_keys::values_of(point_block& block, std::vector<std::uint64_t>& to) const {
+    const std::size_t width = conditions_.size();
+    to.resize(block.points.size() * width);
+    if (width == 0) return;
+    with_properties(block, [&](const attributes& properties) {
+        for (std::size_t c = 0; c < width; ++c) {
+            const weld::vertex_values values(block.points, properties, conditions_[c].property);
+            for (std::size_t i = 0; i < block.points.size(); ++i)
+                to[i * width + c] = values.ascending_key(i);
+        }
+    });
+}
+
+void point_keys::order_of(point_block& block, std::vector<std::uint64_t>& to) const {
+    take(block, order_, to);
+}
+
+void point_keys::choice_of(point_block& block, std::vector<std::uint64_t>& to) const {
+    take(block, choice_, to);
+}
+
+void point_keys::take(point_block& block, const place& p, std::vector<std::uint64_t>& to) {
+    to.assign(block.points.size(), 0);
+    if (p.property.empty()) return;
+    with_properties(block, [&](const attributes& properties) {
+        const weld::vertex_values values(block.points, properties, p.property);
+        for (std::size_t i = 0; i < to.size(); ++i)
+            to[i] = p.lowest ? values.ascending_key(i) : values.descending_key(i);
+    });
+}
+
+}  // namespace treeform::detail::stream

@@ -1,0 +1,45 @@
+#pragma once
+/// \file
+/// The values of points that rules, conditions and choices look at, block by block.
+
+#include <libmesh/weld/agreement.hpp>
+#include <treeform/mesh/point_stream.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+class point_keys {
+  public:
+    /// \throws weld_property_error for a property that `header` does not have in a usable form,
+    ///         std::invalid_argument as `weld`
+    point_keys(const mesh_file& header, const weld_stream_options& options);
+
+    /// What the values are for.
+    [[nodiscard]] const weld::agreement& agree() const { return agree_; }
+    [[nodiscard]] const std::vector<weld_condition>& conditions() const { return conditions_; }
+
+    /// Those of all points, one point after the other, in the place of what is in `to`.
+    void values_of(point_block& block, std::vector<std::uint64_t>& to) const;
+    /// One a point: less for what comes first in the order, or is rather kept; 0 without a property.
+    void order_of(point_block& block, std::vector<std::uint64_t>& to) const;
+    void choice_of(point_block& block, std::vector<std::uint64_t>& to) const;
+
+  private:
+    struct place {
+        std::string property{};
+        bool lowest = true;
+    };
+    static void take(point_block& block, const place& p, std::vector<std::uint64_t>& to);
+
+    std::vector<weld_condition> conditions_{};
+    weld::agreement agree_{};
+    place order_{};
+    place choice_{};
+};
+
+}  // namespace treeform::detail::stream

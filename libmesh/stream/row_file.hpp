@@ -1,0 +1,98 @@
+#pragma once
+/// \file
+/// Files of rows of 64-bit numbers, as many a row as their user says, and rows sorted on the disk.
+
+#include <libmesh/stream/record_file.hpp>
+#include <libmesh/stream/work_folder.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+using numbers = std::span<const std::uint64_t>;
+using row_writer = record_writer<std::uint64_t>;  ///< rows one after the other
+
+/// Rows of a file, one by one.
+class row_reader {
+  public:
+    /// `expected` counts the numbers. `bytes` are read at a time, about.
+    row_reader(std::filesystem::path path, record_count expected, std::size_t width,
+               std::size_t bytes)
+        : reader_(std::move(path), expected, bytes, width), width_(width) {
+        left_ = reader_.next();
+    }
+
+    [[nodiscard]] bool empty() const { return left_.empty(); }
+    /// \pre not empty
+    [[nodiscard]] numbers front() const { return left_.first(width_); }
+    void pop() {
+        left_ = left_.subspan(width_);
+        if (left_.empty()) left_ = reader_.next();
+    }
+
+  private:
+    record_reader<std::uint64_t> reader_;
+    std::size_t width_;
+    std::span<const std::uint64_t> left_{};
+};
+
+/// The rows of several files, each ascending by its first `keys` numbers, as one such file; of
+/// equal ones those of earlier files first.
+class row_merge {
+  public:
+    row_merge(std::vector<row_reader> readers, std::size_t keys);
+
+    [[nodiscard]] bool empty() const { return heap_.empty(); }
+    /// \pre not empty
+    [[nodiscard]] numbers front() const { return readers_[heap_.front()].front(); }
+    void pop();
+
+  private:
+    [[nodiscard]] bool after(std::size_t a, std::size_t b) const;
+
+    std::vector<row_reader> readers_;
+    std::size_t keys_;
+    std::vector<std::size_t> heap_{};
+};
+
+/// Sorts rows by their first `keys` numbers in pieces of the folder that memory holds.
+class row_sorter {
+  public:
+    struct shape {
+        std::size_t width;
+        std::size_t keys;
+    };
+    /// Files are called `name` and a number. About `memory` bytes are held.
+    row_sorter(const work_folder& folder, std::string name, shape size, std::uint64_t memory);
+    ~row_sorter();
+    row_sorter(const row_sorter&) = delete;
+    row_sorter& operator=(const row_sorter&) = delete;
+
+    void put(numbers r) {
+        held_.insert(held_.end(), r.begin(), r.end());
+        if (held_.size() >= most_) write_held();
+    }
+    /// All rows in order; of equal keys, first those that came first. May be called again, but
+    /// nothing can be put after it.
+    [[nodiscard]] row_merge sorted();
+
+  private:
+    [[nodiscard]] std::filesystem::path path(std::size_t i) const;
+    void write_held();
+
+    const work_folder& folder_;
+    std::string name_;
+    shape shape_;
+    std::uint64_t memory_;
+    std::size_t most_;
+    std::vector<std::uint64_t> held_{};
+    std::vector<record_count> pieces_{};
+};
+
+}  // namespace treeform::detail::stream

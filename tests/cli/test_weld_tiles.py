@@ -1,0 +1,142 @@
+"""Every option of tf-weld in tiles on the disk: the bytes, maps and reports that memory gives."""
+
+from weld_support import *
+
+import random
+
+COLUMNS = "<dddBfqd"
+HEAD = ("ply\nformat binary_little_endian 1.0\nelement vertex %d\nproperty double x\nproperty double y\n"
+        "property double z\nproperty uchar kind\nproperty float shade\nproperty int64 stamp\n"
+        "property double range\nend_header\n")
+NAN = float("nan")
+
+
+def families(rng, count):
+    """Clouds that are hard in one way each."""
+    unit = lambda scale=1.0: tuple(scale * rng.random() for _ in range(3))
+    yield "uniform", [unit() for _ in range(count)]
+    yield "lattice", [tuple(0.05 * rng.randrange(12) for _ in range(3)) for _ in range(count)]
+    yield "heap", [(0.5, 0.5, 0.5) if i % 3 else unit() for i in range(count)]
+    yield "crowd", [unit(0.06) if i % 2 else unit() for i in range(count)]
+    yield "line", sorted((3 * rng.random(), 0.001 * rng.random(), 0.0) for _ in range(count))
+    yield "plane", [(rng.random(), rng.random(), 0.25) for _ in range(count)]
+    yield "broken", [(NAN, 0.0, 1.0) if i % 50 == 0 else
+                     (-0.0, 0.0, i % 7 * 0.1) if i % 9 == 0 else unit() for i in range(count)]
+
+
+def ply(points, rng):
+    rows = b"".join(struct.pack(COLUMNS, *p, rng.randrange(3),
+                                NAN if rng.random() < 0.05 else rng.randrange(4) * 0.25,
+                                (1 << 60) + rng.randrange(3), rng.choice((0.0, -0.0, 1.5, -2.0, NAN)))
+                    for p in points)
+    return (HEAD % len(points)).encode() + rows
+
+
+RULES = ("first", "chain")
+CONDITIONS = ([], ["--same", "kind"], ["--same", "kind,stamp"], ["--same", "shade=0.25"],
+              ["--same", "kind,range=1.5,x=0.04"])
+CHOICES = ([], ["--order", "range"], ["--order", "max:stamp"], ["--order", "z"],
+           ["--keep", "last"], ["--keep", "mean"], ["--keep", "min:range"], ["--keep", "max:stamp"])
+
+
+class Tiles(WeldTest):
+    def setUp(self):
+        super().setUp()
+        self.rng = random.Random(4)
+
+    def check(self, *command, size, out="out.ply", also=("--removed", "gone.ply", "--map", "map.csv")):
+        """Whether all that the command writes is the same in memory and in tiles."""
+        found = []
+        for tiled in ([], ["--tile-points", size]):
+            entry = self.entry(*command, "-o", out, *also, "-f", *tiled, status=0)
+            entry["tiles"] = 0
+            found.append([entry] + [self.read_bytes(n) for n in (out, *also[1::2])])
+            for name in (out, *also[1::2]):
+                os.remove(self.path(name))
+        self.assertEqual(found[0][0], found[1][0])
+        for memory, tiles in zip(found[0][1:], found[1][1:]):
+            self.assertTrue(memory == tiles, msg=f"bytes differ: {command}")
+        self.assertFalse(any("tiles" in n for n in self.listing()))
+        return found[0][0]
+
+    def test_orders_choices_and_conditions_give_the_bytes_that_memory_gives(self):
+        options = [(r, c, w) for r in RULES for c in CONDITIONS for w in CHOICES]
+        self.rng.shuffle(options)
+        for name, points in families(self.rng, 700):
+            self.write("in.ply", ply(points, self.rng))
+            for rule, same, which in options[:len(options) // 7 + 4]:
+                tolerance, size = self.rng.choice((("0", 60), ("0.03", 90), ("0.1", 50), ("3%", 300)))
+                with self.subTest(family=name, rule=rule, same=same, which=which, t=tolerance):
+                    self.check("in.ply", "-t", tolerance, "--rule", rule, *same, *which, size=size)
+            options = options[len(options) // 7:] + options[:len(options) // 7]
+
+    def test_labels_and_flags_are_those_of_memory(self):
+        self.write("in.ply", ply(list(families(self.rng, 600))[0][1], self.rng))
+        self.run_tool("in.ply", "-o", "in.las", status=0)
+        for rule in RULES:
+            for which in ([], ["--order", "max:range"], ["--same", "kind"]):
+                command = ["-t", "0.06", "--rule", rule, *which]
+                self.check("in.ply", *command, "--label", "group", size=80,
+                           also=("--map", "map.bin"))
+                self.check("in.las", *command, "--label", "group", size=80, out="out.laz", also=())
+                entry = self.check("in.las", *command, "--withhold", size=80, out="out.las",
+                                   also=())
+                self.assertGreater(entry["withheld"], 10)
+
+    def test_any_number_of_files_is_one_cloud(self):
+        points = list(families(self.rng, 900))[3][1]
+        for i in range(9):
+            self.write(f"{i}.ply", ply(points[100 * i:100 * i + 100], self.rng))
+        self.write("none.ply", ply([], self.rng))
+        names = [f"{i}.ply" for i in range(5)] + ["none.ply"] + [f"{i}.ply" for i in range(5, 9)]
+        for rule in RULES:
+            for which in ([], ["--order", "range"], ["--keep", "mean"], ["--same", "kind"]):
+                entry = self.check(*names, "--join", "-t", "0.05", "--rule", rule, *which, size=110)
+                self.assertEqual([s["points"] for s in entry["sources"]],
+                                 5 * [100] + [0] + 4 * [100])
+
+    def test_files_with_other_columns_and_formats_are_joined_as_in_memory(self):
+        points = [tuple(round(64 * x) / 64 for x in p) for p in list(families(self.rng, 400))[0][1]]
+        self.write("a.ply", ply(points[:150], self.rng))
+        self.write("b.ply", ply_text(["float x", "float y", "float z", "int kind", "float more"],
+                                     [(*p, i % 3 - 1, i) for i, p in enumerate(points[150:300])]))
+        self.cloud("c.xyz", points[300:])
+        for names in (["a.ply", "b.ply", "c.xyz"], ["c.xyz", "a.ply"], ["b.ply", "c.xyz", "b.ply"]):
+            for which in ([], ["--same", "kind"] if "a.ply" in names else []):
+                entry = self.check(*names, "--join", "-t", "0.05", *which, size=70)
+                self.assertIn("missing-property", [w["code"] for w in entry["warnings"]])
+
+    def test_las_of_other_steps_is_rounded_before_anything_is_decided(self):
+        points = list(families(self.rng, 500))[0][1]
+        self.write("a.ply", ply([tuple(round(100 * x) / 100 for x in p) for p in points[:250]],
+                                self.rng))
+        self.write("b.ply", ply([tuple(round(1000 * x) / 1000 for x in p) for p in points[250:]],
+                                self.rng))
+        for name in "ab":
+            self.run_tool(f"{name}.ply", "-o", f"{name}.las", status=0)
+        for which in ([], ["--keep", "mean"], ["--order", "x"]):
+            entry = self.check("a.las", "b.las", "--join", "-t", "0.05", *which, size=70,
+                               out="out.las", also=("--removed", "gone.laz"))
+            self.assertIn("las-grid", [w["code"] for w in entry["warnings"]])
+        self.check("a.las", "b.las", "--join", "-t", "0.05", size=70, also=("--removed", "gone.csv"))
+
+    def test_rounding_to_float_is_looked_at_again(self):
+        points = [(1e5 + x, y, z) for x, y, z in list(families(self.rng, 500))[0][1]]
+        self.write("in.ply", ply(points, self.rng))
+        entry = self.check("in.ply", "-t", "0.08", "--precision", "float", size=80, also=())
+        self.assertGreater(entry["output"]["within_tolerance"], 0)
+        entry = self.check("in.ply", "-t", "0.1", "--keep", "mean", size=80, also=())
+        self.assertGreater(entry["output"]["within_tolerance"], 0)
+
+    def test_what_is_wrong_with_a_property_is_said_as_in_memory(self):
+        self.write("in.ply", ply([(0.0, 0.0, float(i)) for i in range(40)], self.rng))
+        for option, value in (("--same", "none"), ("--order", "none"), ("--keep", "min:none"),
+                              ("--across", "none")):
+            said = [self.run_tool("in.ply", option, value, "-o", "out.ply", *tiled, status=3).err
+                    for tiled in ([], ["--tile-points", 10])]
+            self.assertEqual(*said)
+            self.assertEqual(self.listing(), ["in.ply"])
+
+
+if __name__ == "__main__":
+    main()
