@@ -169,9 +169,9 @@ exit_status look_at(tools::job& work, const request& r) {
             tools::share_search(work, r.search, r.tiles);
             return tools::done;
         }
-        result =
-            tools::search_in_tiles(work, r.search, r.tiles,
-                                   r.tiles.folder_for(work, {r.pairs, r.curves, o.html, o.report}));
+        result = tools::search_in_tiles(
+            work, r.search, r.tiles,
+            r.tiles.folder_for(work, "tf-selfintersect", {r.pairs, r.curves, o.html, o.report}));
     } else {
         file = work.read();
         result = tools::search(work, file, r.search, keeps_mesh);
@@ -212,6 +212,7 @@ int main(int argc, char** argv) {
     tools::add_tile_options(
         line, r.tiles, "Files larger than --memory are searched in tiles on the disk (STL, PLY)",
         "--tile-faces");
+    tools::add_sharing_options(line, r.tiles);
     line.group("Common options");
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "glb", "3mf", "obj", "stl", "off"}});

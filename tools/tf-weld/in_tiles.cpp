@@ -9,7 +9,6 @@
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tf.hpp>
 
-#include <csignal>
 #include <limits>
 #include <optional>
 #include <string>
@@ -19,32 +18,6 @@ namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What the library says of its files, for the person and the shell.
-failure failure_of(const job& work, const tf::weld_stream_error& error) {
-    using enum tf::weld_stream_error::reason;
-    const std::string where = error.path().string() + ": ";
-    switch (error.why()) {
-        case folder:
-            return {bad_output, "work-folder", error.what()};
-        case folder_in_use:
-            return {bad_output, "work-folder", where + "is in use by another tf-weld"};
-        case folder_foreign:
-            return {bad_output, "work-folder",
-                    where + "holds files that tf-weld has not put there"};
-        case write:
-            return {bad_output, "output", error.what()};
-        case read:
-            return {bad_input, "read", error.what()};
-        case damaged:
-            return {bad_input, "damaged", error.what()};
-        case memory:
-            return {stopped, "memory", work.name + ": " + error.what()};
-        case input_changed:
-            break;
-    }
-    return {bad_input, "changed", work.name + ": the file changed while it was read"};
-}
 
 /// A step of the library's work, which says whether it was cancelled.
 template <class Step>
@@ -60,7 +33,7 @@ void take(job& work, const char* timed, const Step& step) {
 }
 
 tf::weld_stream_options library_options(job& work, const weld_request& request,
-                                        const tile_settings& tiles, const tf::mesh_file& header) {
+                                        const tile_options& tiles, const tf::mesh_file& header) {
     const distance& tolerance = request.settings.tolerance;
     const tf::weld_options& asked = request.settings.options;
     tf::weld_stream_options options;
@@ -76,14 +49,11 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
     options.as_las = path && form_of(work, header, *path).is_las();
     options.memory = work.options.memory;
     options.folder = folder_for(work, request, tiles);
-    options.points_per_tile = tiles.points_per_tile;
+    options.points_per_tile = tiles.per_tile;
     options.progress = [&work](std::string_view step, double share) {
         return work.progress(step)(share);
     };
-    if (tiles.stop_at > 0)
-        options.step_done = [left = tiles.stop_at]() mutable {
-            if (--left == 0) std::raise(SIGKILL);
-        };
+    options.step_done = tiles.step_done();
     return options;
 }
 
@@ -217,19 +187,13 @@ welding in_words_of_memory(const tf::cloud_survey& survey, const tf::weld_stream
 
 }  // namespace
 
-fs::path folder_for(const job& work, const weld_request& request, const tile_settings& tiles) {
-    if (!tiles.folder.empty()) return tiles.folder;
-    std::optional<fs::path> beside = mesh_output(work.options, work.path);
-    for (const fs::path& other :
-         {request.outputs.removed, request.outputs.map, work.options.report})
-        if ((!beside || *beside == "-") && !other.empty()) beside = other;
-    if (!beside || *beside == "-")
-        beside = fs::temp_directory_path() /
-                 (work.path == "-" ? fs::path("standard_input") : fs::path(work.path).filename());
-    return beside->string() + ".tf-weld-tiles";
+fs::path folder_for(const job& work, const weld_request& request, const tile_options& tiles) {
+    return tiles.folder_for(work, "tf-weld",
+                            {mesh_output(work.options, work.path).value_or(fs::path()),
+                             request.outputs.removed, request.outputs.map, work.options.report});
 }
 
-exit_status weld_in_tiles(job& work, const weld_request& request, const tile_settings& tiles,
+exit_status weld_in_tiles(job& work, const weld_request& request, const tile_options& tiles,
                           const tf::cloud_inputs& inputs, const tf::mesh_file& header) {
     enter_blank_report(work, request);
     check_outputs(work, {request.outputs.map}, {request.outputs.removed});

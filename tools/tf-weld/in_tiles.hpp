@@ -13,11 +13,11 @@ namespace tools {
 
 /// Where tiles go: as asked, or beside the output.
 [[nodiscard]] std::filesystem::path folder_for(const job& work, const weld_request& request,
-                                               const tile_settings& tiles);
+                                               const tile_options& tiles);
 
 /// Welds the cloud in `inputs`, whose header is known, in tiles on the disk. \throws failure
 [[nodiscard]] exit_status weld_in_tiles(job& work, const weld_request& request,
-                                        const tile_settings& tiles, const tf::cloud_inputs& inputs,
+                                        const tile_options& tiles, const tf::cloud_inputs& inputs,
                                         const tf::mesh_file& header);
 
 }  // namespace tools

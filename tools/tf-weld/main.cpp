@@ -72,21 +72,6 @@ void add_meshes(command_line& line, weld_settings& s) {
                                         "of more than two faces or a bow-tie vertex"});
 }
 
-void add_large_clouds(command_line& line, tools::tile_settings& tiles) {
-    line.group("Clouds larger than --memory are welded in tiles on the disk");
-    line.option({"--work", "DIR",
-                 "folder for them; kept when stopped, so that the same\n"
-                 "command goes on there",
-                 "beside FILE"},
-                [&tiles](std::string_view text) { tiles.folder = text; });
-    line.option({.names = "--tile-points", .value = "N"}, [&tiles](std::string_view text) {
-        tiles.points_per_tile = tools::parse_count("--tile-points", text);
-    });
-    line.option({.names = "--stop-at", .value = "STEP"}, [&tiles](std::string_view text) {
-        tiles.stop_at = tools::parse_count("--stop-at", text);
-    });
-}
-
 const char* const epilogue =
     "DIST is in the unit of the file; \"0.01%\" is that share of the bounding-box\n"
     "diagonal. The DIST actually used is printed and reported in file units. Every\n"
@@ -167,7 +152,7 @@ int main(int argc, char** argv) {
                       "Merge points or mesh vertices that lie within a distance of each other.\n"
                       "Point clouds stay point clouds; meshes are re-indexed.");
     tools::weld_request r;
-    tools::tile_settings tiles;
+    tools::tile_options tiles;
     common_options options;
     options.suffix = "-weld";
     bool exact = true;
@@ -188,7 +173,9 @@ int main(int argc, char** argv) {
                 [&](std::string_view text) { tools::parse_order(text, r.settings.options); });
     add_what_to_give_back(line, r.outputs, options);
     add_meshes(line, r.settings);
-    add_large_clouds(line, tiles);
+    tools::add_tile_options(line, tiles,
+                            "Clouds larger than --memory are welded in tiles on the disk",
+                            "--tile-points");
     line.group("Common options");
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf", "pcd",

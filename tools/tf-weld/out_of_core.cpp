@@ -94,9 +94,9 @@ exit_status weld_mesh(job& work, const weld_request& request, std::uint64_t size
     }
 }
 
-exit_status weld_files(job& work, const weld_request& request, const tile_settings& tiles,
+exit_status weld_files(job& work, const weld_request& request, const tile_options& tiles,
                        const tf::cloud_inputs& inputs) {
-    const bool asked = tiles.points_per_tile > 0;
+    const bool asked = tiles.per_tile > 0;
     const std::uint64_t allowed =
         work.options.memory > 0 ? work.options.memory : tf::default_memory();
     const std::uint64_t size = size_of(inputs);
@@ -120,7 +120,7 @@ exit_status weld_files(job& work, const weld_request& request, const tile_settin
 
 }  // namespace
 
-exit_status weld_somewhere(job& work, const weld_request& request, const tile_settings& tiles) {
+exit_status weld_somewhere(job& work, const weld_request& request, const tile_options& tiles) {
     const common_options& o = work.options;
     tf::cloud_inputs inputs{.format = o.format};
     if (o.joined)
@@ -130,7 +130,7 @@ exit_status weld_somewhere(job& work, const weld_request& request, const tile_se
     inputs.paths.assign(inputs.names.begin(), inputs.names.end());
     const auto piped = std::ranges::find(inputs.paths, fs::path("-"));
     if (piped == inputs.paths.end()) return weld_files(work, request, tiles, inputs);
-    if (o.memory == 0 && tiles.points_per_tile == 0) return weld_in_memory(work, request);
+    if (o.memory == 0 && tiles.per_tile == 0) return weld_in_memory(work, request);
     std::optional<spooled_input> spooled;
     {
         const job::timer timing = work.time("read");

@@ -8,7 +8,8 @@ namespace tools {
 
 namespace fs = std::filesystem;
 
-fs::path tile_options::folder_for(const job& work, std::initializer_list<fs::path> outputs) const {
+fs::path tile_options::folder_for(const job& work, const std::string& tool,
+                                  std::initializer_list<fs::path> outputs) const {
     if (!folder.empty()) return folder;
     fs::path beside;
     for (const fs::path& output : outputs)
@@ -16,7 +17,7 @@ fs::path tile_options::folder_for(const job& work, std::initializer_list<fs::pat
     if (beside.empty())
         beside = fs::temp_directory_path() /
                  (work.path == "-" ? fs::path("standard_input") : fs::path(work.path).filename());
-    return beside.string() + ".tiles";
+    return beside.string() + "." + tool + "-tiles";
 }
 
 std::function<void()> tile_options::step_done() const {
@@ -34,6 +35,15 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
                  "command goes on there",
                  "beside the output"},
                 [&target](std::string_view text) { target.folder = text; });
+    line.option({.names = per_tile, .value = "N"}, [&target, per_tile](std::string_view text) {
+        target.per_tile = parse_count(per_tile, text);
+    });
+    line.option({.names = "--stop-at", .value = "STEP"}, [&target](std::string_view text) {
+        target.stop_at = parse_count("--stop-at", text);
+    });
+}
+
+void add_sharing_options(command_line& line, tile_options& target) {
     line.flag(target.plan, {"--plan", "",
                             "only make the tiles; then any number of processes do\n"
                             "some each (--tile K, from 0), and one puts all\n"
@@ -42,12 +52,6 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
     line.option({"--tile", "K", "only do this tile"},
                 [&target](std::string_view text) { target.tile = parse_count("--tile", text); });
     line.flag(target.finish, {"--finish", "", "only put together what all tiles gave"});
-    line.option({.names = per_tile, .value = "N"}, [&target, per_tile](std::string_view text) {
-        target.per_tile = parse_count(per_tile, text);
-    });
-    line.option({.names = "--stop-at", .value = "STEP"}, [&target](std::string_view text) {
-        target.stop_at = parse_count("--stop-at", text);
-    });
 }
 
 void check_tile_options(const tile_options& tiles, const command_line& line,
@@ -79,6 +83,8 @@ failure failure_of(const job& work, const tf::weld_stream_error& error) {
             return {bad_input, "read", error.what()};
         case damaged:
             return {bad_input, "damaged", error.what()};
+        case memory:
+            return {stopped, "memory", work.name + ": " + error.what()};
         case input_changed:
             break;
     }

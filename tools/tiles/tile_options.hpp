@@ -29,9 +29,10 @@ struct tile_options {
     /// Whether there are other processes.
     [[nodiscard]] bool is_shared() const { return plan || tile || finish; }
     /// Where tiles go: as asked, or beside the first of `outputs` that is a file, or in the folder
-    /// for temporary files.
+    /// for temporary files; then its name ends with that of the tool.
     [[nodiscard]] std::filesystem::path folder_for(
-        const job& work, std::initializer_list<std::filesystem::path> outputs) const;
+        const job& work, const std::string& tool,
+        std::initializer_list<std::filesystem::path> outputs) const;
     /// To be called when a step has been done.
     [[nodiscard]] std::function<void()> step_done() const;
 };
@@ -39,6 +40,8 @@ struct tile_options {
 /// Adds a group with this heading; `per_tile` is the name of the option for the size of tiles.
 void add_tile_options(command_line& line, tile_options& target, const std::string& heading,
                       const std::string& per_tile);
+/// Adds the options of work that many processes share.
+void add_sharing_options(command_line& line, tile_options& target);
 
 /// \throws failure (bad_usage) for options that exclude each other or need others
 void check_tile_options(const tile_options& tiles, const command_line& line,
