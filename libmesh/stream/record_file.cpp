@@ -26,11 +26,11 @@ class descriptor {
     int fd_;
 };
 
-using reason = weld_stream_error::reason;
+using reason = stream_error::reason;
 
 [[noreturn]] void fail(reason why, const std::filesystem::path& path) {
     const char* const what = why == reason::write ? "written" : "read";
-    throw weld_stream_error(
+    throw stream_error(
         why, path,
         path.string() + ": cannot be " + what + ": " + std::generic_category().message(errno));
 }
@@ -95,7 +95,7 @@ std::optional<std::uint64_t> size_of(const std::filesystem::path& path) {
 }
 
 void fail_damaged(const std::filesystem::path& path) {
-    throw weld_stream_error(
+    throw stream_error(
         reason::damaged, path,
         path.string() + ": is not what was written; remove the folder and start again");
 }

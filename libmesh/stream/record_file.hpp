@@ -38,11 +38,11 @@ struct record_count {
 void store_count(const record_count& c, state_writer& state);
 [[nodiscard]] record_count load_count(state_reader& state);
 
-/// Appends bytes to a file, which is opened for it. \throws weld_stream_error
+/// Appends bytes to a file, which is opened for it. \throws stream_error
 void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes);
-/// Puts what was written on the disk. \throws weld_stream_error
+/// Puts what was written on the disk. \throws stream_error
 void sync_file(const std::filesystem::path& path);
-/// Reads from byte `at` on, as many as there are. \throws weld_stream_error
+/// Reads from byte `at` on, as many as there are. \throws stream_error
 [[nodiscard]] std::size_t read_from(const std::filesystem::path& path, std::uint64_t at,
                                     std::span<std::byte> bytes);
 /// None where there is no such file.
@@ -69,7 +69,7 @@ requires(std::is_trivially_copyable_v<Record> && sizeof(Record) % 8 == 0) class 
         held_.insert(held_.end(), records.begin(), records.end());
         if (held_.size() >= most_) flush();
     }
-    /// Writes out the rest. \throws weld_stream_error
+    /// Writes out the rest. \throws stream_error
     record_count finish() {
         const record_count all = finish_unsynced();
         sync_file(path_);
@@ -109,7 +109,7 @@ class record_reader {
           most_((bytes / sizeof(Record) / together + 1) * together) {}
 
     /// The next records, no longer valid at the next call; none at the end.
-    /// \throws weld_stream_error when the file is not what was written
+    /// \throws stream_error when the file is not what was written
     [[nodiscard]] std::span<const Record> next() {
         const std::uint64_t left = expected_.records - read_;
         held_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(left, most_)));
@@ -139,7 +139,7 @@ template <class Record>
     try {
         while (!reader.next().empty()) {
         }
-    } catch (const weld_stream_error&) {
+    } catch (const stream_error&) {
         return false;
     }
     return true;

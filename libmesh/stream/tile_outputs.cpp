@@ -104,8 +104,8 @@ class giving_back {
         steps_.step_done();
         const fs::path& input = task_.inputs.paths.front();
         if (first_ != survey_.points)
-            throw weld_stream_error(weld_stream_error::reason::input_changed, input,
-                                    input.string() + ": the file changed while it was read");
+            throw stream_error(stream_error::reason::input_changed, input,
+                               input.string() + ": the file changed while it was read");
         if (given_ != survey_.points - welded_.kept.dropped())
             throw std::logic_error("points in are not points kept and points removed");
         if (removed_) written_.removed = removed_->commit();

@@ -13,7 +13,7 @@ void remove_leftovers(const work_folder& folder);
 /// The last pass over the input: what is kept, and what else is asked for. `rows` stand for groups
 /// of several; null where their first points do.
 ///
-/// \throws io_error; weld_stream_error, also where the input has changed meanwhile; cancelled;
+/// \throws io_error; stream_error, also where the input has changed meanwhile; cancelled;
 ///         std::logic_error where points in are not points kept and points removed
 [[nodiscard]] weld_stream_written give_back(pacer& pace, const tile_task& task,
                                             const weld_stream_outputs& outputs, tile_steps& steps,

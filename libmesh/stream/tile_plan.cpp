@@ -103,7 +103,7 @@ std::optional<tile_cuts> tile_steps::plan_by(bool by_places) const {
     return std::nullopt;
 }
 
-/// As many tiles as hold least at a time. \throws weld_stream_error where that is too much
+/// As many tiles as hold least at a time. \throws stream_error where that is too much
 tile_cuts tile_steps::plan_for_least_memory() const {
     std::optional<tile_cuts> best;
     double least = std::numeric_limits<double>::infinity();
@@ -128,10 +128,10 @@ tile_cuts tile_steps::plan_for_least_memory() const {
 }
 
 void tile_steps::fail_for_memory(std::uint64_t needed) const {
-    throw weld_stream_error(weld_stream_error::reason::memory, folder_.path(),
-                            "--memory " + in_megabytes(task_.memory) + " is too little; " +
-                                in_megabytes(needed) + " would be enough",
-                            needed);
+    throw stream_error(stream_error::reason::memory, folder_.path(),
+                       "--memory " + in_megabytes(task_.memory) + " is too little; " +
+                           in_megabytes(needed) + " would be enough",
+                       needed);
 }
 
 /// Of the points of a cube whose diagonal is the tolerance, one.

@@ -131,8 +131,8 @@ std::size_t tile_search::tile_count(std::uint64_t faces) const {
 
 void tile_search::join() {
     if (tiles() > 0 || take_over()) return;
-    throw weld_stream_error(
-        weld_stream_error::reason::read, folder_.path(),
+    throw stream_error(
+        stream_error::reason::read, folder_.path(),
         folder_.path().string() + ": holds no tiles of this input with these options");
 }
 
@@ -274,8 +274,8 @@ stream_search_result tile_search::finish() {
     for (std::size_t t = 0; t < tiles(); ++t) {
         const auto found = load(t);
         if (!found)
-            throw weld_stream_error(
-                weld_stream_error::reason::read, folder_.path(),
+            throw stream_error(
+                stream_error::reason::read, folder_.path(),
                 folder_.path().string() + ": tile " + std::to_string(t) + " is not finished");
         const auto hits = all_of<tile_face<double>>(file(t, ".hits"), found->faces);
         faces.insert(faces.end(), hits.begin(), hits.end());

@@ -52,17 +52,17 @@ class tile_search {
                 stream_search_options options);
 
     /// Gives each tile its faces, or knows from an earlier run that they have them.
-    /// \throws io_error, weld_stream_error, cancelled
+    /// \throws io_error, stream_error, cancelled
     void scatter();
-    /// Knows what `scatter` has done, here or elsewhere. \throws weld_stream_error where it has not
+    /// Knows what `scatter` has done, here or elsewhere. \throws stream_error where it has not
     void join();
     [[nodiscard]] std::size_t tiles() const { return faces_.size(); }
     /// Searches it, unless it is finished. What two processes do at the same time is the same.
-    /// `part` and `of` are for the progress. \throws std::out_of_range, weld_stream_error, cancelled
+    /// `part` and `of` are for the progress. \throws std::out_of_range, stream_error, cancelled
     void search(std::size_t tile, std::size_t part, std::size_t of);
     /// The faces of a finished tile are needed no more.
     void drop_faces(std::size_t tile) const { std::filesystem::remove(file(tile, ".faces")); }
-    /// Puts together what was found. \throws weld_stream_error naming a tile that is not finished
+    /// Puts together what was found. \throws stream_error naming a tile that is not finished
     [[nodiscard]] stream_search_result finish();
 
   private:

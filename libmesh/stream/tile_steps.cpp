@@ -217,8 +217,8 @@ void tile_steps::check_points(std::uint64_t read) {
     for (const tile& t : tiles_) own += t.own;
     if (read == survey_.cloud.points && own == survey_.cloud.points) return;
     const std::filesystem::path& input = task_.inputs.paths.front();
-    throw weld_stream_error(weld_stream_error::reason::input_changed, input,
-                            input.string() + ": the file changed while it was read");
+    throw stream_error(stream_error::reason::input_changed, input,
+                       input.string() + ": the file changed while it was read");
 }
 
 std::size_t tile_steps::at_a_time() const {

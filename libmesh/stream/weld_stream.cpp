@@ -72,8 +72,7 @@ detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options optio
 
 }  // namespace
 
-weld_stream_error::weld_stream_error(reason why, fs::path path, const std::string& text,
-                                     std::uint64_t needed)
+stream_error::stream_error(reason why, fs::path path, const std::string& text, std::uint64_t needed)
     : std::runtime_error(text), why_(why), path_(std::move(path)), needed_(needed) {}
 
 cloud_outline outline(const cloud_inputs& inputs) {
@@ -147,8 +146,8 @@ stream_weld& stream_weld::operator=(stream_weld&&) noexcept = default;
 status stream_weld::look() {
     try {
         return state::until_cancelled([&] { state_->steps.look(); });
-    } catch (const weld_stream_error& error) {
-        if (error.why() == weld_stream_error::reason::memory) state_->folder.remove_unused();
+    } catch (const stream_error& error) {
+        if (error.why() == stream_error::reason::memory) state_->folder.remove_unused();
         throw;
     }
 }

@@ -22,10 +22,10 @@ namespace fs = std::filesystem;
 
 const char* const lock_name = "lock";
 
-using reason = weld_stream_error::reason;
+using reason = stream_error::reason;
 
 [[noreturn]] void refuse(reason why, const fs::path& path, const std::string& text) {
-    throw weld_stream_error(why, path, path.string() + ": " + text);
+    throw stream_error(why, path, path.string() + ": " + text);
 }
 
 }  // namespace

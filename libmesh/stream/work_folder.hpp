@@ -17,9 +17,9 @@ class work_folder {
     enum class use : bool { alone, shared };
 
     /// Makes the folder, or takes over what an earlier run has left.
-    /// \throws weld_stream_error when it cannot be made, holds other files, or is in use
+    /// \throws stream_error when it cannot be made, holds other files, or is in use
     explicit work_folder(std::filesystem::path path, use how = use::alone);
-    /// Holds it another way from now on. \throws weld_stream_error when it is in use
+    /// Holds it another way from now on. \throws stream_error when it is in use
     void hold(use how);
     ~work_folder();
     work_folder(const work_folder&) = delete;
@@ -32,9 +32,9 @@ class work_folder {
     [[nodiscard]] std::optional<state_reader> load(const std::string& name) const;
     /// A name that nobody else uses, on any machine.
     [[nodiscard]] static std::string own_name(const std::string& name);
-    /// Gives the file `from` the name `to`, which it may have already. \throws weld_stream_error
+    /// Gives the file `from` the name `to`, which it may have already. \throws stream_error
     void rename(const std::string& from, const std::string& to) const;
-    /// Stores it: whole, or not at all. \throws weld_stream_error
+    /// Stores it: whole, or not at all. \throws stream_error
     void store(const std::string& name, const state_writer& state) const;
 
     /// Removes all files but the lock.

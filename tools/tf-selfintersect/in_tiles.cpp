@@ -89,7 +89,7 @@ template <class Step>
 auto take(job& work, const Step& step) {
     try {
         return step();
-    } catch (const tf::weld_stream_error& error) {
+    } catch (const tf::stream_error& error) {
         throw failure_of(work, error);
     }
 }

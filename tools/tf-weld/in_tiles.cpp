@@ -26,7 +26,7 @@ void take(job& work, const char* timed, const Step& step) {
     tf::status ended{};
     try {
         ended = step();
-    } catch (const tf::weld_stream_error& error) {
+    } catch (const tf::stream_error& error) {
         throw failure_of(work, error);
     }
     work.call_ended(ended == tf::status::cancelled);

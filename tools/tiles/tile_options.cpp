@@ -66,8 +66,8 @@ void check_tile_options(const tile_options& tiles, const command_line& line,
         refuse("--plan and --tile give nothing back: outputs belong to --finish");
 }
 
-failure failure_of(const job& work, const tf::weld_stream_error& error) {
-    using enum tf::weld_stream_error::reason;
+failure failure_of(const job& work, const tf::stream_error& error) {
+    using enum tf::stream_error::reason;
     const std::string where = error.path().string() + ": ";
     switch (error.why()) {
         case folder:

@@ -48,6 +48,6 @@ void check_tile_options(const tile_options& tiles, const command_line& line,
                         const common_options& options);
 
 /// What the library says of its files, for the person and the shell.
-[[nodiscard]] failure failure_of(const job& work, const tf::weld_stream_error& error);
+[[nodiscard]] failure failure_of(const job& work, const tf::stream_error& error);
 
 }  // namespace tools

@@ -203,17 +203,16 @@ TEST_CASE("stream_search: tiles by several workers, in any order, some of them t
     o.faces_per_tile = 300;
     o.folder = folder.path / "work";
     CHECK_THROWS_WITH_AS((void)tf::stream_search(path, o).tiles(),
-                         doctest::Contains("holds no tiles of this input"), tf::weld_stream_error);
+                         doctest::Contains("holds no tiles of this input"), tf::stream_error);
     tf::stream_search first(path, o), second(path, o);
-    CHECK_THROWS_WITH_AS((void)first.scatter(), doctest::Contains("is in use"),
-                         tf::weld_stream_error);
+    CHECK_THROWS_WITH_AS((void)first.scatter(), doctest::Contains("is in use"), tf::stream_error);
     { const tf::stream_search gone = std::move(second); }
     REQUIRE(first.scatter() == tf::status::ok);
     tf::stream_search other(path, o);
     REQUIRE(other.tiles() > 5);
     CHECK_THROWS_AS((void)other.search_tile(other.tiles()), std::out_of_range);
     CHECK_THROWS_WITH_AS((void)other.finish(), doctest::Contains("tile 0 is not finished"),
-                         tf::weld_stream_error);
+                         tf::stream_error);
     tf::for_chunks(2, 1, [&](std::size_t worker, std::size_t, std::size_t) {
         tf::stream_search mine(path, o);
         const std::size_t tiles = mine.tiles();

@@ -145,8 +145,8 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
     try {
         tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
         FAIL("not refused");
-    } catch (const tf::weld_stream_error& error) {
-        CHECK(error.why() == tf::weld_stream_error::reason::folder_foreign);
+    } catch (const tf::stream_error& error) {
+        CHECK(error.why() == tf::stream_error::reason::folder_foreign);
         CHECK(error.path() == folder.work());
     }
     fs::remove_all(folder.work());
@@ -154,8 +154,8 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
     try {
         tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
         FAIL("not refused");
-    } catch (const tf::weld_stream_error& error) {
-        CHECK(error.why() == tf::weld_stream_error::reason::folder_in_use);
+    } catch (const tf::stream_error& error) {
+        CHECK(error.why() == tf::stream_error::reason::folder_in_use);
     }
 }
 

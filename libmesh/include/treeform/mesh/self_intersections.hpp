@@ -195,7 +195,7 @@ struct stream_search_result {
 ///
 /// The folder stays when the process is killed, and the same call goes on from there.
 ///
-/// \throws io_error when the file cannot be read or is of another format; weld_stream_error for the
+/// \throws io_error when the file cannot be read or is of another format; stream_error for the
 ///         folder; std::length_error for more than 2^32 - 1 triangles
 /// \cost   time as `self_intersections`; memory as the options say, plus what is found; 60 to 100
 ///         bytes a face on the disk, and 24 a vertex of a PLY
@@ -225,13 +225,13 @@ class TREEFORM_API stream_search {
     [[nodiscard]] status scatter();
     /// Number of tiles.
     ///
-    /// \throws weld_stream_error before `scatter` has ended, here or elsewhere; so do the steps below
+    /// \throws stream_error before `scatter` has ended, here or elsewhere; so do the steps below
     [[nodiscard]] std::size_t tiles();
     /// \throws std::out_of_range for a tile that is not there
     [[nodiscard]] status search_tile(std::size_t tile);
     /// Puts together what was found.
     ///
-    /// \throws weld_stream_error naming a tile that is not finished
+    /// \throws stream_error naming a tile that is not finished
     [[nodiscard]] stream_search_result finish();
     void remove_folder();
 

@@ -140,8 +140,9 @@ struct weld_stream_result {
     treeform::status status = status::ok;  ///< or cancelled: nothing is written, the folder stays
 };
 
-/// A problem with the files that `weld_stream` works with. `what()` names the path.
-class TREEFORM_API weld_stream_error : public std::runtime_error {
+/// A problem with the files that work in tiles takes: `weld_stream`, `self_intersections_of_file`.
+/// `what()` names the path.
+class TREEFORM_API stream_error : public std::runtime_error {
   public:
     enum class reason : std::uint8_t {
         folder,          ///< it cannot be made or written to
@@ -153,8 +154,8 @@ class TREEFORM_API weld_stream_error : public std::runtime_error {
         memory,          ///< it is not enough; `needed()` would be
         input_changed    ///< the input has changed while it was welded
     };
-    weld_stream_error(reason why, std::filesystem::path path, const std::string& text,
-                      std::uint64_t needed = 0);
+    stream_error(reason why, std::filesystem::path path, const std::string& text,
+                 std::uint64_t needed = 0);
 
     [[nodiscard]] reason why() const { return why_; }
     [[nodiscard]] std::uint64_t needed() const { return needed_; }
@@ -169,7 +170,7 @@ class TREEFORM_API weld_stream_error : public std::runtime_error {
 /// Welds the cloud in the files `inputs` (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV), and
 /// writes the outputs. Each output appears whole or not at all.
 ///
-/// \throws io_error when an input cannot be read or an output cannot be written, weld_stream_error,
+/// \throws io_error when an input cannot be read or an output cannot be written, stream_error,
 ///         std::invalid_argument for a tolerance that is negative or not finite, and as `weld` for
 ///         properties
 /// \cost   O(V log V) time; memory as the options say; 34 bytes a point on the disk, 8 more for
@@ -224,7 +225,7 @@ class TREEFORM_API stream_weld {
 
 /// The least `weld_stream_options::memory` with which `points` points can be welded in tiles, as long
 /// as tiles can be as small as they should be. Where points are crowded the limit may turn out to be
-/// higher (`weld_stream_error`).
+/// higher (`stream_error`).
 [[nodiscard]] TREEFORM_API std::uint64_t memory_to_stream(const mesh_file& header,
                                                           std::uint64_t points);
 
