@@ -160,7 +160,7 @@ inline std::uint32_t height_field_test::number_of(std::uint64_t key) {
 
 /// False when there are more edges than fit.
 bool height_field_test::find_border(std::span<const numbered_face> patch, const view& seen) {
-    // More than twice as many slots as keys: at most three edges a face, each with a corner.
+    // More slots than keys, of which there are at most six a face: three edges and their corners.
     slot_bits_ = std::min(static_cast<int>(std::bit_width(7 * patch.size())), max_slot_bits);
     std::fill_n(slots_.begin(), std::size_t{1} << slot_bits_, std::uint16_t{0});
     std::fill_n(values_.begin(), std::min(values_.size(), 1 + 6 * patch.size()), std::int16_t{0});

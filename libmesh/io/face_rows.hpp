@@ -30,8 +30,11 @@ struct face_rows {
     std::uint64_t stored_faces = 0;
     std::optional<box3> bounds{};  ///< of all finite points, where these come ahead of the faces
     std::vector<point3> sample{};  ///< finite corners from all over the file; at most `sample_size`
-    /// Appends the next triangles, about `most` of them; returns false when there are none left.
-    std::function<bool(std::vector<placed_triangle>& triangles, std::size_t most)> append{};
+    /// Appends the next triangles, about `most` of them. Returns false when there are none left; then
+    /// the file has been read to its end, and `warnings` got what was to be said.
+    std::function<bool(std::vector<placed_triangle>& triangles, std::size_t most,
+                       std::vector<io_warning>& warnings)>
+        append{};
 };
 
 inline constexpr std::size_t sample_size = std::size_t{1} << 17;
@@ -39,9 +42,12 @@ inline constexpr std::size_t sample_size = std::size_t{1} << 17;
 /// What is read by runs. `in` must outlive what comes back. The points of a PLY are in a file
 /// without a name in `folder` meanwhile; at most about `memory` bytes of it are held in memory.
 ///
-/// \throws io_error, also for a PLY whose faces come ahead of its vertices or are triangle strips
+/// \throws io_error, also for a PLY that `has_face_runs` is not true of
 [[nodiscard]] face_rows open_stl_faces(const source& in);
 [[nodiscard]] face_rows open_ply_faces(const source& in, const std::filesystem::path& folder,
                                        std::uint64_t memory);
+
+/// Whether vertices come ahead of faces, and these are no triangle strips. \throws io_error
+[[nodiscard]] bool has_face_runs(const source& ply);
 
 }  // namespace treeform::detail::io

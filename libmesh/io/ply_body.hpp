@@ -35,6 +35,13 @@ void check_room(const Values& values, const element& e) {
                     " promised");
 }
 
+template <class Values>
+void look_behind(Values& values, std::vector<io_warning>& warnings) {
+    if (!values.only_blanks_left())
+        warnings.push_back({"trailing-bytes", "there is more after the last element"});
+    values.remark(warnings);
+}
+
 /// Calls f with the values of the body, and with the name of their format.
 template <class F>
 void with_reader(const source& in, const ply_header& header, F&& f) {

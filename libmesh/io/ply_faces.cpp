@@ -53,6 +53,13 @@ class placed_points {
     std::size_t looked_at_ = 0;  ///< since memory was given back: bytes, later points
 };
 
+bool have_runs(const source& in, std::vector<element>& elements) {
+    const element& vertices = vertices_of(in, elements);
+    return std::none_of(elements.begin(), elements.end(), [&](const element& e) {
+        return e.rows > 0 && (e.name == "tristrips" || (e.name == "face" && &e < &vertices));
+    });
+}
+
 template <class Values>
 class ply_faces {
   public:
@@ -62,7 +69,8 @@ class ply_faces {
     /// Reads up to the first face.
     void read_vertices(face_rows& rows, const std::filesystem::path& folder, std::uint64_t memory) {
         check_header(rows);
-        for (element& e : elements_) {
+        for (; next_ < elements_.size(); ++next_) {
+            const element& e = elements_[next_];
             check_room(values_, e);
             if (&e == faces_) return;
             if (e.name == "vertex") points_.emplace(e.rows, in_, folder, memory);
@@ -79,8 +87,21 @@ class ply_faces {
         }
     }
 
-    bool append(std::vector<placed_triangle>& triangles, std::size_t most) {
-        if (faces_ == nullptr) return false;
+    bool append(std::vector<placed_triangle>& triangles, std::size_t most,
+                std::vector<io_warning>& warnings) {
+        const std::size_t before = triangles.size();
+        if (faces_ != nullptr) append_faces(triangles, most);
+        if (triangles.size() > before) return true;
+        while (++next_ < elements_.size()) {
+            check_room(values_, elements_[next_]);
+            each_run(elements_[next_], [](const auto&) {});
+        }
+        look_behind(values_, warnings);
+        return false;
+    }
+
+  private:
+    void append_faces(std::vector<placed_triangle>& triangles, std::size_t most) {
         const std::size_t before = triangles.size();
         start_columns(*faces_, 0);
         while (stored_ < faces_->rows && triangles.size() - before < most) {
@@ -96,24 +117,21 @@ class ply_faces {
             ++stored_;
         }
         for (column& c : faces_->columns) c.values.clear();
-        return triangles.size() > before;
     }
 
-  private:
     void check_header(face_rows& rows) {
         const element& vertices = vertices_of(in_, elements_);
+        if (!have_runs(in_, elements_))
+            in_.fail("faces ahead of their vertices, and triangle strips, are not read by runs");
         if (vertices.rows > most_numbers) in_.fail("more vertices than 32-bit numbers can name");
         points_of_file_ = static_cast<std::int64_t>(vertices.rows);
         step_ = vertices.rows / sample_size + 1;
         rows.points = vertices.rows;
         for (element& e : elements_) {
-            if (e.name == "tristrips" && e.rows > 0)
-                in_.fail("triangle strips are not read by runs");
             if (e.name != "face" || e.rows == 0) continue;
             if (with_role(e, column_role::corners) == nullptr)
                 in_.fail("element 'face' has no list of vertex_indices");
             if (e.rows > most_numbers) in_.fail("more faces than 32-bit numbers can name");
-            if (&e < &vertices) in_.fail("faces ahead of their vertices are not read by runs");
             faces_ = &e;
             rows.stored_faces = e.rows;
         }
@@ -162,6 +180,7 @@ class ply_faces {
     element* faces_ = nullptr;
     std::optional<placed_points> points_{};
     std::int64_t points_of_file_ = 0;
+    std::size_t next_ = 0;  ///< element
     std::size_t step_ = 1;
     std::size_t next_of_sample_ = 0;
     std::size_t read_ = 0;    ///< vertices
@@ -169,6 +188,11 @@ class ply_faces {
 };
 
 }  // namespace
+
+bool has_face_runs(const source& ply) {
+    ply_header header = read_ply_header(ply);
+    return have_runs(ply, header.elements);
+}
 
 face_rows open_ply_faces(const source& in, const std::filesystem::path& folder,
                          std::uint64_t memory) {
@@ -181,8 +205,8 @@ face_rows open_ply_faces(const source& in, const std::filesystem::path& folder,
         const auto faces =
             std::make_shared<reader>(in, std::move(values), std::move(header.elements));
         faces->read_vertices(rows, folder, memory);
-        rows.append = [faces](auto& triangles, std::size_t most) {
-            return faces->append(triangles, most);
+        rows.append = [faces](auto& triangles, std::size_t most, auto& warnings) {
+            return faces->append(triangles, most, warnings);
         };
     });
     return rows;

@@ -17,13 +17,6 @@ namespace treeform::detail::io {
 namespace {
 
 template <class Values>
-void look_behind(Values& values, std::vector<io_warning>& warnings) {
-    if (!values.only_blanks_left())
-        warnings.push_back({"trailing-bytes", "there is more after the last element"});
-    values.remark(warnings);
-}
-
-template <class Values>
 class body_reader {
   public:
     /// The elements of `file` are those of the header.

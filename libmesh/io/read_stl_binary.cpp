@@ -137,14 +137,16 @@ face_rows open_stl_faces(const source& in) {
     rows.points = std::uint64_t{3} * count;
     rows.stored_faces = count;
     const char* const facets = in.begin() + header_bytes;
-    for (std::size_t i = 0; i < count; i += count / sample_size + 1) {
-        const point3 corner = corners_of(facets + record_bytes * i)[0];
+    // No multiple of three, so that all corners have their turn.
+    const std::size_t step = (count / sample_size / 3) * 3 + 1;
+    for (std::size_t i = 0; i < count; i += step) {
+        const point3 corner = corners_of(facets + record_bytes * i)[i % 3];
         if (base::is_finite(corner)) rows.sample.push_back(corner);
         in.release_before(facets + record_bytes * i);
     }
     in.rewind();
-    rows.append = [&in, facets, count, done = std::uint32_t{0}](auto& triangles,
-                                                                std::size_t most) mutable {
+    rows.append = [&in, facets, count, done = std::uint32_t{0}](auto& triangles, std::size_t most,
+                                                                auto&) mutable {
         const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(count, done + most));
         const bool some = done < end;
         for (; done < end; ++done)

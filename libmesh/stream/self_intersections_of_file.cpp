@@ -1,7 +1,9 @@
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/extension.hpp>
+#include <libmesh/io/face_rows.hpp>
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld_stream.hpp>
 
 #include <utility>
 
@@ -10,11 +12,18 @@ namespace treeform {
 namespace fs = std::filesystem;
 using detail::stream::work_folder;
 
+namespace {
+
+fs::path folder_of(const fs::path& input, const stream_search_options& options) {
+    return options.folder.empty() ? fs::path(input.string() + ".search-tiles") : options.folder;
+}
+
+}  // namespace
+
 struct stream_search::state {
     state(const fs::path& input, const stream_search_options& options)
         : pace(options.progress),
-          folder(options.folder.empty() ? fs::path(input.string() + ".tiles") : options.folder,
-                 work_folder::use::shared),
+          folder(folder_of(input, options), "search", work_folder::use::shared),
           search(pace, folder, input, options) {}
 
     /// Where the work is cancelled, says so.
@@ -41,15 +50,36 @@ stream_search& stream_search::operator=(stream_search&&) noexcept = default;
 
 status stream_search::scatter() {
     state& s = *state_;
+    if (s.search.is_known()) return status::ok;
     s.folder.hold(work_folder::use::alone);
-    const status ended = state::until_cancelled([&] { s.search.scatter(); });
+    if (s.search.has_other_plan())
+        throw stream_error(
+            stream_error::reason::folder, s.folder.path(),
+            s.folder.path().string() +
+                ": holds tiles of another input or of other options; remove it first");
+    status ended{};
+    try {
+        ended = state::until_cancelled([&] { s.search.scatter(); });
+    } catch (...) {
+        s.folder.remove_unused();
+        throw;
+    }
     s.folder.hold(work_folder::use::shared);
     return ended;
 }
 
 std::size_t stream_search::tiles() {
-    state_->search.join();
-    return state_->search.tiles();
+    state& s = *state_;
+    if (s.search.is_known()) return s.search.tiles();
+    const fs::path& folder = s.folder.path();
+    const stream_error error(stream_error::reason::read, folder,
+                             folder.string() + ": holds no tiles of this input with these options");
+    try {
+        s.folder.hold(work_folder::use::alone);
+        s.folder.remove_unused();
+    } catch (const stream_error&) {  // others use it
+    }
+    throw error;
 }
 
 status stream_search::search_tile(std::size_t tile) {
@@ -58,7 +88,7 @@ status stream_search::search_tile(std::size_t tile) {
 }
 
 stream_search_result stream_search::finish() {
-    state_->search.join();
+    static_cast<void>(tiles());
     return state_->search.finish();
 }
 
@@ -70,7 +100,7 @@ bool is_searched_in_tiles(const fs::path& input, std::string_view format) {
         const auto found = detail::io::detect(in, detail::io::plain_extension(format),
                                               detail::io::extension_of(input));
         return found.kind == detail::io::file_kind::stl_binary ||
-               found.kind == detail::io::file_kind::ply;
+               (found.kind == detail::io::file_kind::ply && detail::io::has_face_runs(in));
     } catch (const io_error&) {
         return false;
     }
@@ -79,8 +109,7 @@ bool is_searched_in_tiles(const fs::path& input, std::string_view format) {
 stream_search_result self_intersections_of_file(const fs::path& input,
                                                 const stream_search_options& options) {
     detail::stream::pacer pace(options.progress);
-    work_folder folder(options.folder.empty() ? fs::path(input.string() + ".tiles")
-                                              : options.folder);
+    work_folder folder(folder_of(input, options), "search");
     detail::stream::tile_search search(pace, folder, input, options);
     stream_search_result result;
     try {
@@ -91,8 +120,12 @@ stream_search_result self_intersections_of_file(const fs::path& input,
         }
         result = search.finish();
     } catch (const detail::stream::cancelled&) {
+        folder.remove_unused();
         result.found.cancelled = true;
         return result;
+    } catch (...) {
+        folder.remove_unused();
+        throw;
     }
     folder.remove();
     return result;

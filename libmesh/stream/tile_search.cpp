@@ -17,6 +17,8 @@ namespace treeform::detail::stream {
 namespace {
 
 constexpr std::size_t triangles_a_block = std::size_t{1} << 16;
+constexpr std::uint64_t bytes_a_face = 250;                    // that `search` holds, by measure
+constexpr std::uint64_t base_bytes = std::uint64_t{48} << 20;  // the program, threads and code
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 
 io::face_rows open_faces(const io::source& in, const std::filesystem::path& path,
@@ -109,42 +111,47 @@ void add_counts(self_intersection_result& sum, const self_intersection_result& o
 tile_search::tile_search(pacer& pace, const work_folder& folder, std::filesystem::path input,
                          stream_search_options options)
     : pace_(pace), folder_(folder), input_(std::move(input)), options_(std::move(options)) {
-    constexpr std::uint64_t base = std::uint64_t{48}
-                                   << 20;  // the program, its threads and its code
     const std::uint64_t all = options_.memory == 0 ? default_memory() : options_.memory;
-    memory_ = all - std::min(base, all / 2);
+    memory_ = all - std::min(base_bytes, all / 2);
 }
 
 std::filesystem::path tile_search::file(std::size_t tile, const char* what) const {
     return folder_.file(std::to_string(tile) + what);
 }
 
-/// By a measure of what `search_tile` holds of each face, and with room for tiles that are larger
-/// than the sample said.
+/// With room for tiles that are larger than the sample said.
 std::size_t tile_search::tile_count(std::uint64_t faces) const {
-    constexpr std::uint64_t bytes_a_face = 250;
     const std::uint64_t most = options_.faces_per_tile > 0
                                    ? options_.faces_per_tile
                                    : std::max<std::uint64_t>(1000, memory_ / 3 * 2 / bytes_a_face);
     return static_cast<std::size_t>(faces / most + 1);
 }
 
-void tile_search::join() {
-    if (tiles() > 0 || take_over()) return;
-    throw stream_error(
-        stream_error::reason::read, folder_.path(),
-        folder_.path().string() + ": holds no tiles of this input with these options");
+void tile_search::scatter() {
+    if (is_known()) return;
+    survey_.started_anew = has_other_plan();
+    folder_.clear();
+    try {
+        give_tiles();
+        check_memory();
+        store_plan();
+    } catch (...) {  // half of the faces are of no use
+        faces_.clear();
+        folder_.clear();
+        throw;
+    }
+    if (options_.step_done) options_.step_done();
 }
 
-void tile_search::scatter() {
-    if (take_over()) return;
-    folder_.clear();
+void tile_search::give_tiles() {
     const io::source in = io::source::open(input_, io::scratch_place::file);
     io::face_rows rows = open_faces(in, input_, options_.format, folder_, memory_ / 4);
-    if (rows.stored_faces > std::numeric_limits<std::uint32_t>::max())
-        throw std::length_error("treeform::self_intersections_of_file: more than 2^32 - 1 faces");
     vertices_ = options_.vertices.value_or(rows.head.indexed ? vertex_identity::by_index
                                                              : vertex_identity::by_coordinates);
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    if (rows.stored_faces > most || (vertices_ == vertex_identity::by_index && rows.points > most))
+        throw std::length_error(
+            "treeform::self_intersections_of_file: more than 2^32 - 1 faces or points");
     survey_.points = rows.points;
     survey_.bounds = rows.bounds;
     bounds_known_ = rows.bounds.has_value();
@@ -155,9 +162,18 @@ void tile_search::scatter() {
     else
         give_all<double>(rows);
     survey_.header = std::move(rows.head);
-    survey_.tiles = cells_->size();
-    store_plan();
-    if (options_.step_done) options_.step_done();
+}
+
+/// Faces that no cut parts, for they are at one place or reach across all, must fit.
+void tile_search::check_memory() const {
+    std::uint64_t most = 0;
+    for (const record_count& c : faces_) most = std::max(most, c.records);
+    const std::uint64_t needed = base_bytes + most * bytes_a_face;
+    if (most * bytes_a_face <= memory_) return;
+    throw stream_error(stream_error::reason::memory, folder_.path(),
+                       std::to_string(most) + " faces reach into one tile; with " +
+                           std::to_string(needed / 1'000'000 + 1) + " MB of memory they fit",
+                       needed);
 }
 
 template <class Real>
@@ -170,7 +186,7 @@ void tile_search::give_all(io::face_rows& rows) {
     for (std::size_t t = 0; t < cells_->size(); ++t) tiles.emplace_back(file(t, ".faces"), held);
     std::vector<io::placed_triangle> block;
     std::vector<std::uint32_t> searched;
-    while (rows.append(block, triangles_a_block)) {
+    while (rows.append(block, triangles_a_block, rows.head.warnings)) {
         look_at(block, searched);
         for (const std::uint32_t i : searched) {
             const record face = record_of<Real>(block[i], survey_.triangles + i);
@@ -233,11 +249,16 @@ void tile_search::search_as(std::size_t tile) {
     const auto faces = all_of<tile_face<Real>>(file(tile, ".faces"), faces_[tile]);
     const mesh m = mesh_of(faces, vertices_);
     const auto watch = [this](double) {
-        pace_.check();
+        try {
+            pace_.check();
+        } catch (const cancelled&) {
+            return false;
+        }
         return true;
     };
     self_intersection_result all = self_intersections(
         m, {.vertices = vertex_identity::by_index, .kinds = options_.kinds, .progress = watch});
+    if (all.cancelled) throw cancelled{};
     const std::string pairs_name = work_folder::own_name(std::to_string(tile) + ".pairs");
     const std::string hits_name = work_folder::own_name(std::to_string(tile) + ".hits");
     record_writer<tile_pair> pairs(folder_.file(pairs_name), piece_bytes);
@@ -270,6 +291,7 @@ void tile_search::search_as(std::size_t tile) {
 /// Faces keep their order, so pairs that ascend do so with the new numbers.
 stream_search_result tile_search::finish() {
     stream_search_result result = survey_;
+    result.tiles = tiles();
     std::vector<tile_face<double>> faces;
     for (std::size_t t = 0; t < tiles(); ++t) {
         const auto found = load(t);

@@ -54,8 +54,10 @@ class tile_search {
     /// Gives each tile its faces, or knows from an earlier run that they have them.
     /// \throws io_error, stream_error, cancelled
     void scatter();
-    /// Knows what `scatter` has done, here or elsewhere. \throws stream_error where it has not
-    void join();
+    /// Whether `scatter` has been done, here or elsewhere.
+    [[nodiscard]] bool is_known() { return tiles() > 0 || take_over(); }
+    /// Whether the folder has tiles of another input or of other options. \pre not known
+    [[nodiscard]] bool has_other_plan() const;
     [[nodiscard]] std::size_t tiles() const { return faces_.size(); }
     /// Searches it, unless it is finished. What two processes do at the same time is the same.
     /// `part` and `of` are for the progress. \throws std::out_of_range, stream_error, cancelled
@@ -78,6 +80,8 @@ class tile_search {
     [[nodiscard]] std::size_t tile_count(std::uint64_t faces) const;
     template <class Real>
     void give_all(io::face_rows& rows);
+    void give_tiles();
+    void check_memory() const;
     void look_at(const std::vector<io::placed_triangle>& block,
                  std::vector<std::uint32_t>& searched);
     template <class Real>

@@ -100,6 +100,8 @@ void tile_search::store_plan() const {
     folder_.store(plan_name, state);
 }
 
+bool tile_search::has_other_plan() const { return folder_.load(plan_name).has_value(); }
+
 bool tile_search::take_over() {
     auto state = folder_.load(plan_name);
     if (!state || state->text() != identity()) return false;

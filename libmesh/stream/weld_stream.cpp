@@ -87,7 +87,7 @@ struct stream_weld::state {
           source(task.inputs, task.options.as_las),
           keys(source.header(), task.options),
           pace(task.options.progress),
-          folder(task.options.folder),
+          folder(task.options.folder, "weld"),
           steps(pace, folder, task, source, keys) {}
 
     /// Where the work is cancelled, says so.

@@ -30,7 +30,8 @@ using reason = stream_error::reason;
 
 }  // namespace
 
-work_folder::work_folder(fs::path path, use how) : path_(std::move(path)) {
+work_folder::work_folder(fs::path path, const std::string& job, use how)
+    : path_(std::move(path)), how_(how) {
     std::error_code error;
     fs::create_directory(path_, error);
     if (error) refuse(reason::folder, path_, "cannot be made: " + error.message());
@@ -43,6 +44,13 @@ work_folder::work_folder(fs::path path, use how) : path_(std::move(path)) {
                std::string("cannot be written to: ") + std::generic_category().message(errno));
     try {
         hold(how);
+        std::array<char, 32> was{};
+        const ssize_t size = ::pread(lock_, was.data(), was.size(), 0);
+        if (size > 0 && job != std::string_view(was.data(), static_cast<std::size_t>(size)))
+            refuse(reason::folder_foreign, path_, "holds the files of another job");
+        if (size <= 0 && ::pwrite(lock_, job.data(), job.size(), 0) < 0)
+            refuse(reason::folder, path_,
+                   std::string("cannot be written to: ") + std::generic_category().message(errno));
     } catch (...) {
         ::close(lock_);
         throw;
@@ -50,8 +58,14 @@ work_folder::work_folder(fs::path path, use how) : path_(std::move(path)) {
 }
 
 void work_folder::hold(use how) {
-    if (::flock(lock_, (how == use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0)
+    const auto try_to = [this](use wanted) {
+        return ::flock(lock_, (wanted == use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0;
+    };
+    if (!try_to(how)) {
+        static_cast<void>(try_to(how_));  // which a lock that could not be had has ended
         refuse(reason::folder_in_use, path_, "is in use by another process");
+    }
+    how_ = how;
 }
 
 std::string work_folder::own_name(const std::string& name) {

@@ -16,10 +16,13 @@ class work_folder {
   public:
     enum class use : bool { alone, shared };
 
-    /// Makes the folder, or takes over what an earlier run has left.
-    /// \throws stream_error when it cannot be made, holds other files, or is in use
-    explicit work_folder(std::filesystem::path path, use how = use::alone);
-    /// Holds it another way from now on. \throws stream_error when it is in use
+    /// Makes the folder, or takes over what an earlier run has left. `job` is one word for what is
+    /// done there.
+    /// \throws stream_error when it cannot be made, holds other files, is in use, or is for another
+    ///         job
+    work_folder(std::filesystem::path path, const std::string& job, use how = use::alone);
+    /// Holds it another way from now on; as before where it cannot. \throws stream_error when it is
+    /// in use
     void hold(use how);
     ~work_folder();
     work_folder(const work_folder&) = delete;
@@ -47,6 +50,7 @@ class work_folder {
   private:
     std::filesystem::path path_;
     int lock_ = -1;
+    use how_ = use::alone;
 };
 
 }  // namespace treeform::detail::stream

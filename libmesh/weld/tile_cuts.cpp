@@ -73,10 +73,17 @@ std::uint32_t tile_cuts::split(std::span<point3> sample, std::size_t count) {
         };
         const auto at = sample.begin() + static_cast<std::ptrdiff_t>(middle);
         std::nth_element(sample.begin(), at, sample.end(), before);
-        const double cut = along(k, *at);
-        const auto above = std::partition(sample.begin(), sample.end(),
-                                          [&](const point3& p) { return along(k, p) < cut; });
-        if (above != sample.begin()) {
+        double cut = along(k, *at);
+        const auto is_below = [&](const point3& p) { return along(k, p) < cut; };
+        auto above = std::partition(sample.begin(), sample.end(), is_below);
+        if (above == sample.begin()) {  // most are at the low end: all others are above the cut
+            double next = std::numeric_limits<double>::infinity();
+            for (const point3& p : sample)
+                if (const double x = along(k, p); x > cut) next = std::min(next, x);
+            cut = next;
+            above = std::partition(sample.begin(), sample.end(), is_below);
+        }
+        if (above != sample.end()) {
             const auto below = static_cast<std::size_t>(above - sample.begin());
             split(sample.first(below), count / 2);
             const std::uint32_t other = split(sample.subspan(below), count - count / 2);

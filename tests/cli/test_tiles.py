@@ -107,6 +107,7 @@ class Tiles(ToolTest):
         work = ["--work", "tiles"]
         run = self.run_tool("float.ply", *work, "--tile", 0, status=3)
         self.assertIn("holds no tiles of this input", run.err)
+        self.assertNotIn("tiles", self.listing())
         run = self.run_tool("float.ply", *work, "--plan", "--tile-faces", 80, status=0)
         tiles = int(run.text.split()[1])
         self.assertGreater(tiles, 5)
@@ -122,6 +123,17 @@ class Tiles(ToolTest):
         self.run_tool("float.ply", *work, "--tile", 1, status=0)  # done already
         for _ in range(2):
             self.assertEqual(self.look("float.ply", *work, "--finish"), expected)
+        run = self.run_tool("float.ply", *work, "--finish", "-v", "--exit-zero", status=0)
+        self.assertIn(f"searched in {tiles} tiles", run.err)
+        run = self.run_tool("float.ply", *work, "--plan", "--box", "0,0,0,1,1,1", status=4)
+        self.assertIn("holds tiles of another input or of other options", run.err)
+        self.put("cloud.xyz", "".join(f"{i} 0 0\n" for i in range(100)))
+        weld = subprocess.run([WELD, "cloud.xyz", "-t", "1", "-o", "out.xyz", "--tile-points", "10",
+                               "--work", "tiles"], cwd=self.folder, capture_output=True)
+        self.assertEqual(weld.returncode, 4)
+        self.assertIn(b"that this tool has not put there", weld.stderr)
+        self.assertEqual(self.run_tool("float.ply", *work, "--plan", status=0).text.split()[1],
+                         str(tiles))
         for arguments, words in (
                 (["--plan"], "need --work DIR"), (["--plan", "--finish", *work], "exclude each other"),
                 (["--tile", "0", *work, "--pairs", "p.csv"], "outputs belong to --finish"),

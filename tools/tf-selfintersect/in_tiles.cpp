@@ -140,6 +140,10 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
         throw failure(bad_input, "no-triangles",
                       work.name + ": no triangle with finite coordinates");
     work.warn_of_non_finite(r.part.dropped, "face", "faces");
+    if (r.started_anew)
+        work.warn("started-anew", folder.string() +
+                                      ": what is there is of no use for this input and these "
+                                      "options; started again");
     work.out.info(
         work.name + ": searched in " + counted(r.tiles, "tile", "tiles") + " in " +
         folder.string() +

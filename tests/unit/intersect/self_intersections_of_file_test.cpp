@@ -85,7 +85,8 @@ told in_memory(const fs::path& path, const tf::stream_search_options& o) {
 
 told in_tiles(const fs::path& path, const tf::stream_search_options& o) {
     const tf::stream_search_result r = tf::self_intersections_of_file(path, o);
-    CHECK_FALSE(fs::exists(path.string() + ".tiles"));
+    CHECK_FALSE(fs::exists(path.string() + ".search-tiles"));
+    CHECK(r.tiles > 0);
     return told_of(r.part, r.found, r.bounds);
 }
 
@@ -165,14 +166,15 @@ TEST_CASE("self_intersections_of_file: goes on after a stop at any step") {
     struct stop {};
     std::size_t steps = 0;
     for (int left = 1;; ++left) {
+        CAPTURE(left);
         o.step_done = [&, at = left]() mutable {
             if (--at == 0) throw stop{};
         };
-        std::size_t finished = 0;
         try {
             const auto r = tf::self_intersections_of_file(path, o);
             CHECK(told_of(r.part, r.found, r.bounds) == expected);
-            finished = r.finished_tiles;
+            CHECK(r.tiles + 1 == steps);  // the first one gives tiles their faces
+            CHECK_FALSE(r.started_anew);
         } catch (const stop&) {
             ++steps;
             o.step_done = {};
@@ -181,13 +183,14 @@ TEST_CASE("self_intersections_of_file: goes on after a stop at any step") {
                     if (entry.path().extension() == ".hits")
                         std::ofstream(entry.path(), std::ios::app) << "8 bytes.";
             }
+            const bool damaged = left % 3 == 0;
             const auto r = tf::self_intersections_of_file(path, o);
             CHECK(told_of(r.part, r.found, r.bounds) == expected);
-            CHECK(r.finished_tiles == (left % 3 == 0 ? 0 : static_cast<std::size_t>(left - 1)));
+            CHECK(r.finished_tiles == (damaged ? 0 : static_cast<std::size_t>(left - 1)));
+            CHECK(r.started_anew == damaged);
             CHECK_FALSE(fs::exists(o.folder));
             continue;
         }
-        CHECK(finished == 0);
         break;
     }
     CHECK(steps > 5);
@@ -207,6 +210,7 @@ TEST_CASE("stream_search: tiles by several workers, in any order, some of them t
     tf::stream_search first(path, o), second(path, o);
     CHECK_THROWS_WITH_AS((void)first.scatter(), doctest::Contains("is in use"), tf::stream_error);
     { const tf::stream_search gone = std::move(second); }
+    CHECK_THROWS_AS((void)tf::self_intersections_of_file(path, o), tf::stream_error);  // held still
     REQUIRE(first.scatter() == tf::status::ok);
     tf::stream_search other(path, o);
     REQUIRE(other.tiles() > 5);
@@ -222,8 +226,16 @@ TEST_CASE("stream_search: tiles by several workers, in any order, some of them t
     });
     REQUIRE(first.search_tile(other.tiles() - 1) == tf::status::ok);
     const tf::stream_search_result r = other.finish();
+    CHECK(r.tiles == other.tiles());
+    tf::stream_search_options others = o;
+    others.kinds = tf::pair_kind::crossing;
+    { const tf::stream_search gone = std::move(first); }
+    { const tf::stream_search gone = std::move(other); }
+    tf::stream_search last(path, others);
+    CHECK_THROWS_WITH_AS((void)last.scatter(), doctest::Contains("holds tiles of another input"),
+                         tf::stream_error);
     CHECK(told_of(r.part, r.found, r.bounds) == in_memory(path, o));
-    other.remove_folder();
+    last.remove_folder();
     CHECK_FALSE(fs::exists(o.folder));
 }
 
@@ -234,8 +246,10 @@ TEST_CASE("self_intersections_of_file: stops when it is told, and says what it d
     const fs::path path = folder.path / "grid.ply";
     tf::write(path, file);
     tf::stream_search_options o;
-    o.progress = [](std::string_view, double) { return false; };
-    CHECK(tf::self_intersections_of_file(path, o).found.cancelled);
+    for (const std::string_view at : {"scatter", "pairs"}) {
+        o.progress = [at](std::string_view step, double) { return step != at; };
+        CHECK(tf::self_intersections_of_file(path, o).found.cancelled);
+    }
     CHECK(tf::self_intersections_of_file(path).found.pairs.empty());
 
     tf::write(folder.path / "grid.obj", file);
@@ -248,4 +262,47 @@ TEST_CASE("self_intersections_of_file: stops when it is told, and says what it d
     CHECK_FALSE(tf::is_searched_in_tiles(folder.path / "no.stl"));
     fs::resize_file(path, fs::file_size(path) - 100);
     CHECK_THROWS_AS((void)tf::self_intersections_of_file(path), tf::io_error);
+    CHECK_FALSE(fs::exists(path.string() + ".search-tiles"));
+
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "element edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n0 1\n";
+    std::ofstream(path) << head;
+    CHECK_THROWS_AS((void)tf::self_intersections_of_file(path), tf::io_error);
+    std::ofstream(path) << head << "1 2\n2 0\n";
+    CHECK(tf::self_intersections_of_file(path).header.warnings.size() == 1);
+    std::ofstream(path) << "ply\nformat ascii 1.0\nelement face 1\n"
+                           "property list uchar int vertex_indices\nelement vertex 3\n"
+                           "property float x\nproperty float y\nproperty float z\nend_header\n"
+                           "3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n";
+    CHECK_FALSE(tf::is_searched_in_tiles(path));
+    CHECK_THROWS_AS((void)tf::self_intersections_of_file(path), tf::io_error);
+}
+
+TEST_CASE(
+    "self_intersections_of_file: memory that no cut makes enough is said, with what would be") {
+    const own_folder folder;
+    tf::mesh_file fan;
+    test::random source(5);
+    fan.mesh = test::fan(source, 3000);
+    const fs::path path = folder.path / "fan.stl";
+    tf::write(path, fan, {.precision = tf::precision::float32});
+    tf::stream_search_options o;
+    o.faces_per_tile = 100;
+    CHECK(tf::self_intersections_of_file(path, o).tiles > 10);  // not by the corner all have
+    o.memory = 1'000'000;
+    o.faces_per_tile = 3000;
+    std::uint64_t needed = 0;
+    try {
+        (void)tf::self_intersections_of_file(path, o);
+    } catch (const tf::stream_error& error) {
+        CHECK(error.why() == tf::stream_error::reason::memory);
+        needed = error.needed();
+    }
+    CHECK(needed > o.memory);
+    CHECK_FALSE(fs::exists(path.string() + ".search-tiles"));
+    o.memory = needed;
+    CHECK(in_tiles(path, o) == in_memory(path, o));
 }

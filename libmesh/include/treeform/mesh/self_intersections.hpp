@@ -160,10 +160,10 @@ struct stream_search_options {
     /// None: by coordinates for STL, by index for other formats.
     std::optional<vertex_identity> vertices{};
     pair_kinds kinds = pair_kinds::all;
-    std::optional<box3> box{};         ///< only faces that meet it
-    std::string format{};              ///< of the input, as for `read`
-    std::uint64_t memory = 0;          ///< bytes that the process may take; 0: `default_memory`
-    std::filesystem::path folder{};    ///< for the tiles; empty: the input's name and ".tiles"
+    std::optional<box3> box{};       ///< only faces that meet it
+    std::string format{};            ///< of the input, as for `read`
+    std::uint64_t memory = 0;        ///< bytes that the process may take; 0: `default_memory`
+    std::filesystem::path folder{};  ///< for the tiles; empty: the input's name and ".search-tiles"
     std::uint64_t faces_per_tile = 0;  ///< at most about this many; 0: as the memory allows
     /// Called with the step ("scatter", "pairs") and the share of it that is done. Returning false
     /// cancels.
@@ -182,15 +182,16 @@ struct stream_search_result {
     std::uint64_t triangles = 0;     ///< that they are cut into
     std::uint64_t searched = 0;      ///< triangles that are finite, and meet the box
     std::uint64_t points = 0;        ///< of the file; three a face for STL
-    std::optional<box3> bounds{};    ///< of the corners of finite triangles
+    std::optional<box3> bounds{};    ///< of all finite points of the file
     mesh_file header{};              ///< format, precision and warnings; no mesh
     std::size_t tiles = 0;
     std::size_t finished_tiles = 0;  ///< by an earlier run
+    bool started_anew = false;       ///< what the folder held was of other options or another input
 };
 
 /// The pairs that `self_intersections` finds in the usable part of a file, for files larger than
 /// memory: binary STL, and PLY whose vertices come ahead of its faces. Space is cut into tiles; each
-/// gets a copy, on the disk, of the faces that reach into it. A pair counts in the tile that holds
+/// gets a copy, on the disk, of the faces that reach into it, which must fit into memory. A pair counts in the tile that holds
 /// the lowest corner of the common part of the boxes of its two faces, so it counts once.
 ///
 /// The folder stays when the process is killed, and the same call goes on from there.
@@ -198,7 +199,7 @@ struct stream_search_result {
 /// \throws io_error when the file cannot be read or is of another format; stream_error for the
 ///         folder; std::length_error for more than 2^32 - 1 triangles
 /// \cost   time as `self_intersections`; memory as the options say, plus what is found; 60 to 100
-///         bytes a face on the disk, and 24 a vertex of a PLY
+///         bytes on the disk for each tile that a face reaches into, and 24 a vertex of a PLY
 /// \same   on any number of threads, with any memory and any folder
 [[nodiscard]] TREEFORM_API stream_search_result self_intersections_of_file(
     const std::filesystem::path& input, const stream_search_options& options = {});
