@@ -10,7 +10,7 @@
 namespace treeform::detail::stream {
 namespace {
 
-const char* const plan_name = "search";
+const char* const search_name = "search";
 
 std::string name_of_found(std::size_t tile) { return std::to_string(tile) + ".found"; }
 
@@ -30,7 +30,7 @@ void each_counter(Counters& c, const Visit& visit) {
     for (auto& n : c.predicates.by_width) visit(n);
 }
 
-void store_survey(const stream_search_result& s, state_writer& state) {
+void store_search(const stream_search_result& s, state_writer& state) {
     each_number(s, [&](std::uint64_t n) { state.number(n); });
     state.number(s.bounds ? 1 : 0);
     if (s.bounds) {
@@ -47,7 +47,7 @@ void store_survey(const stream_search_result& s, state_writer& state) {
     }
 }
 
-stream_search_result load_survey(state_reader& state) {
+stream_search_result load_search(state_reader& state) {
     stream_search_result s;
     each_number(s, [&](std::uint64_t& n) { n = state.number(); });
     if (state.number() != 0) {
@@ -93,19 +93,19 @@ std::string tile_search::identity() const {
 void tile_search::store_plan() const {
     state_writer state;
     state.text(identity());
-    store_survey(survey_, state);
+    store_search(survey_, state);
     state.number(static_cast<std::uint64_t>(vertices_));
     cells_->store(state);
     for (const record_count& faces : faces_) store_count(faces, state);
-    folder_.store(plan_name, state);
+    folder_.store(search_name, state);
 }
 
-bool tile_search::has_other_plan() const { return folder_.load(plan_name).has_value(); }
+bool tile_search::has_other_plan() const { return folder_.load(search_name).has_value(); }
 
 bool tile_search::take_over() {
-    auto state = folder_.load(plan_name);
+    auto state = folder_.load(search_name);
     if (!state || state->text() != identity()) return false;
-    stream_search_result survey = load_survey(*state);
+    stream_search_result survey = load_search(*state);
     const auto vertices = static_cast<vertex_identity>(state->number());
     space_cells cells(*state);
     std::vector<record_count> faces(cells.size());
