@@ -3,6 +3,7 @@
 /// The faces of a file from the front to the back, a run at a time, with the places of their
 /// corners; for meshes larger than memory.
 
+#include <libmesh/io/scratch.hpp>
 #include <libmesh/io/source.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -10,8 +11,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -39,13 +40,14 @@ struct face_rows {
 
 inline constexpr std::size_t sample_size = std::size_t{1} << 17;
 
-/// What is read by runs. `in` must outlive what comes back. The points of a PLY are in a file
-/// without a name in `folder` meanwhile; at most about `memory` bytes of it are held in memory.
+/// What is read by runs. `in` must outlive what comes back. The points of a PLY are meanwhile in
+/// what `make_scratch` gives for their bytes; at most about `memory` bytes of it are held in memory.
 ///
 /// \throws io_error, also for a PLY that `has_face_runs` is not true of
 [[nodiscard]] face_rows open_stl_faces(const source& in);
-[[nodiscard]] face_rows open_ply_faces(const source& in, const std::filesystem::path& folder,
-                                       std::uint64_t memory);
+[[nodiscard]] face_rows open_ply_faces(
+    const source& in, const std::function<std::unique_ptr<scratch>(std::size_t)>& make_scratch,
+    std::uint64_t memory);
 
 /// Whether vertices come ahead of faces, and these are no triangle strips. \throws io_error
 [[nodiscard]] bool has_face_runs(const source& ply);

@@ -19,35 +19,36 @@ namespace {
 constexpr std::size_t held_at_most = std::size_t{1} << 26;
 constexpr std::size_t rows_a_run = std::size_t{1} << 15;
 
+using scratch_maker = std::function<std::unique_ptr<scratch>(std::size_t)>;
+
 /// The points of a file, in a file of their own.
 class placed_points {
   public:
-    placed_points(std::size_t count, const source& in, const std::filesystem::path& folder,
-                  std::uint64_t memory)
-        : file_(count * sizeof(point3), scratch_place::file, in.name(), folder),
+    placed_points(std::unique_ptr<scratch> file, std::uint64_t memory)
+        : file_(std::move(file)),
           at_once_(std::max<std::size_t>(1024, static_cast<std::size_t>(memory / page))) {}
 
     void put(points_view points) {
-        std::memcpy(file_.data() + size_, points.data(), points.size_bytes());
+        std::memcpy(file_->data() + size_, points.data(), points.size_bytes());
         size_ += points.size_bytes();
         if ((looked_at_ += points.size_bytes()) < held_at_most) return;
-        file_.give_back();
+        file_->give_back();
         looked_at_ = 0;
     }
     [[nodiscard]] point3 at(std::uint32_t point) {
         if (++looked_at_ > at_once_) {
-            file_.give_back();
+            file_->give_back();
             looked_at_ = 0;
         }
         point3 p;
-        std::memcpy(&p, file_.data() + point * sizeof p, sizeof p);
+        std::memcpy(&p, file_->data() + point * sizeof p, sizeof p);
         return p;
     }
 
   private:
     static constexpr std::uint64_t page = 4096;  ///< what one look may bring into memory, at least
 
-    scratch file_;
+    std::unique_ptr<scratch> file_;
     std::size_t at_once_;
     std::size_t size_ = 0;
     std::size_t looked_at_ = 0;  ///< since memory was given back: bytes, later points
@@ -67,13 +68,13 @@ class ply_faces {
         : in_(in), values_(std::move(values)), elements_(std::move(elements)) {}
 
     /// Reads up to the first face.
-    void read_vertices(face_rows& rows, const std::filesystem::path& folder, std::uint64_t memory) {
+    void read_vertices(face_rows& rows, const scratch_maker& make_scratch, std::uint64_t memory) {
         check_header(rows);
         for (; next_ < elements_.size(); ++next_) {
             const element& e = elements_[next_];
             check_room(values_, e);
             if (&e == faces_) return;
-            if (e.name == "vertex") points_.emplace(e.rows, in_, folder, memory);
+            if (e.name == "vertex") points_.emplace(make_scratch(e.rows * sizeof(point3)), memory);
             each_run(e, [&](const std::vector<point3>& points) {
                 if (e.name != "vertex") return;
                 if (!fits_single(points)) rows.head.stored_as = precision::float64;
@@ -194,7 +195,7 @@ bool has_face_runs(const source& ply) {
     return have_runs(ply, header.elements);
 }
 
-face_rows open_ply_faces(const source& in, const std::filesystem::path& folder,
+face_rows open_ply_faces(const source& in, const scratch_maker& make_scratch,
                          std::uint64_t memory) {
     ply_header header = read_ply_header(in);
     face_rows rows;
@@ -204,7 +205,7 @@ face_rows open_ply_faces(const source& in, const std::filesystem::path& folder,
         using reader = ply_faces<decltype(values)>;
         const auto faces =
             std::make_shared<reader>(in, std::move(values), std::move(header.elements));
-        faces->read_vertices(rows, folder, memory);
+        faces->read_vertices(rows, make_scratch, memory);
         rows.append = [faces](auto& triangles, std::size_t most, auto& warnings) {
             return faces->append(triangles, most, warnings);
         };

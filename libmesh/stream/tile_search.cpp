@@ -26,7 +26,17 @@ io::face_rows open_faces(const io::source& in, const std::filesystem::path& path
                          std::uint64_t memory) {
     const auto found = io::detect(in, io::plain_extension(format), io::extension_of(path));
     if (found.kind == io::file_kind::stl_binary) return io::open_stl_faces(in);
-    if (found.kind == io::file_kind::ply) return io::open_ply_faces(in, folder.path(), memory);
+    if (found.kind == io::file_kind::ply) {
+        const auto make_scratch = [&](std::size_t bytes) {
+            try {
+                return std::make_unique<io::scratch>(bytes, io::scratch_place::file, in.name(),
+                                                     folder.path());
+            } catch (const io_error& error) {  // not of the input
+                throw stream_error(stream_error::reason::write, folder.path(), error.what());
+            }
+        };
+        return io::open_ply_faces(in, make_scratch, memory);
+    }
     in.fail("only binary STL and PLY are searched in tiles");
 }
 
