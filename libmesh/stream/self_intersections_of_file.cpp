@@ -18,6 +18,25 @@ fs::path folder_of(const fs::path& input, const stream_search_options& options) 
     return options.folder.empty() ? fs::path(input.string() + ".search-tiles") : options.folder;
 }
 
+/// Holds a shared folder alone for its life.
+class held_alone {
+  public:
+    explicit held_alone(work_folder& folder) : folder_(folder) {
+        folder.hold(work_folder::use::alone);
+    }
+    ~held_alone() {
+        try {
+            folder_.hold(work_folder::use::shared);
+        } catch (const stream_error&) {  // another process has it now; what is next will say so
+        }
+    }
+    held_alone(const held_alone&) = delete;
+    held_alone& operator=(const held_alone&) = delete;
+
+  private:
+    work_folder& folder_;
+};
+
 }  // namespace
 
 struct stream_search::state {
@@ -51,35 +70,32 @@ stream_search& stream_search::operator=(stream_search&&) noexcept = default;
 status stream_search::scatter() {
     state& s = *state_;
     if (s.search.is_known()) return status::ok;
-    s.folder.hold(work_folder::use::alone);
-    if (s.search.has_other_plan())
-        throw stream_error(
-            stream_error::reason::folder, s.folder.path(),
-            s.folder.path().string() +
-                ": holds tiles of another input or of other options; remove it first");
-    status ended{};
+    const held_alone lock(s.folder);
+    if (s.search.is_known()) return status::ok;  // another process was quicker
+    if (s.search.has_plan())
+        throw stream_error(stream_error::reason::folder, s.folder.path(),
+                           s.folder.path().string() +
+                               ": holds tiles of another input or of other options, or damaged "
+                               "ones; remove it first");
     try {
-        ended = state::until_cancelled([&] { s.search.scatter(); });
+        return state::until_cancelled([&] { s.search.scatter(); });
     } catch (...) {
         s.folder.remove_unused();
         throw;
     }
-    s.folder.hold(work_folder::use::shared);
-    return ended;
 }
 
 std::size_t stream_search::tiles() {
     state& s = *state_;
     if (s.search.is_known()) return s.search.tiles();
     const fs::path& folder = s.folder.path();
-    const stream_error error(stream_error::reason::read, folder,
-                             folder.string() + ": holds no tiles of this input with these options");
     try {
-        s.folder.hold(work_folder::use::alone);
+        const held_alone lock(s.folder);
         s.folder.remove_unused();
     } catch (const stream_error&) {  // others use it
     }
-    throw error;
+    throw stream_error(stream_error::reason::read, folder,
+                       folder.string() + ": holds no tiles of this input with these options");
 }
 
 status stream_search::search_tile(std::size_t tile) {

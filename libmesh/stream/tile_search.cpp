@@ -139,7 +139,7 @@ std::size_t tile_search::tile_count(std::uint64_t faces) const {
 
 void tile_search::scatter() {
     if (is_known()) return;
-    survey_.started_anew = has_other_plan();
+    survey_.started_anew = has_plan();
     folder_.clear();
     try {
         give_tiles();

@@ -56,8 +56,8 @@ class tile_search {
     void scatter();
     /// Whether `scatter` has been done, here or elsewhere.
     [[nodiscard]] bool is_known() { return tiles() > 0 || take_over(); }
-    /// Whether the folder has tiles of another input or of other options. \pre not known
-    [[nodiscard]] bool has_other_plan() const;
+    /// Whether the folder has tiles, be it of another input or of other options.
+    [[nodiscard]] bool has_plan() const;
     [[nodiscard]] std::size_t tiles() const { return faces_.size(); }
     /// Searches it, unless it is finished. What two processes do at the same time is the same.
     /// `part` and `of` are for the progress. \throws std::out_of_range, stream_error, cancelled

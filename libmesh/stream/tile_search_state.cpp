@@ -100,7 +100,7 @@ void tile_search::store_plan() const {
     folder_.store(search_name, state);
 }
 
-bool tile_search::has_other_plan() const { return folder_.load(search_name).has_value(); }
+bool tile_search::has_plan() const { return folder_.load(search_name).has_value(); }
 
 bool tile_search::take_over() {
     auto state = folder_.load(search_name);

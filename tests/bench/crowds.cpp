@@ -113,26 +113,6 @@ mesh torus_knot() {
     return result;
 }
 
-mesh cylinder(double radius, double height) {
-    constexpr std::size_t sides = 64;
-    mesh result;
-    for (const double z : {0.0, height})
-        for (std::size_t i = 0; i < sides; ++i) {
-            const double turn = 2 * pi * static_cast<double>(i) / sides;
-            result.points.push_back({radius * std::cos(turn), radius * std::sin(turn), z});
-        }
-    for (std::size_t i = 0; i < sides; ++i) {
-        const std::uint32_t a = number(i), b = number((i + 1) % sides);
-        const std::uint32_t up = number(sides);
-        result.faces.push_back({a, b, b + up});
-        result.faces.push_back({a, b + up, a + up});
-        if (i == 0 || i + 1 == sides) continue;
-        result.faces.push_back({0, b, a});
-        result.faces.push_back({up, a + up, b + up});
-    }
-    return result;
-}
-
 }  // namespace
 
 crowd crowd_of(std::function<meshes()> make) {
@@ -178,7 +158,7 @@ meshes plate_and_cylinders(std::size_t side) {
     for (std::size_t i = 0; i < side; ++i)
         for (std::size_t j = 0; j < side; ++j)
             result.push_back(
-                test::moved(cylinder(0.3, 1.0),
+                test::moved(test::prism(64, 0.3, 1.0),
                             {static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5, -0.25}));
     return result;
 }

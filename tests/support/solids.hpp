@@ -12,10 +12,30 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 namespace test {
+
+/// A prism along the third axis, from 0 up, over a regular polygon.
+inline tf::mesh prism(std::uint32_t sides, double radius, double height) {
+    tf::mesh result;
+    for (const double z : {0.0, height})
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            const double turn = 2 * std::numbers::pi * i / sides;
+            result.points.push_back({radius * std::cos(turn), radius * std::sin(turn), z});
+        }
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const std::uint32_t a = i, b = (i + 1) % sides;
+        result.faces.push_back({a, b, b + sides});
+        result.faces.push_back({a, b + sides, a + sides});
+        if (i == 0 || i + 1 == sides) continue;
+        result.faces.push_back({0, b, a});
+        result.faces.push_back({sides, a + sides, b + sides});
+    }
+    return result;
+}
 
 /// The box [0, x] x [0, y] x [0, z].
 inline tf::mesh box(double x, double y, double z) {

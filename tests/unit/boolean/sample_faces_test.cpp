@@ -8,7 +8,6 @@
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -29,25 +28,6 @@ tf::detail::boolean::face_samples samples_of(const std::vector<tf::mesh>& solids
     const detail::surface_components components(joined.all, operand,
                                                 detail::find_operand_edges(joined.all, operand));
     return detail::sample_faces(components, {expression, tf::fill_rule::nonzero});
-}
-
-/// A prism along the third axis, from 0 up.
-tf::mesh pin(std::uint32_t sides, double radius, double height) {
-    tf::mesh result;
-    for (const double z : {0.0, height})
-        for (std::uint32_t i = 0; i < sides; ++i) {
-            const double turn = 2 * 3.14159265358979 * i / sides;
-            result.points.push_back({radius * std::cos(turn), radius * std::sin(turn), z});
-        }
-    for (std::uint32_t i = 0; i < sides; ++i) {
-        const std::uint32_t a = i, b = (i + 1) % sides;
-        result.faces.push_back({a, b, b + sides});
-        result.faces.push_back({a, b + sides, a + sides});
-        if (i == 0 || i + 1 == sides) continue;
-        result.faces.push_back({0, b, a});
-        result.faces.push_back({sides, a + sides, b + sides});
-    }
-    return result;
 }
 
 }  // namespace
@@ -86,7 +66,7 @@ TEST_CASE("face samples: hidden faces count for what it costs to cut them") {
     // Pins through a plate: half of all faces are their ends, out of it, where nothing is near them.
     std::vector<tf::mesh> drilled{box(8, 8, 0.5)};
     for (int i = 0; i < 64; ++i)
-        drilled.push_back(moved(pin(32, 0.3, 1.0), {i % 8 + 0.5, i / 8 + 0.5, -0.25}));
+        drilled.push_back(moved(test::prism(32, 0.3, 1.0), {i % 8 + 0.5, i / 8 + 0.5, -0.25}));
     const auto samples = samples_of(drilled, tf::boolean_expression::difference_of(drilled.size()));
     CHECK(samples.hidden > 0.0);
     CHECK(samples.hidden < 0.25);

@@ -10,8 +10,8 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
+#include <support/own_folder.hpp>
 #include <support/soups.hpp>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -30,20 +30,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder of its own that goes with the test.
-struct own_folder {
-    own_folder()
-        : path(fs::temp_directory_path() / ("search_of_file." + std::to_string(::getpid()))) {
-        fs::remove_all(path);
-        fs::create_directories(path);
-    }
-    own_folder(const own_folder&) = delete;
-    own_folder& operator=(const own_folder&) = delete;
-    ~own_folder() { fs::remove_all(path); }
-
-    fs::path path;
-};
 
 /// What is told of a mesh, with the file's numbers of faces.
 struct told {
@@ -101,7 +87,7 @@ tf::mesh hard_mesh() {
 }  // namespace
 
 TEST_CASE("self_intersections_of_file: the answers of the whole mesh, for every cut and format") {
-    const own_folder folder;
+    const test::own_folder folder("search_of_file");
     tf::mesh_file file;
     file.mesh = hard_mesh();
     for (const char* name : {"whole.stl", "whole.ply", "text.ply"}) {
@@ -129,7 +115,7 @@ TEST_CASE("self_intersections_of_file: the answers of the whole mesh, for every 
 
 TEST_CASE(
     "self_intersections_of_file: polygons, doubles, NaN and elements that are not asked for") {
-    const own_folder folder;
+    const test::own_folder folder("search_of_file");
     const fs::path path = folder.path / "all.ply";
     std::ofstream(path) << "ply\nformat ascii 1.0\n"
                            "element camera 1\nproperty float f\nproperty list uchar int l\n"
@@ -154,7 +140,7 @@ TEST_CASE(
 }
 
 TEST_CASE("self_intersections_of_file: goes on after a stop at any step") {
-    const own_folder folder;
+    const test::own_folder folder("search_of_file");
     tf::mesh_file file;
     file.mesh = hard_mesh();
     const fs::path path = folder.path / "part.stl";
@@ -197,7 +183,7 @@ TEST_CASE("self_intersections_of_file: goes on after a stop at any step") {
 }
 
 TEST_CASE("stream_search: tiles by several workers, in any order, some of them twice") {
-    const own_folder folder;
+    const test::own_folder folder("search_of_file");
     tf::mesh_file file;
     file.mesh = hard_mesh();
     const fs::path path = folder.path / "part.ply";
@@ -240,7 +226,7 @@ TEST_CASE("stream_search: tiles by several workers, in any order, some of them t
 }
 
 TEST_CASE("self_intersections_of_file: stops when it is told, and says what it does not read") {
-    const own_folder folder;
+    const test::own_folder folder("search_of_file");
     tf::mesh_file file;
     file.mesh = test::grid(40);
     const fs::path path = folder.path / "grid.ply";
@@ -283,7 +269,7 @@ TEST_CASE("self_intersections_of_file: stops when it is told, and says what it d
 
 TEST_CASE(
     "self_intersections_of_file: memory that no cut makes enough is said, with what would be") {
-    const own_folder folder;
+    const test::own_folder folder("search_of_file");
     tf::mesh_file fan;
     test::random source(5);
     fan.mesh = test::fan(source, 3000);

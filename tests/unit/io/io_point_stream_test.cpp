@@ -4,8 +4,8 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/own_folder.hpp>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <bit>
 #include <cstring>
@@ -21,21 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that goes with the test.
+/// A folder and the files that are put into it.
 struct scratch {
-    scratch()
-        : folder(fs::temp_directory_path() / ("io_point_stream." + std::to_string(::getpid()))) {
-        fs::create_directories(folder);
-    }
-    scratch(const scratch&) = delete;
-    scratch& operator=(const scratch&) = delete;
-    ~scratch() { fs::remove_all(folder); }
-
     [[nodiscard]] fs::path put(const std::string& name, const std::string& bytes) const {
         std::ofstream(folder / name, std::ios::binary) << bytes;
         return folder / name;
     }
-    fs::path folder;
+    const test::own_folder own{"io_point_stream"};
+    const fs::path& folder = own.path;
 };
 
 std::string bytes_of(const fs::path& path) {
