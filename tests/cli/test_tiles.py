@@ -140,6 +140,7 @@ class Tiles(ToolTest):
                 (["double.ply", "--plan", *work], "take one INPUT")):
             self.assertIn(words, self.run_tool("float.ply", *arguments, status=2).err)
 
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_memory_decides(self):
         with open(self.path("big.stl"), "wb") as file:
             file.write(stl_bytes(grid(450)))
