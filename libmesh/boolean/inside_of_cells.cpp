@@ -1,5 +1,6 @@
 #include <libmesh/base/double_double.hpp>
 #include <libmesh/boolean/inside_of_cells.hpp>
+#include <libmesh/boolean/sum_of_cones.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -14,24 +15,18 @@ namespace {
 /// The volume of the cells that are inside, from the points as approximated.
 double volume_of(const mesh_arrangement& cut, const arrangement_cells& cells,
                  const std::vector<std::uint8_t>& inside) {
-    constexpr std::size_t grain = std::size_t{1} << 14;
     const std::size_t given = cut.given_points.size();
     const auto at = [&](std::uint32_t p) {
         return p < given ? cut.given_points[p] : cut.constructed[p - given].center();
     };
-    std::vector<base::double_double> parts(chunk_count(cut.faces.size(), grain));
-    for_chunks(cut.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t f = begin; f < end; ++f) {
-            const auto [front, behind] = cells.cell_of_side[f];
-            if (inside[front] == inside[behind]) continue;
-            const auto [p, q, r] = cut.faces[f];
-            const base::double_double cone = base::determinant(at(p), at(q), at(r));
-            parts[c] = parts[c] + (inside[behind] != 0 ? cone : -cone);
-        }
+    const auto sum = sum_of_cones(cut.faces.size(), [&](std::size_t f) {
+        const auto [front, behind] = cells.cell_of_side[f];
+        if (inside[front] == inside[behind]) return base::double_double{};
+        const auto [p, q, r] = cut.faces[f];
+        const base::double_double cone = base::determinant(at(p), at(q), at(r));
+        return inside[behind] != 0 ? cone : -cone;
     });
-    base::double_double all;
-    for (const base::double_double& part : parts) all = all + part;
-    return all.high / 6.0;
+    return sum.high / 6.0;
 }
 
 /// Whether the operand winds 0 times around each cell or else the same once.

@@ -1,10 +1,13 @@
 #include <libmesh/arrange/arrange_pairs.hpp>
 #include <libmesh/base/compact.hpp>
+#include <libmesh/base/double_double.hpp>
 #include <libmesh/boolean/near_faces.hpp>
 #include <libmesh/boolean/propagate_inside.hpp>
 #include <libmesh/boolean/sound_pair.hpp>
+#include <libmesh/boolean/sum_of_cones.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/topology/is_manifold.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -84,6 +87,38 @@ chosen_faces choose(const near_faces& near, const mesh_arrangement& cut,
             result.face_of[place] = static_cast<std::uint32_t>(f);
         });
     return result;
+}
+
+/// The volume in common is summed over the faces around it, from the points as approximated; the
+/// union's follows, and is no smaller than either operand's, so little of it cancels.
+operand_volumes find_volumes(const prepared_pair& pair, const near_faces& near,
+                             const mesh_arrangement& cut, const std::vector<std::uint8_t>& inside) {
+    const choice common(boolean_expression::intersection_of(2));
+    const auto at = [&](std::uint32_t p) {
+        const std::size_t given = cut.given_points.size();
+        return p < given ? cut.given_points[p] : cut.constructed[p - given].center();
+    };
+    operand_volumes volumes;
+    base::double_double both = sum_of_cones(cut.faces.size(), [&](std::size_t f) {
+        const kept side = choice_of(near, cut, f, inside[f] != 0, common);
+        if (side == kept::no) return base::double_double{};
+        const auto [p, q, r] = turned_if(side == kept::turned, cut.faces[f]);
+        return base::determinant(at(p), at(q), at(r));
+    });
+    std::size_t first = 0;
+    for (const std::size_t k : {0, 1}) {
+        const mesh_view mesh = pair[k]->view();
+        both = both + sum_of_cones(mesh.faces.size(), [&](std::size_t f) {
+                   if (near.place[first + f] != face_place::inside) return base::double_double{};
+                   const auto& [p, q, r] = mesh.faces[f];
+                   return base::determinant(mesh.points[p], mesh.points[q], mesh.points[r]);
+               });
+        (k == 0 ? volumes.first : volumes.second) = signed_volume(mesh);
+        first += mesh.faces.size();
+    }
+    volumes.both = both.high / 6.0;
+    volumes.either = volumes.first - volumes.both + volumes.second;
+    return volumes;
 }
 
 /// Puts together the faces that were looked at and those that need not be, of both operands counted
@@ -263,6 +298,7 @@ std::optional<pair_result> boolean_of_sound_pair(const prepared_pair& pair, bool
     mesh_arrangement& cut = arranged.cut;
     auto inside = find_insides(pair, near, cut);
     if (!inside) return std::nullopt;
+    if (options.volumes) result.volumes = find_volumes(pair, near, cut, *inside);
     near.local = {};  // as large as the operands, perhaps
     if (!goes_on(0.6)) return made;
 
