@@ -119,8 +119,11 @@ point_groups detail::weld::find_groups(const char* called, points_view points,
     if (options.tolerance == 0.0) {
         first_of = by_equality(points, options);
     } else {
-        first_of = by_first ? detail::weld::sparse_leaders(points, options)
-                            : detail::weld::sparse_chains(points, options);
+        if (detail::weld::is_for_tiles(points, options))
+            first_of = detail::weld::tiled_leaders(points, options);
+        else
+            first_of = by_first ? detail::weld::sparse_leaders(points, options)
+                                : detail::weld::sparse_chains(points, options);
         if (first_of.size() != points.size() && !stopped)
             first_of = by_first ? detail::weld::dense_leaders(points, options)
                                 : detail::weld::dense_chains(points, options);

@@ -38,6 +38,8 @@ struct near_pairs_task {
 
 /// Points, of all, that a window meets on average, judged from a few thousand of them.
 [[nodiscard]] double estimated_window(points_view points, const lattice& steps);
+/// A window as slow as cells are.
+inline constexpr double wide_window = 384.0;
 
 /// Candidates of one thread on their way to the task.
 class pair_collector {

@@ -16,13 +16,12 @@ namespace {
 
 /// Pairs by the search asked for. The other ways help where a window or a cell holds too many.
 bool find_pairs(const near_pairs_task& task, neighbor_search search) {
-    constexpr double wide = 384.0;  // a window as slow as cells are
     if (search == neighbor_search::tree) return pairs_by_tree(task);
     const std::optional<lattice> steps = lattice::over(task.points, task.tolerance);
     if (!steps) return false;
     if (search == neighbor_search::automatic)
-        search = estimated_window(task.points, *steps) < wide ? neighbor_search::window
-                                                              : neighbor_search::cells;
+        search = estimated_window(task.points, *steps) < wide_window ? neighbor_search::window
+                                                                     : neighbor_search::cells;
     return search == neighbor_search::window ? pairs_by_window(task, *steps)
                                              : pairs_by_cells(task, *steps);
 }

@@ -1,4 +1,5 @@
 #include <libmesh/weld/crowded_chain.hpp>
+#include <libmesh/weld/dense.hpp>
 #include <libmesh/weld/tile_weld.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/weld.hpp>
@@ -191,6 +192,8 @@ std::vector<std::uint64_t> leaders(const cloud& points, weld_rule rule, double t
     return leader;
 }
 
+std::size_t in_memory = 0;  ///< points that `tiled_leaders` has done
+
 void check_same(const cloud& points, double tolerance, test::random& random) {
     CAPTURE(tolerance);
     for (const weld_rule rule : rules) {
@@ -200,6 +203,11 @@ void check_same(const cloud& points, double tolerance, test::random& random) {
             CAPTURE(count);
             CHECK(weld_in_tiles(points, rule, tolerance, count, random).leader == expected);
         }
+        if (rule != weld_rule::first) continue;
+        const auto tiled = tf::detail::weld::tiled_leaders(points, {.tolerance = tolerance},
+                                                           points.size() / 7 + 1);
+        CHECK((tiled.empty() || std::ranges::equal(tiled, expected)));
+        in_memory += tiled.size();
     }
 }
 
@@ -235,6 +243,7 @@ TEST_CASE("tile_weld: tiles of random points give the groups of the whole, spars
     const cloud points = uniform(600, random);
     for (const double tolerance : {0.0, 0.01, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0})
         check_same(points, tolerance, random);
+    CHECK(in_memory >= 4 * points.size());  // tiles too small for the tolerance are refused
 }
 
 TEST_CASE("tile_weld: tiles of grids, with their many equal distances, give the same groups") {

@@ -1,0 +1,158 @@
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/weld/dense.hpp>
+#include <libmesh/weld/near_pairs.hpp>
+#include <libmesh/weld/tile_weld.hpp>
+#include <treeform/tree/detail/buffer.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace treeform::detail::weld {
+namespace {
+
+/// Finite points by tile: those of its part of space and of its halo, ascending.
+struct tiled_points {
+    static constexpr std::uint32_t shared = std::uint32_t{1} << 31;
+    static constexpr std::uint32_t nowhere = ~std::uint32_t{0};
+
+    std::vector<std::size_t> begin;  ///< [tiles + 1] in `ids`
+    buffer<std::uint32_t> ids;
+    buffer<std::uint32_t> tile_of;  ///< [V] the own tile, and `shared` where others know it, too
+
+    [[nodiscard]] tile_point at(std::size_t tile, std::size_t place, points_view points) const {
+        const std::uint32_t id = ids[place];
+        const std::uint32_t own = tile_of[id];
+        const tile_role role = (own & ~shared) != tile ? tile_role::halo
+                               : (own & shared) != 0   ? tile_role::shared
+                                                       : tile_role::own;
+        return tile_point::make(id, role, points[id]);
+    }
+};
+
+/// None where halos would hold more points than half of all.
+std::optional<tiled_points> distribute(points_view points, const tile_cuts& cuts) {
+    struct in_halo {
+        std::uint32_t id;
+        std::uint32_t tile;
+    };
+    const std::size_t tiles = cuts.size();
+    const std::size_t chunk = std::max(std::size_t{1} << 17, points.size() / 256);
+    const std::size_t chunks = chunk_count(points.size(), chunk);
+    std::vector<std::vector<in_halo>> halos(chunks);
+    std::vector<std::vector<std::size_t>> place(chunks, std::vector<std::size_t>(tiles, 0));
+    tiled_points result;
+    result.tile_of = buffer<std::uint32_t>(points.size());
+    for_chunks(points.size(), chunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::vector<std::uint32_t> others;
+        for (std::size_t i = begin; i < end && halos[c].size() <= chunk / 2; ++i) {
+            result.tile_of[i] = tiled_points::nowhere;
+            if (!base::is_finite(points[i])) continue;
+            const std::uint32_t own = cuts.find(points[i], others);
+            result.tile_of[i] = own | (others.empty() ? 0 : tiled_points::shared);
+            ++place[c][own];
+            for (const std::uint32_t tile : others) {
+                ++place[c][tile];
+                halos[c].push_back({static_cast<std::uint32_t>(i), tile});
+            }
+        }
+    });
+    if (std::any_of(halos.begin(), halos.end(),
+                    [&](const auto& some) { return some.size() > chunk / 2; }))
+        return std::nullopt;
+    std::size_t next = 0;
+    for (std::size_t t = 0; t < tiles; ++t) {
+        result.begin.push_back(next);
+        for (std::size_t c = 0; c < chunks; ++c) next += std::exchange(place[c][t], next);
+    }
+    result.begin.push_back(next);
+    result.ids = buffer<std::uint32_t>(next);
+    for_chunks(points.size(), chunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        auto halo = halos[c].begin();
+        for (std::size_t i = begin; i < end; ++i) {
+            if (result.tile_of[i] == tiled_points::nowhere) continue;
+            const auto id = static_cast<std::uint32_t>(i);
+            result.ids[place[c][result.tile_of[i] & ~tiled_points::shared]++] = id;
+            for (; halo != halos[c].end() && halo->id == id; ++halo)
+                result.ids[place[c][halo->tile]++] = id;
+        }
+    });
+    return result;
+}
+
+/// Writes the leaders that a tile knows, and returns what it leaves to the border pass.
+std::vector<border_point> weld_tile(points_view points, const tiled_points& tiled, std::size_t tile,
+                                    double tolerance, std::vector<std::uint32_t>& leader_of) {
+    constexpr std::size_t block = 1024;
+    tile_weld weld(weld_rule::first, tolerance);
+    tile_result found;
+    std::vector<tile_point> some;
+    const std::size_t end = tiled.begin[tile + 1];
+    weld.reserve((end - tiled.begin[tile]) / 4);
+    for (std::size_t place = tiled.begin[tile]; place < end;) {
+        some.clear();
+        for (; place < end && some.size() < block; ++place)
+            some.push_back(tiled.at(tile, place, points));
+        weld.add(some, found);
+        for (const tile_drop& drop : found.dropped)
+            leader_of[drop.id] = static_cast<std::uint32_t>(drop.leader);
+        found.dropped.clear();
+    }
+    return std::move(found.border);
+}
+
+}  // namespace
+
+bool is_for_tiles(points_view points, const weld_options& options) {
+    constexpr std::size_t least = std::size_t{1} << 18;
+    if (options.rule != weld_rule::first || options.search != neighbor_search::automatic ||
+        !options.label.empty() || options.may_merge || points.size() < least)
+        return false;
+    const std::optional<lattice> steps = lattice::over(points, options.tolerance);
+    return steps && estimated_window(points, *steps) >= wide_window;
+}
+
+std::vector<std::uint32_t> tiled_leaders(points_view points, const weld_options& options,
+                                         std::size_t points_a_tile) {
+    constexpr std::size_t most_tiles = 4096;
+    constexpr std::size_t sample_a_tile = 64;
+    constexpr std::size_t tiles_a_call = 64;
+    const std::size_t tiles = std::min(most_tiles, points.size() / points_a_tile + 1);
+    std::vector<point3> sample;
+    for (std::size_t i = 0; i < points.size(); i += points.size() / (tiles * sample_a_tile) + 1)
+        if (base::is_finite(points[i])) sample.push_back(points[i]);
+    const tile_cuts cuts(sample, options.tolerance, tiles);
+    const std::optional<tiled_points> tiled = distribute(points, cuts);
+    if (!tiled) return {};
+    std::vector<std::uint32_t> leader_of(points.size());
+    std::iota(leader_of.begin(), leader_of.end(), 0U);
+    std::vector<std::vector<border_point>> borders(cuts.size());
+    for (std::size_t first = 0; first < cuts.size(); first += tiles_a_call) {
+        if (options.progress &&
+            !options.progress(static_cast<double>(first) / static_cast<double>(cuts.size())))
+            return {};
+        for_chunks(std::min(tiles_a_call, cuts.size() - first), 1,
+                   [&](std::size_t begin, std::size_t, std::size_t) {
+                       borders[first + begin] =
+                           weld_tile(points, *tiled, first + begin, options.tolerance, leader_of);
+                   });
+    }
+    std::vector<border_point> border;
+    for (auto& some : borders) {
+        border.insert(border.end(), some.begin(), some.end());
+        some = {};
+    }
+    std::sort(border.begin(), border.end(),
+              [](const border_point& a, const border_point& b) { return a.tag < b.tag; });
+    border_weld weld(weld_rule::first, options.tolerance);
+    std::vector<tile_drop> dropped;
+    weld.add(border, dropped);
+    for (const tile_drop& drop : dropped)
+        leader_of[drop.id] = static_cast<std::uint32_t>(drop.leader);
+    return leader_of;
+}
+
+}  // namespace treeform::detail::weld
