@@ -119,7 +119,7 @@ class giving_back {
     }
 
     [[nodiscard]] weld_stream_written run() {
-        if (result_ || removed_ || asked_.map) give_all();
+        if ((is_divided_ || all_.leads()) && (result_ || removed_ || asked_.map)) give_all();
         return std::move(written_);
     }
 
