@@ -71,7 +71,6 @@ void tile_steps::look() {
         if (team_.leads()) cuts_ = plan();
         share_cuts();
     }
-    survey_.cloud.conditions = keys_.conditions();
     say_plan();
 }
 
@@ -115,6 +114,7 @@ bool tile_steps::load_plan() {
             t.points.push_back(load_count(*state));
         t.own = state->number();
     }
+    say_plan();
     return state->whole();
 }
 

@@ -145,8 +145,9 @@ share tile_steps::tiles_of(std::size_t rank) const {
 
 void tile_steps::say_plan() {
     cloud_survey& cloud = survey_.cloud;
+    cloud.conditions = keys_.conditions();
     cloud.tiles = cuts_->size();
-    if (scattered_) return;
+    if (!tiles_.empty()) return;
     // Tiles' points are removed as their drops are written, which take half as much at most.
     // Members, few mostly, are not counted.
     cloud.disk_bytes = cloud.points * (8 * point_width() + 2 + (has_order() ? 48 : 0));

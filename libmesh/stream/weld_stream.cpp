@@ -198,6 +198,8 @@ status stream_weld::scatter() {
     return ended;
 }
 
+void stream_weld::check_tiles() { state_->check_tiles(); }
+
 status stream_weld::weld_tile(std::size_t tile) {
     state_->check_tiles();
     return state::until_cancelled([&] { state_->steps.weld_one(tile); });

@@ -201,7 +201,7 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
 ///
 /// With `weld_stream_options::shared` many processes do it, of one machine or of several that see the
 /// folder: one calls `look` and `scatter`; then each calls `weld_tile` for its share of the tiles;
-/// and when all have ended, one calls `look`, `weld`, `write` and `remove_folder`. A tile that is
+/// and when all have ended, one calls `check_tiles`, `weld`, `write` and `remove_folder`. A tile that is
 /// finished is not welded again, and two that weld one tile at the same time write the same.
 class TREEFORM_API stream_weld {
   public:
@@ -216,8 +216,10 @@ class TREEFORM_API stream_weld {
     [[nodiscard]] const cloud_survey& survey() const;
     /// Gives each tile its points.
     [[nodiscard]] status scatter();
-    /// \throws stream_error before `scatter` has ended, here or elsewhere; std::out_of_range for a
-    ///         tile that is not there (`tiles` of the survey)
+    /// Of shared work, instead of `look`: knows the survey of the tiles that are there.
+    /// \throws stream_error before `scatter` has ended, here or elsewhere
+    void check_tiles();
+    /// \throws stream_error as `check_tiles`; std::out_of_range for a tile that is not there
     [[nodiscard]] status weld_tile(std::size_t tile);
     /// Welds the tiles that are not finished, and what lies along their borders.
     /// \throws stream_error naming a tile that is not finished, where the work is shared
