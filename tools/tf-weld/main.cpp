@@ -190,7 +190,12 @@ int run(int argc, char** argv, const tf::weld_team& team) {
                 options.quiet = true;  // the first one speaks for all
                 options.report.clear();
             }
-            check_request(line, r, tiles, options);
+            try {
+                check_request(line, r, tiles, options);
+            } catch (const tools::failure&) {
+                tools::let_first_speak(team);
+                throw;
+            }
         },
         [&](tools::job& work) {
             try {
