@@ -120,24 +120,33 @@ class Shared(WeldTest):
 
     @unittest.skipIf(not MPIRUN, "built without MPI")
     def test_ranks_of_mpi_give_what_one_gives(self):
+        sizes = [(2, 7), (1, 4)]
         for options, out in ((["-t", "0.02", "--removed", "gone.ply"], "out.ply"),
                              (["-t", "0.03", "--rule", "chain"], "out.csv"),
                              (["-t", "0.02", "--rule", "chain", "--same", "shade"], "out.pcd"),
                              (["-t", "0.02", "--order", "shade", "--map", "map.csv"], "out.ply"),
                              (["-t", "0.02", "--precision", "float"], "out.ply"),
-                             (["-t", "0.02", "--keep", "mean"], "out.xyz")):
+                             (["-t", "0.02", "--keep", "mean"], "out.xyz"),
+                             (["-t", "0.02"], "out.laz")):
+            given = "in.ply"
+            if out == "out.laz":
+                given = "in.las"
+                finite = [p for p in cloud(self.rng, 1500) if p[0] == p[0]]
+                self.run_tool(self.cloud("in.xyz", finite), "-o", given, status=0)
+                os.remove(self.path("in.xyz"))
             names = (out, "gone.ply", "map.csv")
-            report = self.entry("in.ply", *options, "-o", out, status=0)
+            report = self.entry(given, *options, "-o", out, status=0)
             expected = self.written(names)
-            for size in (1, 2, 4, 7):
+            sizes.reverse()
+            for size in sizes[0]:
                 with self.subTest(options=options, size=size):
-                    run = self.mpi(size, "in.ply", *options, "-o", out, "--tile-points", 200, "-r",
+                    run = self.mpi(size, given, *options, "-o", out, "--tile-points", 200, "-r",
                                    "-")
                     self.assertEqual(self.written(names), expected)
                     entry = json.loads(run.text)["files"][0]
                     for key in ("points", "displacement", "box", "tolerance", "output"):
                         self.assertEqual(entry[key], report[key])
-                    self.assertEqual(self.listing(), ["in.ply"])
+                    self.assertEqual(self.listing(), sorted({"in.ply", given}))
 
     @unittest.skipIf(not MPIRUN, "built without MPI")
     def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
