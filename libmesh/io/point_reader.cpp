@@ -4,6 +4,7 @@
 #include <libmesh/io/vertex_columns.hpp>
 #include <treeform/mesh/point_stream.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace treeform {
@@ -12,16 +13,16 @@ namespace {
 
 [[nodiscard]] detail::io::point_rows open_rows(const detail::io::source& in,
                                                const std::filesystem::path& path,
-                                               std::string_view format) {
+                                               std::string_view format, std::uint64_t first) {
     const auto found =
         detail::io::detect(in, detail::io::plain_extension(format), detail::io::extension_of(path));
     switch (found.kind) {
         case detail::io::file_kind::ply:
-            return detail::io::open_ply_points(in);
+            return detail::io::open_ply_points(in, first);
         case detail::io::file_kind::pcd:
-            return detail::io::open_pcd_points(in);
+            return detail::io::open_pcd_points(in, first);
         case detail::io::file_kind::las:
-            return detail::io::open_las_points(in);
+            return detail::io::open_las_points(in, first);
         case detail::io::file_kind::xyz:
             return detail::io::open_xyz_points(in, "xyz");
         case detail::io::file_kind::pts:
@@ -40,9 +41,15 @@ struct point_reader::state {
     detail::io::point_rows rows{};
 };
 
-point_reader::point_reader(const std::filesystem::path& path, std::string_view format)
+point_reader::point_reader(const std::filesystem::path& path, std::string_view format,
+                           std::uint64_t first)
     : state_(new state{detail::io::source::open(path, detail::io::scratch_place::file)}) {
-    state_->rows = open_rows(state_->in, path, format);
+    state_->rows = open_rows(state_->in, path, format, first);
+    point_block block;
+    constexpr std::uint64_t some = std::uint64_t{1} << 15;
+    for (std::uint64_t left = first - state_->rows.left_out;
+         left > 0 && read(block, static_cast<std::size_t>(std::min(left, some)));)
+        left -= block.points.size();
 }
 point_reader::~point_reader() = default;
 point_reader::point_reader(point_reader&&) noexcept = default;

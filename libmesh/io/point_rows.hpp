@@ -20,6 +20,7 @@ struct point_rows {
     /// Everything but the points; the element "vertex", if any, has columns without values.
     mesh_file head{};
     std::optional<std::uint64_t> count{};
+    std::uint64_t left_out = 0;  ///< points that were passed over
     /// Appends the next points, at most `most` of them, and their rows to the columns of
     /// `vertices`, which are those of the head; returns how many. Zero at the end, where `warnings`
     /// gets what was to be said.
@@ -28,12 +29,13 @@ struct point_rows {
         append{};
 };
 
-/// What there is to read by runs. `in` must outlive what comes back.
+/// What there is to read by runs. `in` must outlive what comes back. The `first` points, which are
+/// there, are passed over where that takes no reading.
 ///
 /// \throws io_error, also for a file with faces or other elements that have rows
-[[nodiscard]] point_rows open_ply_points(const source& in);
-[[nodiscard]] point_rows open_pcd_points(const source& in);
-[[nodiscard]] point_rows open_las_points(const source& in);
+[[nodiscard]] point_rows open_ply_points(const source& in, std::uint64_t first = 0);
+[[nodiscard]] point_rows open_pcd_points(const source& in, std::uint64_t first = 0);
+[[nodiscard]] point_rows open_las_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format);
 
 }  // namespace treeform::detail::io

@@ -63,6 +63,7 @@ struct point_writer::state {
         out.emplace(file->descriptor(), file->name());
         rows =
             format.start({.file = head, .options = options, .result = result, .out = *out}, count);
+        head_size = out->size();
     }
 
     void check(const point_block& block) const {
@@ -80,6 +81,7 @@ struct point_writer::state {
 
     std::uint64_t count;
     std::uint64_t written = 0;
+    std::uint64_t head_size = 0;
     write_options options;
     mesh_file head;
     write_result result{};
@@ -116,6 +118,17 @@ write_result point_writer::commit() {
     s.out->flush();
     s.file->commit();
     return std::move(s.result);
+}
+
+bool point_writer::has_parts() const { return !state_->rows.finish; }
+
+std::uint64_t point_writer::commit_part(write_result& result) {
+    state& s = *state_;
+    if (!has_parts()) throw std::logic_error(s.file->name() + ": is not written in parts");
+    s.out->flush();
+    s.file->commit();
+    result = std::move(s.result);
+    return s.head_size;
 }
 
 }  // namespace treeform

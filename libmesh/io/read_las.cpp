@@ -188,14 +188,18 @@ template <class Run>
 
 }  // namespace
 
-point_rows open_las_points(const source& in) {
+point_rows open_las_points(const source& in, std::uint64_t first) {
     point_rows rows;
     las_file file = open_las(in, rows.head.warnings);
     rows.count = file.count;
-    if (file.packing)
+    if (file.packing) {
         rows.append = rows_of(std::make_shared<chunk_run>(in, file), file);
-    else
+    } else {
+        rows.left_out = first;
+        file.first_point += first * file.record_size;
+        file.count -= first;
         rows.append = rows_of(std::make_shared<plain_run>(in, file), file);
+    }
     rows.head.format = file.packing ? "laz" : "las";
     rows.head.attributes.elements = {las_columns(file.dimensions)};
     rows.head.las = std::move(file.header);

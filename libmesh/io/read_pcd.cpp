@@ -52,11 +52,12 @@ void look_behind(bool more, warnings& said) {
 }
 
 /// Rows of bytes, which are those of the machines that write such files: little endian.
-[[nodiscard]] auto row_runs(const source& in, const pcd_header& header) {
+[[nodiscard]] auto row_runs(const source& in, const pcd_header& header, std::uint64_t first) {
     if (header.vertices.rows > bytes_of_body(in, header) / header.row_size) fail_short(in, header);
-    return [&in, at = header.body, row_size = header.row_size, offsets = header.places,
-            left = header.vertices.rows](std::vector<point3>& points, element& vertices,
-                                         std::size_t most, warnings& said) mutable {
+    return [&in, at = header.body + first * header.row_size,
+            row_size = header.row_size, offsets = header.places,
+            left = header.vertices.rows - first](std::vector<point3>& points, element& vertices,
+                                                 std::size_t most, warnings& said) mutable {
         constexpr std::size_t megabyte = std::size_t{1} << 20;
         const std::size_t rows = std::min(most, left);
         std::vector<value_place> places(offsets.size());
@@ -124,7 +125,7 @@ void look_behind(bool more, warnings& said) {
     };
 }
 
-[[nodiscard]] point_rows open(const source& in, scratch_place place) {
+[[nodiscard]] point_rows open(const source& in, scratch_place place, std::uint64_t first = 0) {
     pcd_header header = read_pcd_header(in);
     point_rows rows;
     rows.count = header.vertices.rows;
@@ -133,7 +134,8 @@ void look_behind(bool more, warnings& said) {
             rows.append = text_runs(in, header);
             break;
         case pcd_encoding::binary:
-            rows.append = row_runs(in, header);
+            rows.append = row_runs(in, header, first);
+            rows.left_out = first;
             break;
         case pcd_encoding::compressed:
             rows.append = block_runs(in, header, place);
@@ -166,6 +168,8 @@ mesh_file read_pcd(const source& in) {
     return file;
 }
 
-point_rows open_pcd_points(const source& in) { return open(in, scratch_place::file); }
+point_rows open_pcd_points(const source& in, std::uint64_t first) {
+    return open(in, scratch_place::file, first);
+}
 
 }  // namespace treeform::detail::io

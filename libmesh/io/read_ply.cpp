@@ -1,5 +1,6 @@
 #include <libmesh/io/face_sink.hpp>
 #include <libmesh/io/face_texture.hpp>
+#include <libmesh/io/fixed_rows.hpp>
 #include <libmesh/io/ply_body.hpp>
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
@@ -186,7 +187,7 @@ mesh_file read_ply(const source& in) {
     return file;
 }
 
-point_rows open_ply_points(const source& in) {
+point_rows open_ply_points(const source& in, std::uint64_t first) {
     ply_header header = read_ply_header(in);
     point_rows rows;
     element& vertices = vertices_of(in, header.elements);
@@ -194,12 +195,17 @@ point_rows open_ply_points(const source& in) {
         if (&e != &vertices && e.rows > 0)
             in.fail("element '" + e.name + "' has rows; only files of points are read in blocks");
     rows.count = vertices.rows;
+    with_reader(in, header, [&](const char*, auto values) { check_room(values, vertices); });
+    const bool binary = header.encoding != ply_encoding::ascii;
+    if (const std::size_t row = fixed_row_size(vertices); binary && row > 0) {
+        rows.left_out = first;
+        header.body += first * row;
+        vertices.rows -= first;
+    }
     with_reader(in, header, [&](const char* format, auto values) {
-        check_room(values, vertices);
         rows.head.format = format;
         rows.append = ply_runs(std::move(values), vertices.rows);
     });
-    const bool binary = header.encoding != ply_encoding::ascii;
     rows.head.stored_as =
         binary && has_single_axes(vertices) ? precision::float32 : precision::float64;
     vertices.rows = 0;

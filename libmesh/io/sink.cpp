@@ -14,6 +14,7 @@ namespace treeform::detail::io {
 void sink::flush() {
     const char* at = buffer_.data();
     std::size_t left = used_;
+    flushed_ += used_;
     used_ = 0;
     if (memory_ != nullptr) {
         memory_->append(at, left);

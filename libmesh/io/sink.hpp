@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -57,6 +58,9 @@ class sink {
     /// \throws io_error
     void flush();
 
+    /// Bytes that were put.
+    [[nodiscard]] std::uint64_t size() const { return flushed_ + used_; }
+
     /// The file, for errors.
     [[nodiscard]] std::string_view name() const {
         return memory_ != nullptr ? std::string_view("memory") : std::string_view(name_);
@@ -73,6 +77,7 @@ class sink {
   private:
     std::array<char, std::size_t{1} << 16> buffer_;
     std::size_t used_ = 0;
+    std::uint64_t flushed_ = 0;
     std::string* memory_ = nullptr;
     int fd_ = -1;
     std::string name_{};

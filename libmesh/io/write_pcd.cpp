@@ -79,6 +79,7 @@ class pcd_writer {
         }
     }
 
+    [[nodiscard]] bool is_packed() const { return blocks_.has_value(); }
     void finish() {
         if (!blocks_) return;
         const scratch packed(lzf_most_packed(blocks_->size()), place(), "");
@@ -284,9 +285,11 @@ void write_pcd(const write_job& job) {
 
 point_sink start_pcd_points(const write_job& job, std::uint64_t count) {
     auto writer = std::make_shared<pcd_writer>(job, count);
-    return {.rows = [writer](std::span<const point3> points,
-                             const element* vertices) { writer->put_points(points, vertices); },
-            .finish = [writer] { writer->finish(); }};
+    point_sink sink{.rows = [writer](std::span<const point3> points, const element* vertices) {
+        writer->put_points(points, vertices);
+    }};
+    if (writer->is_packed()) sink.finish = [writer] { writer->finish(); };
+    return sink;
 }
 
 }  // namespace treeform::detail::io

@@ -49,6 +49,7 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las)
         open(i);
         formats_.push_back(reader_->header().format);
         const auto count = reader_->count();
+        counts_.push_back(count.value_or(0));
         count_ = count_ && count ? std::optional(*count_ + *count) : std::nullopt;
         if (inputs.paths.size() == 1) {
             head_ = reader_->header();
@@ -66,25 +67,40 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las)
     rewind();
 }
 
-void joined_points::open(std::size_t file) {
+void joined_points::open(std::size_t file, std::uint64_t first) {
     reader_.reset();
-    reader_.emplace(inputs_.paths[file], inputs_.format);
+    reader_.emplace(inputs_.paths[file], inputs_.format, first);
     file_ = file;
+    if (inputs_.paths.size() > 1) fits_ = same_columns(head_, reader_->header());
 }
 
-void joined_points::rewind() {
+void joined_points::rewind(const share& some) {
     warnings_.clear();
-    open(0);
-    fits_ = same_columns(head_, reader_->header());
+    left_ = some.size();
+    ended_ = left_ == 0;
+    if (ended_) return;
+    std::uint64_t first = some.first;
+    std::size_t file = 0;
+    while (first > 0 && first >= counts_[file]) first -= counts_[file++];
+    open(file, first);
 }
 
-bool joined_points::read(point_block& block, std::size_t most) {
+bool joined_points::read_some(point_block& block, std::size_t most) {
     while (!reader_->read(block, most)) {
         take_warnings();
         if (file_ + 1 == inputs_.paths.size()) return false;
         open(file_ + 1);
-        fits_ = same_columns(head_, reader_->header());
     }
+    return true;
+}
+
+bool joined_points::read(point_block& block, std::size_t most) {
+    if (ended_) return false;
+    // What comes after the share shows whether that is the end of a file, which has warnings.
+    const std::uint64_t some = left_ == 0 ? 1 : std::min<std::uint64_t>(most, left_);
+    ended_ = !read_some(block, static_cast<std::size_t>(some)) || left_ == 0;
+    if (ended_) return false;
+    left_ -= block.points.size();
     fit(block);
     return true;
 }

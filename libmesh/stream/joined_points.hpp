@@ -2,6 +2,7 @@
 /// \file
 /// Clouds in any number of files, read as one from the first point to the last.
 
+#include <libmesh/stream/team.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
@@ -26,8 +27,9 @@ class joined_points {
     [[nodiscard]] const mesh_file& header() const { return head_; }
     [[nodiscard]] std::optional<std::uint64_t> count() const { return count_; }
 
-    /// Starts again with the first point.
-    void rewind();
+    /// Starts again, with the first point of the share; of one that is not all, where the number of
+    /// points is known.
+    void rewind(const share& some = {});
     /// The next points, of one file; false when none are left.
     bool read(point_block& block, std::size_t most);
     /// The file that the last block came from, and its header.
@@ -43,7 +45,8 @@ class joined_points {
     [[nodiscard]] double moved() const { return moved_; }
 
   private:
-    void open(std::size_t file);
+    void open(std::size_t file, std::uint64_t first = 0);
+    [[nodiscard]] bool read_some(point_block& block, std::size_t most);
     void take_warnings();
     void fit(point_block& block);
 
@@ -52,10 +55,13 @@ class joined_points {
     mesh_file head_{};
     std::optional<std::uint64_t> count_{0};
     std::vector<std::string> formats_{};
+    std::vector<std::uint64_t> counts_{};  ///< of files, where they are known
     std::vector<io_warning> of_join_{};
     std::vector<io_warning> warnings_{};
     std::optional<point_reader> reader_{};
     std::size_t file_ = 0;
+    std::uint64_t left_ = 0;  ///< of the share
+    bool ended_ = false;
     bool fits_ = true;  ///< the file has the columns of all
     double moved_ = 0.0;
 };

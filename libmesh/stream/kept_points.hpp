@@ -12,18 +12,25 @@ namespace treeform::detail::stream {
 /// All are kept at first.
 class kept_points {
   public:
-    explicit kept_points(std::uint64_t count) : dropped_(count / 64 + 1, 0) {}
+    /// Of `count` points, the lowest of which is `first`.
+    explicit kept_points(std::uint64_t count, std::uint64_t first = 0)
+        : first_(first), dropped_(count / 64 + 1, 0) {}
 
     /// Returns false when it was dropped before.
     bool drop(std::uint64_t point) {
+        point -= first_;
         std::uint64_t& word = dropped_[point / 64];
         const std::uint64_t bit = std::uint64_t{1} << point % 64;
         const bool was_kept = (word & bit) == 0;
         word |= bit;
         return was_kept;
     }
-    void keep(std::uint64_t point) { dropped_[point / 64] &= ~(std::uint64_t{1} << point % 64); }
+    void keep(std::uint64_t point) {
+        point -= first_;
+        dropped_[point / 64] &= ~(std::uint64_t{1} << point % 64);
+    }
     [[nodiscard]] bool keeps(std::uint64_t point) const {
+        point -= first_;
         return (dropped_[point / 64] >> point % 64 & 1) == 0;
     }
     [[nodiscard]] std::uint64_t dropped() const {
@@ -49,7 +56,7 @@ class kept_points {
             sum += count_ones(dropped_[w]);
         }
     }
-    /// Kept points ahead of `point`.
+    /// Kept points ahead of `point`. \pre the lowest of all is 0
     [[nodiscard]] std::uint64_t number_of(std::uint64_t point) const {
         const std::size_t last = point / 64;
         std::uint64_t sum = dropped_before_[last / words_a_step];
@@ -66,6 +73,7 @@ class kept_points {
         return static_cast<std::uint64_t>(std::popcount(word));
     }
 
+    std::uint64_t first_;
     std::vector<std::uint64_t> dropped_;
     std::vector<std::uint64_t> dropped_before_{};
 };

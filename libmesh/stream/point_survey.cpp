@@ -30,8 +30,25 @@ class sampler {
         std::uint64_t& seen = lately_[mixed >> 52];
         if (seen == mixed) return;
         seen = mixed;
-        chosen_.emplace_back(mixed, p);
-        if (chosen_.size() == most_) thin_out();
+        choose(mixed, p);
+    }
+    void store(state_writer& state) {
+        leave_one_a_key();
+        state.number(mask_);
+        state.number(chosen_.size());
+        for (const auto& [mixed, p] : chosen_) {
+            state.number(mixed);
+            state.point(p);
+        }
+    }
+    /// What another one has stored.
+    void take(state_reader& state) {
+        mask_ = std::max(mask_, state.number());
+        for (std::uint64_t left = state.number(); left > 0; --left) {
+            const std::uint64_t mixed = state.number();
+            choose(mixed, state.point());
+        }
+        leave_one_a_key();
     }
     /// Heaps of equal points count once, as they take no room where they are welded.
     [[nodiscard]] point_survey::part part() {
@@ -48,7 +65,12 @@ class sampler {
     static bool before(const point3& a, const point3& b) {
         return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
     }
+    void choose(std::uint64_t mixed, const point3& p) {
+        chosen_.emplace_back(mixed, p);
+        if (chosen_.size() == most_) thin_out();
+    }
     void leave_one_a_key() {
+        std::erase_if(chosen_, [&](const auto& c) { return (c.first & mask_) != 0; });
         std::sort(chosen_.begin(), chosen_.end(), [](const auto& a, const auto& b) {
             return a.first != b.first ? a.first < b.first : before(a.second, b.second);
         });
@@ -69,6 +91,38 @@ class sampler {
     std::vector<std::uint64_t> lately_ = std::vector<std::uint64_t>(4096, 0);  ///< most are known
 };
 
+void add_survey(cloud_survey& sum, const cloud_survey& one) {
+    sum.points += one.points;
+    sum.non_finite += one.non_finite;
+    if (one.box) base::add_to_box(sum.box, *one.box);
+    sum.las_moved = std::max(sum.las_moved, one.las_moved);
+    sum.sources.resize(one.sources.size());
+    for (std::size_t i = 0; i < one.sources.size(); ++i) {
+        cloud_survey::source& of = sum.sources[i];
+        of.points += one.sources[i].points;
+        of.single = of.single && one.sources[i].single;
+        of.format = one.sources[i].format;
+    }
+    sum.warnings.insert(sum.warnings.end(), one.warnings.begin(), one.warnings.end());
+}
+
+/// What all have seen, in the place of what one has.
+void unite(const team& all, point_survey& survey, sampler& chosen, sampler& places,
+           std::size_t most) {
+    state_writer mine;
+    store(survey, mine);
+    chosen.store(mine);
+    places.store(mine);
+    survey.cloud = {};
+    chosen = sampler(most + 1);
+    places = sampler(most + 1);
+    for (state_reader& one : all.exchange(mine)) {
+        add_survey(survey.cloud, load_survey(one).cloud);
+        chosen.take(one);
+        places.take(one);
+    }
+}
+
 }  // namespace
 
 std::uint64_t cube_of(const point3& p, double tolerance) {
@@ -84,23 +138,23 @@ std::uint64_t cube_of(const point3& p, double tolerance) {
     return weld::cube_map::hash(index(p.x), index(p.y), index(p.z));
 }
 
-point_survey survey(joined_points& points, std::optional<double> tolerance, std::size_t most,
-                    pacer& pace) {
+point_survey survey(joined_points& points, const team& all, const share& mine,
+                    std::optional<double> tolerance, std::size_t most, pacer& pace) {
     point_survey result;
     cloud_survey& s = result.cloud;
-    sampler chosen(most);
-    sampler places(most);
+    sampler chosen(std::max(most / all.size(), std::size_t{1} << 12));
+    sampler places(std::max(most / all.size(), std::size_t{1} << 12));
     point_block block;
     for (std::size_t i = 0; i < points.files(); ++i)
         s.sources.push_back({.format = points.format(i)});
-    points.rewind();
+    points.rewind(mine);
     while (points.read(block, points_a_block)) {
         base::add_to_box(s.box, bounding_box(block.points));
         cloud_survey::source& from = s.sources[points.file()];
         from.points += block.points.size();
         from.single = from.single && !points.file_header().las && fits_single(block.points);
         for (const point3& p : block.points) {
-            const std::uint64_t id = s.points++;
+            const std::uint64_t id = mine.first + s.points++;
             if (!base::is_finite(p)) {
                 ++s.non_finite;
                 continue;
@@ -111,9 +165,10 @@ point_survey survey(joined_points& points, std::optional<double> tolerance, std:
         const auto count = static_cast<double>(points.count().value_or(s.points));
         pace.show("look", static_cast<double>(s.points) / count);
     }
-    for (const cloud_survey::source& one : s.sources) s.single = s.single && one.single;
     s.warnings = points.warnings();
     s.las_moved = points.moved();
+    if (!all.is_alone()) unite(all, result, chosen, places, most);
+    for (const cloud_survey::source& one : s.sources) s.single = s.single && one.single;
     result.sample = chosen.part();
     if (tolerance) result.places = places.part();
     return result;

@@ -5,6 +5,7 @@
 #include <libmesh/stream/joined_points.hpp>
 #include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/state_record.hpp>
+#include <libmesh/stream/team.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
 #include <cstddef>
@@ -29,10 +30,11 @@ struct point_survey {
 /// Points read at a time.
 inline constexpr std::size_t points_a_block = std::size_t{1} << 15;
 
-/// Reads the cloud once, in memory that does not depend on its size. Samples have `most` points.
+/// Reads the cloud once, each of `all` its share, in memory that does not depend on its size. Samples
+/// have `most` points. All know all in the end.
 /// \throws io_error, cancelled
-[[nodiscard]] point_survey survey(joined_points& points, std::optional<double> tolerance,
-                                  std::size_t most, pacer& pace);
+[[nodiscard]] point_survey survey(joined_points& points, const team& all, const share& mine,
+                                  std::optional<double> tolerance, std::size_t most, pacer& pace);
 
 /// The number of the cube of a point, equal for those of one cube; with tolerance 0 of the point.
 [[nodiscard]] std::uint64_t cube_of(const point3& p, double tolerance);

@@ -66,6 +66,20 @@ void append_to(const std::filesystem::path& path, std::span<const std::byte> byt
     }
 }
 
+void write_to(const std::filesystem::path& path, std::uint64_t at,
+              std::span<const std::byte> bytes) {
+    const descriptor file(path, O_WRONLY);
+    if (file.get() < 0) fail(reason::write, path);
+    while (!bytes.empty()) {
+        const ssize_t count =
+            ::pwrite(file.get(), bytes.data(), bytes.size(), static_cast<off_t>(at));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail(reason::write, path);
+        at += static_cast<std::uint64_t>(count);
+        bytes = bytes.subspan(static_cast<std::size_t>(count));
+    }
+}
+
 void sync_file(const std::filesystem::path& path) {
     const descriptor file(path, O_WRONLY);
     if (file.get() < 0 || ::fdatasync(file.get()) != 0) fail(reason::write, path);

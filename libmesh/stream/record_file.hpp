@@ -40,6 +40,9 @@ void store_count(const record_count& c, state_writer& state);
 
 /// Appends bytes to a file, which is opened for it. \throws stream_error
 void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// Writes bytes into a file, from byte `at` on. \throws stream_error
+void write_to(const std::filesystem::path& path, std::uint64_t at,
+              std::span<const std::byte> bytes);
 /// Puts what was written on the disk. \throws stream_error
 void sync_file(const std::filesystem::path& path);
 /// Reads from byte `at` on, as many as there are. \throws stream_error
@@ -107,6 +110,12 @@ class record_reader {
         : path_(std::move(path)),
           expected_(expected),
           most_((bytes / sizeof(Record) / together + 1) * together) {}
+    /// Only `count` records from `first` on, which are not checked.
+    void narrow(std::uint64_t first, std::uint64_t count) {
+        read_ = first;
+        expected_.records = first + count;
+        is_part_ = true;
+    }
 
     /// The next records, no longer valid at the next call; none at the end.
     /// \throws stream_error when the file is not what was written
@@ -117,7 +126,8 @@ class record_reader {
         if (read_from(path_, read_ * sizeof(Record), bytes) != bytes.size()) fail_damaged(path_);
         digest_.add(bytes);
         read_ += held_.size();
-        if (read_ == expected_.records && digest_.value() != expected_.digest) fail_damaged(path_);
+        if (read_ == expected_.records && !is_part_ && digest_.value() != expected_.digest)
+            fail_damaged(path_);
         return held_;
     }
 
@@ -127,6 +137,7 @@ class record_reader {
     std::size_t most_;
     std::vector<Record> held_{};
     std::uint64_t read_ = 0;
+    bool is_part_ = false;
     digest digest_{};
 };
 
@@ -144,51 +155,5 @@ template <class Record>
     }
     return true;
 }
-
-/// The records of several files, each by ascending key, as one such row; of equal keys those of
-/// earlier files first.
-template <class Record, class KeyOf>
-class record_merge {
-  public:
-    record_merge(std::vector<record_reader<Record>> readers, KeyOf key_of) : key_of_(key_of) {
-        for (auto& reader : readers) rows_.push_back({std::move(reader), {}});
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
-            rows_[i].left = rows_[i].reader.next();
-            if (!rows_[i].left.empty()) heap_.push_back(i);
-        }
-        std::make_heap(heap_.begin(), heap_.end(), after());
-    }
-
-    [[nodiscard]] bool empty() const { return heap_.empty(); }
-    /// \pre not empty
-    [[nodiscard]] const Record& front() const { return rows_[heap_.front()].left.front(); }
-    void pop() {
-        std::pop_heap(heap_.begin(), heap_.end(), after());
-        row& first = rows_[heap_.back()];
-        first.left = first.left.subspan(1);
-        if (first.left.empty()) first.left = first.reader.next();
-        if (first.left.empty())
-            heap_.pop_back();
-        else
-            std::push_heap(heap_.begin(), heap_.end(), after());
-    }
-
-  private:
-    struct row {
-        record_reader<Record> reader;
-        std::span<const Record> left;
-    };
-    [[nodiscard]] auto after() const {
-        return [this](std::size_t a, std::size_t b) {
-            const auto key_a = key_of_(rows_[a].left.front());
-            const auto key_b = key_of_(rows_[b].left.front());
-            return key_a != key_b ? key_a > key_b : a > b;
-        };
-    }
-
-    KeyOf key_of_;
-    std::vector<row> rows_{};
-    std::vector<std::size_t> heap_{};
-};
 
 }  // namespace treeform::detail::stream

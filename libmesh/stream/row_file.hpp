@@ -3,6 +3,7 @@
 /// Files of rows of 64-bit numbers, as many a row as their user says, and rows sorted on the disk.
 
 #include <libmesh/stream/record_file.hpp>
+#include <libmesh/stream/team.hpp>
 #include <libmesh/stream/work_folder.hpp>
 
 #include <cstddef>
@@ -21,10 +22,13 @@ using row_writer = record_writer<std::uint64_t>;  ///< rows one after the other
 /// Rows of a file, one by one.
 class row_reader {
   public:
-    /// `expected` counts the numbers. `bytes` are read at a time, about.
+    /// `expected` counts the numbers. `bytes` are read at a time, about. A share of the rows that is
+    /// not all is not checked.
     row_reader(std::filesystem::path path, record_count expected, std::size_t width,
-               std::size_t bytes)
+               std::size_t bytes, const share& some = {})
         : reader_(std::move(path), expected, bytes, width), width_(width) {
+        if (some.size() < expected.records / width)
+            reader_.narrow(some.first * width, some.size() * width);
         left_ = reader_.next();
     }
 

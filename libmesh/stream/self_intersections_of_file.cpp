@@ -10,6 +10,7 @@
 namespace treeform {
 
 namespace fs = std::filesystem;
+using detail::stream::held_alone;
 using detail::stream::work_folder;
 
 namespace {
@@ -17,25 +18,6 @@ namespace {
 fs::path folder_of(const fs::path& input, const stream_search_options& options) {
     return options.folder.empty() ? fs::path(input.string() + ".search-tiles") : options.folder;
 }
-
-/// Holds a shared folder alone for its life.
-class held_alone {
-  public:
-    explicit held_alone(work_folder& folder) : folder_(folder) {
-        folder.hold(work_folder::use::alone);
-    }
-    ~held_alone() {
-        try {
-            folder_.hold(work_folder::use::shared);
-        } catch (const stream_error&) {  // another process has it now; what is next will say so
-        }
-    }
-    held_alone(const held_alone&) = delete;
-    held_alone& operator=(const held_alone&) = delete;
-
-  private:
-    work_folder& folder_;
-};
 
 }  // namespace
 

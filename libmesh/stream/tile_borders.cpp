@@ -1,5 +1,6 @@
 /// \file
-/// What lies along the borders of tiles: settled in one pass over all of them.
+/// What lies along the borders of tiles: each of a team settles what it can of its own tiles, and
+/// then what is left is brought together, by two and two.
 
 #include <libmesh/stream/tile_steps.hpp>
 
@@ -14,7 +15,15 @@ namespace treeform::detail::stream {
 namespace {
 
 constexpr std::uint64_t records_a_check = 65536;
-const char* const settled_name = "border.drops";
+
+}  // namespace
+
+std::array<std::uint64_t, 8> row_of(const border_point& b) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    const point3& p = b.at;
+    const point3& q = b.leader_at;
+    return {b.tag, bits(p.x), bits(p.y), bits(p.z), b.leader, bits(q.x), bits(q.y), bits(q.z)};
+}
 
 border_point border_of(numbers r) {
     const auto at = [&](std::size_t i) {
@@ -24,154 +33,295 @@ border_point border_of(numbers r) {
     return {r[0], at(1), r[4], at(5)};
 }
 
-}  // namespace
+/// The passes over borders, and what they leave.
+class tile_steps::border_passes {
+  public:
+    border_passes(const tile_steps& steps, border_weld& border) : steps_(steps), border_(border) {
+        const team& all = steps.team_;
+        const std::size_t rank = all.rank();
+        const share own = steps.tiles_of(rank);
+        hands_on_.resize(all.size());
+        pass(border, own, "border", [&] {
+            std::vector<row_reader> rows;
+            for (auto t = static_cast<std::size_t>(own.first); t < own.last; ++t)
+                rows.push_back(steps.border_rows(steps.file(t, ".border"), steps.tiles_[t].border));
+            return rows;
+        });
+        for (std::size_t step = 1; step < all.size(); step *= 2) {
+            share_files();
+            if (rank % (2 * step) != 0 || rank + step >= all.size()) {
+                joined_ = {};
+            } else {
+                border_weld upper(steps.tolerance_, steps.keys_.agree());
+                const std::size_t end = std::min(rank + 2 * step, all.size());
+                const share both{own.first, steps.tiles_of(end - 1).last};
+                pass(upper, both, "border." + std::to_string(step), [&] {
+                    std::vector<row_reader> rows;
+                    for (const std::size_t r : {rank, rank + step})
+                        rows.push_back(
+                            steps.border_rows(hands_on_[r].path, hands_on_[r].count));
+                    return rows;
+                });
+            }
+            learn(rank - rank % (2 * step));
+        }
+    }
+
+    [[nodiscard]] const std::vector<tiles_welded::file>& drops() const { return drops_; }
+    [[nodiscard]] const longest_move& move() const { return move_; }
+
+  private:
+    using file = tiles_welded::file;
+
+    /// One over what `open` opens, which is all that is known of the borders of some tiles.
+    template <class Open>
+    void pass(border_weld& border, const share& tiles, const std::string& name, const Open& open) {
+        const bool whole = tiles.size() == steps_.tiles_.size();
+        const bool chain = steps_.rule() == weld_rule::chain;
+        record_writer<tile_drop> dropped(path(name, ".drops"), piece);
+        row_writer on(path(name, ".on"), piece);
+        row_writer joined(path(name, ".joined"), piece);
+        weld::tile_result out;
+        each(open(), [&](const border_point& p, numbers values) {
+            border.add(p, values, !whole && !chain && is_outer(p.at, tiles), out);
+            dropped.put(out.dropped);
+            out.dropped.clear();
+            put_border(out, on);
+        });
+        for (const border_point& link : border.joined()) {
+            dropped.put({link.id(), link.leader});
+            if (!steps_.team_.is_alone()) joined.put(row_of(link));
+        }
+        if (chain && !whole) {
+            std::optional<std::uint64_t> last;
+            each(open(), [&](const border_point& p, numbers) {
+                if (last != p.id() && is_outer(p.at, tiles)) on.put(row_of(border.handed_on(p)));
+                last = p.id();
+            });
+        }
+        drops_.push_back({path(name, ".drops"), dropped.finish_unsynced()});
+        hands_on_[steps_.team_.rank()] = {path(name, ".on"), on.finish_unsynced()};
+        joined_ = {path(name, ".joined"), joined.finish_unsynced()};
+        move_.consider(out.move);
+    }
+
+    template <class Take>
+    void each(std::vector<row_reader> rows, const Take& take) const {
+        std::uint64_t count = 0;
+        for (row_merge merge(std::move(rows), 1); !merge.empty(); merge.pop(), ++count) {
+            const numbers r = merge.front();
+            take(border_of(r), r.subspan(8));
+            if (count % records_a_check == 0) steps_.pace_.check();
+        }
+    }
+
+    /// Whether a tile other than these has the point, be it in its halo.
+    [[nodiscard]] bool is_outer(const point3& p, const share& tiles) {
+        return !tiles.has(steps_.cuts_->find(p, halos_)) ||
+               !std::ranges::all_of(halos_, [&](std::uint32_t t) { return tiles.has(t); });
+    }
+
+    [[nodiscard]] std::filesystem::path path(const std::string& name, const char* what) const {
+        return steps_.folder_.file(name + "." + std::to_string(steps_.team_.rank()) + what);
+    }
+
+    [[nodiscard]] std::vector<state_reader> tell_of(const file& f) const {
+        state_writer mine;
+        mine.text(f.path.string());
+        store_count(f.count, mine);
+        return steps_.team_.exchange(mine);
+    }
+    [[nodiscard]] static file file_of(state_reader& told) {
+        const std::string path = told.text();
+        return {path, load_count(told)};
+    }
+
+    /// All know where to find what each hands on.
+    void share_files() {
+        std::vector<state_reader> told = tell_of(hands_on_[steps_.team_.rank()]);
+        for (std::size_t r = 0; r < told.size(); ++r) hands_on_[r] = file_of(told[r]);
+    }
+
+    /// Takes what has been joined by the pass that was over the own tiles, too.
+    void learn(std::size_t by) {
+        std::vector<state_reader> told = tell_of(joined_);
+        const file joined = file_of(told[by]);
+        if (joined.path.empty() || steps_.rule() != weld_rule::chain) return;
+        for (row_reader rows(joined.path, joined.count, 8, piece); !rows.empty(); rows.pop())
+            border_.join(border_of(rows.front()));
+    }
+
+    const tile_steps& steps_;
+    border_weld& border_;
+    std::vector<file> hands_on_{};  ///< of the last pass of each
+    std::vector<file> drops_{};
+    file joined_{};  ///< by the last pass
+    longest_move move_{};
+    std::vector<std::uint32_t> halos_{};
+};
 
 tiles_welded tile_steps::weld_borders() {
-    const std::uint64_t points = survey_.cloud.points;
-    tiles_welded w(points, rule(), tolerance_, keys_.agree());
-    kept_points kept(points);
-    const record_count borders = settle_borders(w, kept);
-    kept_points without_followers(points);
-    longest_move longest = w.border.move();
-    if (rule() == weld_rule::first)
-        w.border = {rule(), tolerance_};  // for its memory
-    else
-        longest = longest_chain_move(w.border);
-    const auto follow = [&](const std::filesystem::path& path, const record_count& count) {
-        record_reader<tile_drop> reader(path, count, piece);
-        for (auto drops = reader.next(); !drops.empty(); drops = reader.next()) {
-            for (const tile_drop& d : drops) {
-                kept.drop(d.id);
-                w.groups += without_followers.drop(w.border.leader_of(d.leader)) ? 1 : 0;
-            }
+    tiles_welded w(tolerance_, keys_.agree());
+    const border_passes passes(*this, w.border);
+    longest_move longest = passes.move();
+    const share own = tiles_of(team_.rank());
+    for (auto t = static_cast<std::size_t>(own.first); t < own.last; ++t) {
+        w.drops.push_back({file(t, ".drops"), tiles_[t].drops});
+        longest.consider(tiles_[t].move);
+        record_reader<tile_member> members(file(t, ".members"), tiles_[t].members, piece);
+        for (auto some = members.next(); !some.empty(); some = members.next()) {
+            for (const tile_member& m : some) w.border.measure(m, longest);
             pace_.check();
         }
-        w.drops.push_back(count);
-    };
-    for (std::size_t t = 0; t < tiles_.size(); ++t) {
-        follow(file(t, ".drops"), tiles_[t].drops);
-        longest.consider(tiles_[t].move);
     }
-    follow(folder_.file(settled_name), borders);
-    if (kept.shares_a_drop(without_followers))
+    w.drops.insert(w.drops.end(), passes.drops().begin(), passes.drops().end());
+    if (rule() == weld_rule::first) w.border = border_weld(tolerance_);  // for its memory
+    w.points = told_to(team_.rank());
+    kept_points kept(w.points.size(), w.points.first);
+    kept_points followed = kept;
+    if (!team_.is_alone()) tell(w, followed);
+    follow(w, kept, followed);
+    if (kept.shares_a_drop(followed))
         throw std::logic_error("a point belongs to one that was dropped");
-    w.max_displacement = longest.length();
-    if (has_order())
-        number_kept(kept, w.kept);
-    else
-        w.kept = std::move(kept);
-    if (task_.options.keep != weld_keep::first) w.followed.emplace(std::move(without_followers));
+    sum_up(w, kept, followed, longest);
+    w.kept = has_order() && w.points.size() > 0 ? number_kept(kept) : std::move(kept);
+    if (task_.options.keep != weld_keep::first) w.followed.emplace(std::move(followed));
     step_done();
     return w;
 }
 
-void tile_steps::number_kept(const kept_points& by_rank, kept_points& kept) const {
+/// Others need the first of a team for all that is not done in the order of the files.
+share tile_steps::told_to(std::size_t rank) const {
+    const std::uint64_t count = survey_.cloud.points;
+    if (is_divided()) return team_.share_of(count, rank);
+    return rank == 0 ? share{0, count} : share{count, count};
+}
+
+/// Each is told of its points: of the dropped ones, and of those that others follow.
+void tile_steps::tell(tiles_welded& w, kept_points& followed) const {
+    const std::size_t size = team_.size();
+    const auto path = [&](const char* what, std::size_t from, std::size_t to) {
+        return folder_.file(what + std::to_string(from) + "." + std::to_string(to));
+    };
+    const std::size_t bytes = std::min<std::size_t>(piece, task_.options.memory / 16 / size);
+    std::vector<record_writer<tile_drop>> drops;
+    std::vector<row_writer> followed_by;
+    for (std::size_t r = 0; r < size; ++r) {
+        drops.emplace_back(path("drops.", team_.rank(), r), bytes);
+        followed_by.emplace_back(path("leaders.", team_.rank(), r), bytes);
+    }
+    std::vector<std::uint64_t> ends;
+    for (std::size_t r = 0; r < size; ++r) ends.push_back(told_to(r).last);
+    const auto owner = [&](std::uint64_t point) {
+        return static_cast<std::size_t>(std::ranges::upper_bound(ends, point) - ends.begin());
+    };
+    std::optional<std::uint64_t> last;
+    std::uint64_t count = 0;
+    for (row_merge all = sorted_drops(w.drops); !all.empty(); all.pop(), ++count) {
+        const tile_drop d{all.front()[0], w.border.leader_of(all.front()[1])};
+        drops[owner(d.id)].put(d);
+        if (last != d.leader) followed_by[owner(d.leader)].put(d.leader);
+        last = d.leader;
+        if (count % records_a_check == 0) pace_.check();
+    }
+    state_writer mine;
+    for (std::size_t r = 0; r < size; ++r) {
+        store_count(drops[r].finish_unsynced(), mine);
+        store_count(followed_by[r].finish_unsynced(), mine);
+    }
+    w.drops.clear();
+    w.told.resize(size);
+    std::vector<state_reader> told = team_.exchange(mine);
+    for (std::size_t from = 0; from < size; ++from)
+        for (std::size_t to = 0; to < size; ++to) {
+            w.told[from].push_back({path("drops.", from, to), load_count(told[from])});
+            const record_count named = load_count(told[from]);
+            if (to != team_.rank()) continue;
+            w.drops.push_back(w.told[from][to]);
+            record_reader<std::uint64_t> all(path("leaders.", from, to), named, piece);
+            for (auto some = all.next(); !some.empty(); some = all.next())
+                for (const std::uint64_t leader : some) followed.drop(leader);
+        }
+}
+
+void tile_steps::follow(const tiles_welded& w, kept_points& kept, kept_points& followed) const {
+    for (const tiles_welded::file& from : w.drops) {
+        record_reader<tile_drop> reader(from.path, from.count, piece);
+        for (auto drops = reader.next(); !drops.empty(); drops = reader.next()) {
+            for (const tile_drop& d : drops) {
+                kept.drop(d.id);
+                if (team_.is_alone()) followed.drop(w.border.leader_of(d.leader));
+            }
+            pace_.check();
+        }
+    }
+}
+
+void tile_steps::sum_up(tiles_welded& w, const kept_points& kept, const kept_points& followed,
+                        longest_move longest) const {
+    state_writer mine;
+    mine.number(kept.dropped());
+    mine.number(followed.dropped());
+    mine.point(longest.from());
+    mine.point(longest.to());
+    for (state_reader& one : team_.exchange(mine)) {
+        w.dropped += one.number();
+        w.groups += one.number();
+        const point3 from = one.point();
+        longest.consider(from, one.point());
+    }
+    w.max_displacement = longest.length();
+}
+
+void tile_steps::tell_first(tiles_welded& w) const {
+    if (team_.is_alone() || !is_divided()) return;
+    w.drops.clear();
+    const std::uint64_t count = survey_.cloud.points;
+    w.points = team_.leads() ? share{0, count} : share{count, count};
+    w.kept = kept_points(w.points.size(), w.points.first);
+    if (!team_.leads()) return;
+    for (const auto& from : w.told) w.drops.insert(w.drops.end(), from.begin(), from.end());
+    kept_points ignored(0);
+    follow(w, w.kept, ignored);
+}
+
+kept_points tile_steps::number_kept(const kept_points& by_rank) const {
+    kept_points kept(survey_.cloud.points);
     std::uint64_t rank = 0;
     for (row_reader all = numbers_by_rank(); !all.empty(); all.pop(), ++rank)
         if (!by_rank.keeps(rank)) kept.drop(all.front()[0]);
+    return kept;
 }
 
-/// Writes what the border pass drops, and returns how much that is.
-record_count tile_steps::settle_borders(tiles_welded& w, kept_points& kept) const {
+row_reader tile_steps::border_rows(const std::filesystem::path& path,
+                                   const record_count& count) const {
+    return {path, count, border_width(), bytes_per_reader()};
+}
+
+row_merge tile_steps::sorted_drops(const std::vector<tiles_welded::file>& files) const {
     std::vector<row_reader> readers;
-    for (std::size_t t = 0; t < tiles_.size(); ++t)
-        readers.emplace_back(file(t, ".border"), tiles_[t].border, border_width(),
+    for (const tiles_welded::file& f : files)
+        readers.emplace_back(f.path, record_count{2 * f.count.records, f.count.digest}, 2,
                              bytes_per_reader());
-    row_merge merge(std::move(readers), 1);
-    record_writer<tile_drop> settled(folder_.file(settled_name), piece);
-    std::vector<tile_drop> dropped;
-    const auto take = [&] {
-        for (const tile_drop& d : dropped) kept.drop(d.id);
-        settled.put(dropped);
-        dropped.clear();
-    };
-    for (std::uint64_t count = 0; !merge.empty(); merge.pop(), ++count) {
-        const numbers r = merge.front();
-        const border_point p = border_of(r);
-        w.border.add({&p, 1}, dropped, r.subspan(8));
-        take();
-        if (count % records_a_check == 0) pace_.check();
-    }
-    w.border.finish(dropped);
-    take();
-    return settled.finish();
-}
-
-/// Members sorted in pieces that memory holds, and the pieces merged.
-longest_move tile_steps::longest_chain_move(const border_weld& border) const {
-    const std::vector<record_count> pieces = sorted_members(border);
-    std::vector<record_reader<tile_member>> readers;
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-        readers.emplace_back(members_file(i), pieces[i], piece / 4);
-    weld::chain_moves moves;
-    record_merge merge(std::move(readers), [](const tile_member& m) { return m.tag; });
-    for (std::uint64_t count = 0; !merge.empty(); merge.pop(), ++count) {
-        moves.add(merge.front());
-        if (count % records_a_check == 0) pace_.check();
-    }
-    for (std::size_t i = 0; i < pieces.size(); ++i) std::filesystem::remove(members_file(i));
-    return moves.move();
-}
-
-std::filesystem::path tile_steps::members_file(std::size_t i) const {
-    return folder_.file("members." + std::to_string(i));
-}
-
-std::vector<record_count> tile_steps::sorted_members(const border_weld& border) const {
-    const std::size_t most =
-        static_cast<std::size_t>(task_.options.memory / 8) / sizeof(tile_member) + 1;
-    std::vector<record_count> pieces;
-    std::uint64_t all = 0;
-    for (const tile& t : tiles_) all += t.members.records;
-    std::vector<tile_member> held;
-    held.reserve(static_cast<std::size_t>(std::min<std::uint64_t>(all, most)));
-    const auto write = [&] {
-        std::sort(held.begin(), held.end(),
-                  [](const tile_member& a, const tile_member& b) { return a.tag < b.tag; });
-        record_writer<tile_member> writer(members_file(pieces.size()), piece);
-        writer.put(held);
-        pieces.push_back(writer.finish());
-        held.clear();
-        pace_.check();
-    };
-    for (std::size_t t = 0; t < tiles_.size(); ++t) {
-        record_reader<tile_member> reader(file(t, ".members"), tiles_[t].members, piece);
-        for (auto some = reader.next(); !some.empty(); some = reader.next())
-            for (const tile_member& m : some) {
-                held.push_back(border.settled(m));
-                if (held.size() == most) write();
-            }
-    }
-    if (!held.empty()) write();
-    return pieces;
+    return {std::move(readers), 1};
 }
 
 tile_steps::leaders::leaders(const tile_steps& steps, const tiles_welded& welded)
-    : border_(welded.border), drops_(by_rank(steps, welded)) {
-    if (!steps.has_order()) return;
-    number(steps, *drops_);
-    drops_.reset();
-}
-
-tile_steps::leaders::drops tile_steps::leaders::by_rank(const tile_steps& s,
-                                                        const tiles_welded& w) {
-    std::vector<record_reader<tile_drop>> readers;
-    for (std::size_t t = 0; t < s.tiles_.size(); ++t)
-        readers.emplace_back(s.file(t, ".drops"), w.drops[t], s.bytes_per_reader());
-    readers.emplace_back(s.folder_.file(settled_name), w.drops.back(), s.bytes_per_reader());
-    return drops(std::move(readers), {});
+    : border_(welded.border) {
+    drops_.emplace(steps.sorted_drops(welded.drops));
+    if (steps.has_order()) number(steps, *drops_);
 }
 
 /// From the ranks of points and of their leaders to the numbers of both: by way of the leaders'.
-void tile_steps::leaders::number(const tile_steps& s, drops& ranks) {
+void tile_steps::leaders::number(const tile_steps& s, row_merge& ranks) {
     row_sorter by_leader(s.folder_, "leaders", {.width = 2, .keys = 2}, s.sorting_memory());
     sorter_ =
         std::make_unique<row_sorter>(s.folder_, "led", row_sorter::shape{2, 1}, s.sorting_memory());
     std::uint64_t rank = 0;
     for (row_reader all = s.numbers_by_rank(); !ranks.empty(); all.pop(), ++rank) {
         std::optional<std::uint64_t> leader;
-        for (; !ranks.empty() && ranks.front().id == rank; ranks.pop())
-            leader = border_.leader_of(ranks.front().leader);
+        for (; !ranks.empty() && ranks.front()[0] == rank; ranks.pop())
+            leader = border_.leader_of(ranks.front()[1]);
         if (leader) by_leader.put(std::array{*leader, all.front()[0]});
         if (rank % records_a_check == 0) s.pace_.check();
     }
@@ -181,21 +331,15 @@ void tile_steps::leaders::number(const tile_steps& s, drops& ranks) {
         for (; rank < led.front()[0]; ++rank) all.pop();
         sorter_->put(std::array{led.front()[1], all.front()[0]});
     }
-    rows_.emplace(sorter_->sorted());
+    is_by_number_ = true;
+    drops_.emplace(sorter_->sorted());
 }
 
 std::uint64_t tile_steps::leaders::of(std::uint64_t point) {
     std::uint64_t leader = point;
-    if (rows_) {
-        if (!rows_->empty() && rows_->front()[0] == point) {
-            leader = rows_->front()[1];
-            rows_->pop();
-        }
-        return leader;
-    }
-    for (; !drops_->empty() && drops_->front().id == point; drops_->pop())
-        leader = drops_->front().leader;
-    return border_.leader_of(leader);
+    for (; !drops_->empty() && drops_->front()[0] == point; drops_->pop())
+        leader = drops_->front()[1];
+    return is_by_number_ ? leader : border_.leader_of(leader);
 }
 
 }  // namespace treeform::detail::stream

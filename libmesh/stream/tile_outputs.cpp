@@ -1,7 +1,9 @@
+#include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/tile_outputs.hpp>
 #include <treeform/mesh/point_stream.hpp>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -12,11 +14,38 @@ namespace fs = std::filesystem;
 
 const char* const leftovers = "unfinished";
 
+/// Copies bytes from one file into another, which is there.
+void copy_bytes(const fs::path& from, std::uint64_t first, const fs::path& to, std::uint64_t at,
+                std::uint64_t count) {
+    std::vector<std::byte> some(piece);
+    for (std::uint64_t done = 0; done < count;) {
+        const std::span<std::byte> block =
+            std::span(some).first(static_cast<std::size_t>(std::min<std::uint64_t>(
+                piece, count - done)));
+        if (read_from(from, first + done, block) != block.size()) fail_damaged(from);
+        write_to(to, at + done, block);
+        done += block.size();
+    }
+}
+
 /// Rows of a block on their way to a file of points.
 class points_out {
   public:
-    points_out(const weld_stream_outputs::file& to, const mesh_file& header, std::uint64_t count)
-        : writer_(to.path, header, count, to.options) {}
+    /// `all` is the team whose members write a part each; none: the file is written here.
+    points_out(const weld_stream_outputs::file& to, const mesh_file& header, std::uint64_t count,
+               const team* all, const fs::path& part)
+        : target_(to.path),
+          path_(all == nullptr ? to.path
+                               : (all->leads() ? fs::path(to.path.string() + ".unfinished") : part)),
+          all_(all),
+          writer_(path_, header, count, options_of(to)) {}
+
+    [[nodiscard]] static write_options options_of(const weld_stream_outputs::file& to) {
+        write_options options = to.options;
+        const std::string extension = to.path.extension().string();
+        if (options.format.empty() && !extension.empty()) options.format = extension.substr(1);
+        return options;
+    }
 
     void write(const point_block& block, const std::vector<std::uint32_t>& rows) {
         if (rows.empty()) return;
@@ -26,9 +55,37 @@ class points_out {
         writer_.write(some_);
     }
     void write(const point_block& block) { writer_.write(block); }
-    write_result commit() { return writer_.commit(); }
+    write_result commit() {
+        if (all_ == nullptr) return writer_.commit();
+        write_result result;
+        const std::uint64_t head = writer_.commit_part(result);
+        const std::uint64_t skipped = all_->leads() ? 0 : head;
+        const std::uint64_t size = fs::file_size(path_) - skipped;
+        state_writer mine;
+        mine.number(size);
+        mine.real(result.max_displacement);
+        mine.text(path_.string());
+        std::vector<state_reader> told = all_->exchange(mine);
+        std::uint64_t at = 0;
+        for (std::size_t r = 0; r < told.size(); ++r) {
+            const std::uint64_t bytes = told[r].number();
+            if (r < all_->rank()) at += bytes;
+            result.max_displacement = std::max(result.max_displacement, told[r].real());
+        }
+        const fs::path whole = told.front().text();
+        if (!all_->leads()) copy_bytes(path_, skipped, whole, at, size);
+        all_->meet();
+        if (all_->leads())
+            fs::rename(whole, target_);
+        else
+            fs::remove(path_);
+        return result;
+    }
 
   private:
+    fs::path target_;
+    fs::path path_;
+    const team* all_;
     point_writer writer_;
     point_block some_{};
 };
@@ -37,9 +94,11 @@ class points_out {
 class giving_back {
   public:
     giving_back(pacer& pace, const tile_task& task, const weld_stream_outputs& asked,
-                tile_steps& steps, tiles_welded& welded, kept_rows* rows)
+                tile_steps& steps, tiles_welded& welded, kept_rows* rows, const work_folder& work)
         : pace_(pace),
           task_(task),
+          work_(work),
+          all_(steps.all()),
           asked_(asked),
           survey_(steps.survey()),
           steps_(steps),
@@ -47,6 +106,10 @@ class giving_back {
           rows_(rows),
           head_(steps.source().header()) {
         head_.stored_as = survey_.single ? precision::float32 : precision::float64;
+        is_divided_ = may_divide();
+        if (!is_divided_) steps.tell_first(welded);
+        first_ = welded.points.first;
+        if (!is_divided_ && !all_.leads()) return;
         open_files();
         if (rows_ != nullptr) rows_->rewind();
         if (asked_.map || !asked_.label.empty()) {
@@ -56,18 +119,34 @@ class giving_back {
     }
 
     [[nodiscard]] weld_stream_written run() {
-        if (result_ || removed_ || asked_.map) give_all();
+        if ((is_divided_ || all_.leads()) && (result_ || removed_ || asked_.map)) give_all();
         return std::move(written_);
     }
 
   private:
+    /// Whether each of a team writes what it is told of. Not where a number of a group is asked for,
+    /// which depends on all points before it.
+    [[nodiscard]] bool may_divide() const {
+        const auto has_parts = [&](const std::optional<weld_stream_outputs::file>& to) {
+            return !to || (to->path != "-" && point_writer(part("none"), head_, 0,
+                                                           points_out::options_of(*to))
+                                                  .has_parts());
+        };
+        return !all_.is_alone() && steps_.is_divided() && !asked_.map && asked_.label.empty() &&
+               !asked_.withhold && has_parts(asked_.welded) && has_parts(asked_.removed);
+    }
+    [[nodiscard]] fs::path part(const char* name) const {
+        return work_.file(name + ("." + std::to_string(all_.rank())));
+    }
     [[nodiscard]] bool drops_nothing() const { return asked_.withhold || !asked_.label.empty(); }
     /// Whether coordinates of `welded` are not those of points.
     [[nodiscard]] bool has_means() const { return task_.options.keep == weld_keep::mean; }
 
     void open_files() {
-        const std::uint64_t dropped = welded_.kept.dropped();
-        if (asked_.removed) removed_.emplace(*asked_.removed, removed_head(), dropped);
+        const std::uint64_t dropped = welded_.dropped;
+        const team* const parts = is_divided_ ? &all_ : nullptr;
+        if (asked_.removed)
+            removed_.emplace(*asked_.removed, removed_head(), dropped, parts, part("removed"));
         if (!asked_.welded) return;
         if (has_means() && !rows_->single()) head_.stored_as = precision::float64;
         if (!asked_.label.empty())
@@ -78,7 +157,8 @@ class giving_back {
             set_column(obtain_element(head_.attributes, "vertex", 0),
                        {.name = "withheld", .type = scalar_type::uint8});
         result_.emplace(*asked_.welded, head_,
-                        drops_nothing() ? survey_.points : survey_.points - dropped);
+                        drops_nothing() ? survey_.points : survey_.points - dropped, parts,
+                        part("welded"));
     }
 
     /// Of the header only the points and what they have.
@@ -94,19 +174,21 @@ class giving_back {
 
     void give_all() {
         joined_points& source = steps_.source();
-        source.rewind();
+        const share& mine = welded_.points;
+        source.rewind(is_divided_ ? mine : share{});
         point_block block;
         while (source.read(block, points_a_block)) {
             give(block);
             first_ += block.points.size();
-            pace_.show("write", static_cast<double>(first_) / static_cast<double>(survey_.points));
+            pace_.show("write", static_cast<double>(first_ - mine.first) /
+                                    static_cast<double>(mine.size()));
         }
         steps_.step_done();
         const fs::path& input = task_.inputs.paths.front();
-        if (first_ != survey_.points)
+        if (first_ != mine.last)
             throw stream_error(stream_error::reason::input_changed, input,
                                input.string() + ": the file changed while it was read");
-        if (given_ != survey_.points - welded_.kept.dropped())
+        if (given_ != mine.size() - welded_.kept.dropped())
             throw std::logic_error("points in are not points kept and points removed");
         if (removed_) written_.removed = removed_->commit();
         if (result_) written_.welded = result_->commit();
@@ -173,6 +255,8 @@ class giving_back {
 
     pacer& pace_;
     const tile_task& task_;
+    const work_folder& work_;
+    const team& all_;
     const weld_stream_outputs& asked_;
     const cloud_survey& survey_;
     tile_steps& steps_;
@@ -183,6 +267,7 @@ class giving_back {
     std::optional<points_out> removed_{};
     std::optional<points_out> result_{};
     std::optional<tile_steps::leaders> leaders_{};
+    bool is_divided_ = false;
     std::uint64_t first_ = 0;  ///< number of the block's first point
     std::uint64_t given_ = 0;
     std::vector<std::uint64_t> groups_{};
@@ -207,8 +292,8 @@ weld_stream_written give_back(pacer& pace, const tile_task& task,
     state_writer state;
     state.number(outputs.unfinished.size());
     for (const fs::path& path : outputs.unfinished) state.text(fs::absolute(path).string());
-    folder.store(leftovers, state);
-    return giving_back(pace, task, outputs, steps, welded, rows).run();
+    if (steps.all().leads()) folder.store(leftovers, state);
+    return giving_back(pace, task, outputs, steps, welded, rows, folder).run();
 }
 
 }  // namespace treeform::detail::stream

@@ -86,8 +86,10 @@ std::optional<tile_cuts> tile_steps::plan_by(bool by_places) const {
         double most;       ///< points in a tile, about
         double with_halo;  ///< points of all tiles, of all points
     };
-    for (const way w : {way{std::min(0.25 * room, std::max(small, all / tiles)), 1.1},
-                        way{0.25 * room, 1.5}, way{room, 4.0}}) {
+    // Of a team, all have several, and so about the same.
+    const double several = team_.is_alone() ? all : all / (8.0 * static_cast<double>(team_.size()));
+    for (const way w : {way{std::min({0.25 * room, std::max(small, all / tiles), several}), 1.1},
+                        way{std::min(0.25 * room, several), 1.5}, way{room, 4.0}}) {
         cut_sizes sizes;
         for (double count = all / w.most; sizes.points <= w.with_halo * all;
              count = 1.25 * count + 1.0) {

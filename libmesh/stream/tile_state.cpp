@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace treeform::detail::stream {
 namespace {
@@ -19,6 +20,32 @@ longest_move load_move(state_reader& state) {
     return m;
 }
 
+void store_cuts(const tile_cuts& cuts, state_writer& state) {
+    state.number(cuts.nodes().size());
+    for (const tile_cuts::node& n : cuts.nodes()) {
+        state.number(n.direction);
+        state.number(n.above);
+        state.real(n.cut);
+    }
+}
+
+tile_cuts load_cuts(state_reader& state, double tolerance) {
+    std::vector<tile_cuts::node> nodes;
+    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
+        tile_cuts::node& n = nodes.emplace_back();
+        n.direction = static_cast<std::uint32_t>(state.number());
+        n.above = static_cast<std::uint32_t>(state.number());
+        n.cut = state.real();
+    }
+    return {std::move(nodes), tolerance};
+}
+
+template <class Record>
+bool is_there(const std::filesystem::path& path, const record_count& count, bool check) {
+    return check ? is_whole<Record>(path, count)
+                 : size_of(path) == count.records * sizeof(Record);
+}
+
 std::string name_of_done(std::size_t t) { return std::to_string(t) + ".done"; }
 
 }  // namespace
@@ -27,59 +54,121 @@ void tile_steps::look() {
     const auto points = source_.count();
     const std::uint64_t least = points ? memory_to_stream(source_.header(), *points) : 0;
     if (least > task_.memory) fail_for_memory(least);
-    if (!take_over()) {
-        const bool anew = folder_.load(plan_name).has_value();
+    if (!(task_.options.shared ? has_tiles() : take_over())) {
+        const bool anew = has_plan();
         const std::vector<std::filesystem::path> damaged = survey_.cloud.damaged;
-        folder_.clear();
+        if (team_.leads()) folder_.clear();
         tiles_.clear();
         const std::size_t most = std::bit_floor(
             std::clamp<std::uint64_t>(task_.options.memory / bytes_of_sample, 1U << 12, 1U << 18));
         survey_ = stream::survey(
-            source_, task_.options.relative ? std::nullopt : std::optional(task_.options.tolerance),
-            most, pace_);
+            source_, team_, read_by(team_.rank()),
+            task_.options.relative ? std::nullopt : std::optional(task_.options.tolerance), most,
+            pace_);
         survey_.cloud.started_anew = anew;
         survey_.cloud.damaged = damaged;
+        set_tolerance();
+        if (team_.leads()) cuts_ = plan();
+        share_cuts();
     }
-    set_tolerance();
-    survey_.cloud.conditions = keys_.conditions();
-    if (tiles_.empty()) cuts_ = plan();
     say_plan();
 }
+
+/// As the first of a team has planned.
+void tile_steps::share_cuts() {
+    state_writer mine;
+    if (team_.leads()) store_cuts(*cuts_, mine);
+    std::vector<state_reader> told = team_.exchange(mine);
+    if (!team_.leads()) cuts_ = load_cuts(told.front(), tolerance_);
+}
+
+bool tile_steps::has_plan() const { return folder_.load(plan_name).has_value(); }
 
 void tile_steps::store_plan() const {
     state_writer state;
     state.text(task_.identity);
     store(survey_, state);
     store_count(numbers_, state);
-    state.number(tiles_.size());
+    store_count(ranks_, state);
+    store_cuts(*cuts_, state);
+    state.number(team_.size());
     for (const tile& t : tiles_) {
-        store_count(t.points, state);
+        for (const record_count& part : t.points) store_count(part, state);
         state.number(t.own);
     }
     folder_.store(plan_name, state);
 }
 
-bool tile_steps::take_over() {
+bool tile_steps::load_plan() {
     auto state = folder_.load(plan_name);
     if (!state || state->text() != task_.identity) return false;
     survey_ = load_survey(*state);
+    set_tolerance();
     numbers_ = load_count(*state);
-    for (std::uint64_t left = state->number(); left > 0 && state->whole(); --left) {
-        const record_count points = load_count(*state);
-        tiles_.push_back({.points = points, .own = state->number()});
+    ranks_ = load_count(*state);
+    cuts_ = load_cuts(*state, tolerance_);
+    tiles_.assign(cuts_->size(), {});
+    const std::uint64_t parts = state->number();
+    for (tile& t : tiles_) {
+        for (std::uint64_t r = 0; r < parts && state->whole(); ++r)
+            t.points.push_back(load_count(*state));
+        t.own = state->number();
     }
-    if (!state->whole()) return false;
-    cloud_survey& cloud = survey_.cloud;
-    bool whole = !has_order() || is_whole<std::uint64_t>(folder_.file(numbers_name), numbers_);
-    for (std::size_t t = 0; t < tiles_.size(); ++t) {
-        take_over_tile(t);
-        cloud.finished_tiles += tiles_[t].finished ? 1 : 0;
-        whole = whole &&
-                (tiles_[t].finished ||
-                 size_of(file(t, ".points")) == tiles_[t].points.records * sizeof(std::uint64_t));
+    say_plan();
+    return state->whole();
+}
+
+/// What is there of a tile: the results, or else the points.
+bool tile_steps::find_tile(std::size_t t, bool check) {
+    if (load_tile(t, check)) return true;
+    const std::vector<record_count>& parts = tiles_[t].points;
+    for (std::size_t r = 0; r < parts.size(); ++r)
+        if (size_of(points_file(t, r)) != parts[r].records * sizeof(std::uint64_t)) return false;
+    return true;
+}
+
+bool tile_steps::know() {
+    bool whole = load_plan();
+    for (std::size_t t = 0; whole && t < tiles_.size(); ++t) whole = find_tile(t, false);
+    scattered_ = survey_.cloud.continued = whole;
+    if (!whole) return false;
+    count_finished();
+    return true;
+}
+
+/// Of a team, each looks at some tiles.
+bool tile_steps::take_over() {
+    bool whole = load_plan();
+    if (whole && has_order() && team_.leads())
+        whole = is_whole<std::uint64_t>(folder_.file(numbers_name), numbers_) &&
+                is_whole<std::uint64_t>(folder_.file(ranks_name), ranks_);
+    const std::size_t all = whole ? tiles_.size() : 0;
+    state_writer mine;
+    for (std::size_t t = team_.rank(); t < all; t += team_.size())
+        whole = find_tile(t, true) && whole;
+    mine.number(whole ? 1 : 0);
+    for (std::size_t t = team_.rank(); t < all; t += team_.size())
+        mine.number(tiles_[t].finished ? 1 : 0);
+    mine.number(survey_.cloud.damaged.size());
+    for (const std::filesystem::path& path : survey_.cloud.damaged) mine.text(path.string());
+    std::vector<state_reader> told = team_.exchange(mine);
+    for (state_reader& one : told) whole = one.number() != 0 && whole;
+    survey_.cloud.damaged.clear();
+    for (std::size_t t = 0; t < all; ++t) {
+        const bool finished = told[t % told.size()].number() != 0;
+        if (finished && t % told.size() != team_.rank()) whole = load_tile(t, false) && whole;
     }
-    cloud.continued = whole;
+    for (state_reader& one : told)
+        for (std::uint64_t left = one.number(); left > 0 && one.whole(); --left)
+            survey_.cloud.damaged.push_back(one.text());
+    scattered_ = survey_.cloud.continued = whole;
+    count_finished();
     return whole;
+}
+
+void tile_steps::count_finished() {
+    survey_.cloud.finished_tiles = 0;
+    for (const tile& t : tiles_) survey_.cloud.finished_tiles += t.finished ? 1 : 0;
 }
 
 void tile_steps::store_tile(std::size_t t) const {
@@ -91,16 +180,17 @@ void tile_steps::store_tile(std::size_t t) const {
     folder_.store(name_of_done(t), state);
 }
 
-void tile_steps::take_over_tile(std::size_t t) {
+bool tile_steps::load_tile(std::size_t t, bool check) {
     auto state = folder_.load(name_of_done(t));
-    if (!state) return;
+    if (!state) return false;
     tile& mine = tiles_[t];
     for (record_count* c : {&mine.drops, &mine.border, &mine.members}) *c = load_count(*state);
     mine.move = load_move(*state);
-    mine.finished = state->whole() && is_whole<tile_drop>(file(t, ".drops"), mine.drops) &&
-                    is_whole<std::uint64_t>(file(t, ".border"), mine.border) &&
-                    is_whole<tile_member>(file(t, ".members"), mine.members);
+    mine.finished = state->whole() && is_there<tile_drop>(file(t, ".drops"), mine.drops, check) &&
+                    is_there<std::uint64_t>(file(t, ".border"), mine.border, check) &&
+                    is_there<tile_member>(file(t, ".members"), mine.members, check);
     if (!mine.finished) survey_.cloud.damaged.push_back(file(t, ".drops"));
+    return mine.finished;
 }
 
 }  // namespace treeform::detail::stream

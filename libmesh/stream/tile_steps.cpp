@@ -10,17 +10,11 @@
 #include <cmath>
 #include <mutex>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 namespace treeform::detail::stream {
 namespace {
-
-std::array<std::uint64_t, 8> row_of(const border_point& b) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-    const point3& p = b.at;
-    const point3& q = b.leader_at;
-    return {b.tag, bits(p.x), bits(p.y), bits(p.z), b.leader, bits(q.x), bits(q.y), bits(q.z)};
-}
 
 /// The points of tiles on their way to their files, as rows of numbers.
 class scattered {
@@ -82,8 +76,8 @@ class unpacked {
 }  // namespace
 
 tile_steps::tile_steps(pacer& pace, const work_folder& folder, const tile_task& task,
-                       joined_points& source, const point_keys& keys)
-    : pace_(pace), folder_(folder), task_(task), source_(source), keys_(keys) {}
+                       const team& all, joined_points& source, const point_keys& keys)
+    : pace_(pace), folder_(folder), task_(task), team_(all), source_(source), keys_(keys) {}
 
 void tile_steps::step_done() const {
     if (task_.options.step_done) task_.options.step_done();
@@ -115,10 +109,45 @@ void tile_steps::set_tolerance() {
     survey_.cloud.tolerance = tolerance_;
 }
 
+std::uint64_t tile_steps::points_of(const tile& t) const {
+    std::uint64_t sum = 0;
+    for (const record_count& part : t.points) sum += part.records;
+    return sum / point_width();
+}
+
+std::filesystem::path tile_steps::points_file(std::size_t t, std::size_t part) const {
+    return file(t, ".points").string() + (part == 0 ? "" : "." + std::to_string(part));
+}
+
+share tile_steps::read_by(std::size_t rank) const {
+    if (team_.is_alone()) return {};
+    const auto count = source_.count();
+    if (!count) return rank == 0 ? share{} : share{0, 0};
+    return team_.share_of(*count, rank);
+}
+
+share tile_steps::tiles_of(std::size_t rank) const {
+    std::uint64_t all = 1;
+    for (const tile& t : tiles_) all += points_of(t);
+    share mine{0, 0};
+    std::uint64_t before = 0;
+    for (const tile& t : tiles_) {
+        const std::uint64_t middle = before + points_of(t) / 2;
+        const auto owner = static_cast<std::size_t>(static_cast<double>(team_.size()) *
+                                                    static_cast<double>(middle) /
+                                                    static_cast<double>(all));
+        mine.first += owner < rank ? 1 : 0;
+        mine.last += owner <= rank ? 1 : 0;
+        before += points_of(t);
+    }
+    return mine;
+}
+
 void tile_steps::say_plan() {
     cloud_survey& cloud = survey_.cloud;
-    cloud.tiles = cuts_ ? cuts_->size() : tiles_.size();
-    if (!cuts_) return;
+    cloud.conditions = keys_.conditions();
+    cloud.tiles = cuts_->size();
+    if (!tiles_.empty()) return;
     // Tiles' points are removed as their drops are written, which take half as much at most.
     // Members, few mostly, are not counted.
     cloud.disk_bytes = cloud.points * (8 * point_width() + 2 + (has_order() ? 48 : 0));
@@ -128,22 +157,23 @@ void tile_steps::say_plan() {
 }
 
 void tile_steps::scatter() {
-    if (!cuts_) return;
+    if (scattered_) return;
     survey_.sample = {};
     survey_.places.reset();
-    tiles_.resize(cuts_->size());
+    tiles_.assign(cuts_->size(), {});
     if (has_order()) rank_points();
     give_points();
-    cuts_.reset();
-    store_plan();
+    scattered_ = true;
+    if (team_.leads()) store_plan();
+    team_.meet();
     step_done();
 }
 
+/// The first of a team does it.
 void tile_steps::rank_points() {
     row_sorter by_key(folder_, "keys", {.width = 2, .keys = 2}, sorting_memory());
-    ranks_ =
-        std::make_unique<row_sorter>(folder_, "ranks", row_sorter::shape{2, 1}, sorting_memory());
-    source_.rewind();
+    row_sorter by_number(folder_, "keys.ranks", {.width = 2, .keys = 1}, sorting_memory());
+    source_.rewind(team_.leads() ? share{} : share{0, 0});
     point_block block;
     std::vector<std::uint64_t> keys;
     std::uint64_t id = 0;
@@ -153,14 +183,24 @@ void tile_steps::rank_points() {
         pace_.show("scatter",
                    0.4 * static_cast<double>(id) / static_cast<double>(survey_.cloud.points));
     }
-    row_writer by_rank(folder_.file(numbers_name), piece);
-    std::uint64_t rank = 0;
-    for (row_merge all = by_key.sorted(); !all.empty(); all.pop(), ++rank) {
-        by_rank.put(all.front()[1]);
-        ranks_->put(std::array{all.front()[1], rank});
-        if (rank % points_a_block == 0) pace_.check();
+    state_writer mine;
+    if (team_.leads()) {
+        row_writer by_rank(folder_.file(numbers_name), piece);
+        std::uint64_t rank = 0;
+        for (row_merge all = by_key.sorted(); !all.empty(); all.pop(), ++rank) {
+            by_rank.put(all.front()[1]);
+            by_number.put(std::array{all.front()[1], rank});
+            if (rank % points_a_block == 0) pace_.check();
+        }
+        store_count(by_rank.finish(), mine);
+        row_writer ranks(folder_.file(ranks_name), piece);
+        for (row_merge all = by_number.sorted(); !all.empty(); all.pop())
+            ranks.put(all.front()[1]);
+        store_count(ranks.finish(), mine);
     }
-    numbers_ = by_rank.finish();
+    std::vector<state_reader> told = team_.exchange(mine);
+    numbers_ = load_count(told.front());
+    ranks_ = load_count(told.front());
 }
 
 row_reader tile_steps::numbers_by_rank() const {
@@ -170,52 +210,70 @@ row_reader tile_steps::numbers_by_rank() const {
 void tile_steps::give_points() {
     const tile_cuts& cuts = *cuts_;
     std::vector<digest> digests(cuts.size());
+    std::vector<record_count> given(cuts.size());
     const auto flush = [&](std::size_t t, numbers rows) {
         const auto bytes = std::as_bytes(rows);
-        append_to(file(t, ".points"), bytes);
+        append_to(points_file(t, team_.rank()), bytes);
         digests[t].add(bytes);
-        tiles_[t].points.records += rows.size();
+        given[t].records += rows.size();
     };
     scattered rows(cuts.size(), static_cast<std::size_t>(std::min<std::uint64_t>(
                                     piece, task_.options.memory / 4 / cuts.size())));
-    std::optional<row_merge> ranks;
-    if (ranks_) ranks.emplace(ranks_->sorted());
+    const share mine = read_by(team_.rank());
+    std::optional<row_reader> ranks;
+    if (has_order() && mine.size() > 0)
+        ranks.emplace(folder_.file(ranks_name), ranks_, 1, piece, mine);
     point_block block;
     std::vector<std::uint64_t> of_block;
     std::vector<std::uint32_t> halos;
-    std::uint64_t id = 0;
-    source_.rewind();
+    std::uint64_t id = mine.first;
+    source_.rewind(mine);
     while (source_.read(block, points_a_block)) {
         keys_.values_of(block, of_block);
         for (std::size_t i = 0; i < block.points.size(); ++i) {
             const point3& p = block.points[i];
             std::uint64_t rank = id++;
             if (ranks && !ranks->empty()) {
-                rank = ranks->front()[1];
+                rank = ranks->front()[0];
                 ranks->pop();
             }
             if (!base::is_finite(p)) continue;
-            const numbers mine = numbers(of_block).subspan(i * values(), values());
+            const numbers values_of_point = numbers(of_block).subspan(i * values(), values());
             const std::uint32_t own = cuts.find(p, halos);
             ++tiles_[own].own;
             const tile_role role = halos.empty() ? tile_role::own : tile_role::shared;
-            rows.put(own, tile_point::make(rank, role, p), mine, flush);
+            rows.put(own, tile_point::make(rank, role, p), values_of_point, flush);
             for (const std::uint32_t t : halos)
-                rows.put(t, tile_point::make(rank, tile_role::halo, p), mine, flush);
+                rows.put(t, tile_point::make(rank, tile_role::halo, p), values_of_point, flush);
         }
-        pace_.show("scatter", static_cast<double>(id) / static_cast<double>(survey_.cloud.points));
+        pace_.show("scatter", static_cast<double>(id - mine.first) /
+                                  static_cast<double>(survey_.cloud.points / team_.size() + 1));
     }
     rows.finish(flush);
-    ranks.reset();
-    ranks_.reset();
-    for (std::size_t t = 0; t < tiles_.size(); ++t) tiles_[t].points.digest = digests[t].value();
-    check_points(id);
+    for (std::size_t t = 0; t < given.size(); ++t) given[t].digest = digests[t].value();
+    share_counts(id - mine.first, given);
 }
 
-void tile_steps::check_points(std::uint64_t read) {
+/// What all have read, and given to each tile.
+void tile_steps::share_counts(std::uint64_t read, const std::vector<record_count>& given) {
+    state_writer mine;
+    mine.number(read);
+    for (std::size_t t = 0; t < given.size(); ++t) {
+        store_count(given[t], mine);
+        mine.number(tiles_[t].own);
+        tiles_[t].own = 0;
+    }
+    std::uint64_t all = 0;
     std::uint64_t own = survey_.cloud.non_finite;
+    for (state_reader& one : team_.exchange(mine)) {
+        all += one.number();
+        for (tile& t : tiles_) {
+            t.points.push_back(load_count(one));
+            t.own += one.number();
+        }
+    }
     for (const tile& t : tiles_) own += t.own;
-    if (read == survey_.cloud.points && own == survey_.cloud.points) return;
+    if (all == survey_.cloud.points && own == survey_.cloud.points) return;
     const std::filesystem::path& input = task_.inputs.paths.front();
     throw stream_error(stream_error::reason::input_changed, input,
                        input.string() + ": the file changed while it was read");
@@ -232,35 +290,57 @@ std::size_t tile_steps::at_a_time() const {
 /// Tiles throw into their own slots, and those that come later are then left undone.
 void tile_steps::weld_tiles() {
     pace_.show("weld", 0.0);
+    const share mine = tiles_of(team_.rank());
+    const auto count = static_cast<std::size_t>(mine.size());
     std::mutex one_at_a_time;
     std::size_t finished = 0;
-    const auto weld = [&](std::size_t t) {
+    const auto weld = [&](std::size_t i) {
+        const std::size_t t = static_cast<std::size_t>(mine.first) + i;
         const bool before = tiles_[t].finished;
         if (!before) weld_tile(t);
         const std::lock_guard lock(one_at_a_time);
-        tiles_[t].finished = true;
         if (!before) step_done();
-        pace_.show("weld", static_cast<double>(++finished) / static_cast<double>(tiles_.size()));
+        pace_.show("weld", static_cast<double>(++finished) / static_cast<double>(count));
     };
     const auto few = static_cast<unsigned>(at_a_time());
     if (few == 1) {  // threads are for what is inside
-        for (std::size_t t = 0; t < tiles_.size(); ++t) weld(t);
-        return;
+        for (std::size_t i = 0; i < count; ++i) weld(i);
+    } else {
+        std::vector<std::exception_ptr> thrown(count);
+        std::atomic<bool> failed = false;
+        const thread_scope some(few);
+        for_chunks(count, 1, [&](std::size_t i, std::size_t, std::size_t) {
+            if (failed.load(std::memory_order_relaxed)) return;
+            try {
+                weld(i);
+            } catch (...) {
+                thrown[i] = std::current_exception();
+                failed.store(true, std::memory_order_relaxed);
+            }
+        });
+        for (const std::exception_ptr& error : thrown)
+            if (error) std::rethrow_exception(error);
     }
-    std::vector<std::exception_ptr> thrown(tiles_.size());
-    std::atomic<bool> failed = false;
-    const thread_scope some(few);
-    for_chunks(tiles_.size(), 1, [&](std::size_t t, std::size_t, std::size_t) {
-        if (failed.load(std::memory_order_relaxed)) return;
-        try {
-            weld(t);
-        } catch (...) {
-            thrown[t] = std::current_exception();
-            failed.store(true, std::memory_order_relaxed);
-        }
-    });
-    for (const std::exception_ptr& error : thrown)
-        if (error) std::rethrow_exception(error);
+    team_.meet();
+    check_finished();
+}
+
+void tile_steps::weld_one(std::size_t t) {
+    if (t >= tiles_.size())
+        throw std::out_of_range("treeform::stream_weld: tile " + std::to_string(t) + " of " +
+                                std::to_string(tiles_.size()));
+    pace_.show("weld", 0.0);
+    if (load_tile(t, false)) return;
+    weld_tile(t);
+    step_done();
+}
+
+void tile_steps::check_finished() {
+    for (std::size_t t = 0; t < tiles_.size(); ++t)
+        if (!tiles_[t].finished && !load_tile(t, false))
+            throw stream_error(
+                stream_error::reason::read, folder_.path(),
+                folder_.path().string() + ": tile " + std::to_string(t) + " is not finished");
 }
 
 /// What a tile leaves, on its way to the disk.
@@ -273,34 +353,47 @@ struct tile_steps::tile_files {
 
     void write() {
         dropped.put(result.dropped);
-        const std::size_t width =
-            result.border.empty() ? 0 : result.border_values.size() / result.border.size();
-        for (std::size_t i = 0; i < result.border.size(); ++i) {
-            border.put(row_of(result.border[i]));
-            border.put(numbers(result.border_values).subspan(i * width, width));
-        }
+        put_border(result, border);
         members.put(result.members);
         result.dropped.clear();
-        result.border.clear();
-        result.border_values.clear();
         result.members.clear();
     }
 };
+
+void tile_steps::put_border(weld::tile_result& result, row_writer& to) {
+    const std::size_t width =
+        result.border.empty() ? 0 : result.border_values.size() / result.border.size();
+    for (std::size_t i = 0; i < result.border.size(); ++i) {
+        to.put(row_of(result.border[i]));
+        to.put(numbers(result.border_values).subspan(i * width, width));
+    }
+    result.border.clear();
+    result.border_values.clear();
+}
+
+/// Calls `take` with some rows at a time, in the order of the files.
+template <class Take>
+void tile_steps::each_row_of(std::size_t t, const Take& take) const {
+    for (std::size_t r = 0; r < tiles_[t].points.size(); ++r) {
+        if (tiles_[t].points[r].records == 0) continue;
+        record_reader<std::uint64_t> points(points_file(t, r), tiles_[t].points[r], piece / 2,
+                                            point_width());
+        for (auto rows = points.next(); !rows.empty(); rows = points.next()) {
+            take(rows);
+            pace_.check();
+        }
+    }
+}
 
 /// Calls `take` with some points and their values at a time, by ascending ranks.
 template <class Take>
 void tile_steps::each_point_of(std::size_t t, const tile_files& files, const Take& take) const {
     unpacked some(point_width());
-    if (!files.points) {
-        record_reader<std::uint64_t> points(file(t, ".points"), tiles_[t].points, piece / 2,
-                                            point_width());
-        for (auto rows = points.next(); !rows.empty(); rows = points.next()) {
+    if (!files.points)
+        return each_row_of(t, [&](numbers rows) {
             some.put(rows);
             some.give(take);
-            pace_.check();
-        }
-        return;
-    }
+        });
     for (row_merge rows = files.points->sorted(); !rows.empty(); rows.pop()) {
         some.put(rows.front());
         if (some.size() < points_a_block / 2) continue;
@@ -312,18 +405,24 @@ void tile_steps::each_point_of(std::size_t t, const tile_files& files, const Tak
 
 /// Points come in the order of the files.
 void tile_steps::sort_points(std::size_t t, tile_files& files) const {
-    files.points = std::make_unique<row_sorter>(folder_, std::to_string(t) + ".sorted",
-                                                row_sorter::shape{point_width(), 1},
-                                                sorting_memory() / at_a_time());
-    row_reader points(file(t, ".points"), tiles_[t].points, point_width(), piece);
-    for (; !points.empty(); points.pop()) files.points->put(points.front());
+    files.points = std::make_unique<row_sorter>(
+        folder_, work_folder::own_name(std::to_string(t) + ".sorted"),
+        row_sorter::shape{point_width(), 1}, sorting_memory() / at_a_time());
+    each_row_of(t, [&](numbers rows) {
+        for (; !rows.empty(); rows = rows.subspan(point_width()))
+            files.points->put(rows.first(point_width()));
+    });
 }
 
 void tile_steps::weld_tile(std::size_t t) {
     tile& mine = tiles_[t];
-    tile_files files{{file(t, ".drops"), piece / 4},
-                     {file(t, ".border"), piece / 4},
-                     {file(t, ".members"), piece / 4}};
+    const std::array names{std::to_string(t) + ".drops", std::to_string(t) + ".border",
+                           std::to_string(t) + ".members"};
+    std::array<std::string, 3> own;  // until all is written
+    std::ranges::transform(names, own.begin(), work_folder::own_name);
+    tile_files files{{folder_.file(own[0]), piece / 4},
+                     {folder_.file(own[1]), piece / 4},
+                     {folder_.file(own[2]), piece / 4}};
     if (has_order()) sort_points(t, files);
     const std::uint64_t room = task_.options.memory / 10 * 7 / bytes_per_point();
     const bool held = rule() == weld_rule::first || points_of(mine) <= room;
@@ -338,8 +437,12 @@ void tile_steps::weld_tile(std::size_t t) {
     mine.border = files.border.finish();
     mine.members = files.members.finish();
     mine.move = files.result.move;
+    for (std::size_t i = 0; i < names.size(); ++i) folder_.rename(own[i], names[i]);
     store_tile(t);
-    std::filesystem::remove(file(t, ".points"));
+    mine.finished = true;
+    if (task_.options.shared) return;  // others may weld it, too
+    for (std::size_t r = 0; r < mine.points.size(); ++r)
+        std::filesystem::remove(points_file(t, r));
 }
 
 void tile_steps::weld_held(std::size_t t, tile_files& files) {

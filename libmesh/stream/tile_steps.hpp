@@ -13,6 +13,7 @@
 #include <libmesh/weld/tile_weld.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -42,34 +43,54 @@ struct tile_task {
 
 /// What the tiles and their borders say of the whole cloud.
 struct tiles_welded {
-    tiles_welded(std::uint64_t points, weld_rule rule, double tolerance,
-                 const weld::agreement& agree)
-        : kept(points), border(rule, tolerance, agree) {}
+    tiles_welded(double tolerance, const weld::agreement& agree) : border(tolerance, agree) {}
 
-    kept_points kept;                       ///< by number in the files
+    share points{};                         ///< of whose fate the process is told
+    kept_points kept{0};                    ///< these, by number in the files
     std::optional<kept_points> followed{};  ///< "dropped" in it: kept with others, if asked for
     border_weld border;                     ///< names the leaders
+    std::uint64_t dropped = 0;              ///< of all points, as are the next two
     std::uint64_t groups = 0;
     double max_displacement = 0.0;
-    std::vector<record_count> drops{};  ///< of each tile, and at the end those of the borders
+    struct file {
+        std::filesystem::path path{};
+        record_count count{};
+    };
+    std::vector<file> drops{};  ///< that the process is told of
+    /// Of a team: those of points that [a] process tells [b] of.
+    std::vector<std::vector<file>> told{};
 };
 
 /// Tiles and their borders know points by their ranks: the places they have in the order that the
 /// rule goes through them. Without an order to ask for, these are their numbers.
 class tile_steps {
   public:
-    tile_steps(pacer& pace, const work_folder& folder, const tile_task& task, joined_points& source,
-               const point_keys& keys);
+    tile_steps(pacer& pace, const work_folder& folder, const tile_task& task, const team& all,
+               joined_points& source, const point_keys& keys);
 
     /// Reads the cloud once; or knows it from an earlier run, whose work will then be continued.
     /// Then says where it will be cut.
     void look();
     [[nodiscard]] const cloud_survey& survey() const { return survey_.cloud; }
+    /// Whether tiles have their points, here or elsewhere.
+    [[nodiscard]] bool has_tiles() { return scattered_ || know(); }
+    /// Whether the folder has tiles, be it of another cloud or of other options.
+    [[nodiscard]] bool has_plan() const;
     /// Reads it again and gives each tile its points.
     void scatter();
     /// Welds the tiles that are not finished.
     void weld_tiles();
+    /// Welds one, unless it is finished. What two processes do at the same time is the same.
+    void weld_one(std::size_t tile);
+    /// \throws stream_error naming a tile that is not finished
+    void check_finished();
     [[nodiscard]] tiles_welded weld_borders();
+    /// Whether each of a team is told of its points, in the order of the files.
+    [[nodiscard]] bool is_divided() const {
+        return !has_order() && task_.options.keep == weld_keep::first && source_.count();
+    }
+    /// Tells the first of a team of all points, and the others of none.
+    void tell_first(tiles_welded& w) const;
 
     /// The kept points that points belong to; asked for one by one, from the first on.
     class leaders {
@@ -78,28 +99,24 @@ class tile_steps {
         [[nodiscard]] std::uint64_t of(std::uint64_t point);
 
       private:
-        struct rank_of_drop {
-            std::uint64_t operator()(const tile_drop& d) const { return d.id; }
-        };
-        using drops = record_merge<tile_drop, rank_of_drop>;
-        [[nodiscard]] static drops by_rank(const tile_steps& steps, const tiles_welded& w);
-        void number(const tile_steps& steps, drops& ranks);
+        void number(const tile_steps& steps, row_merge& ranks);
 
         const border_weld& border_;
-        std::optional<drops> drops_{};
         std::unique_ptr<row_sorter> sorter_{};
-        std::optional<row_merge> rows_{};
+        std::optional<row_merge> drops_{};  ///< points and their leaders
+        bool is_by_number_ = false;         ///< and not by rank
     };
 
     void step_done() const;
     [[nodiscard]] joined_points& source() { return source_; }
+    [[nodiscard]] const team& all() const { return team_; }
     [[nodiscard]] const point_keys& keys() const { return keys_; }
     /// For rows on their way to the disk and back.
     [[nodiscard]] std::uint64_t sorting_memory() const { return task_.options.memory / 8; }
 
   private:
     struct tile {
-        record_count points{};
+        std::vector<record_count> points{};  ///< that each of a team has given it
         std::uint64_t own = 0;
         bool finished = false;
         record_count drops{};
@@ -119,9 +136,12 @@ class tile_steps {
     [[nodiscard]] std::size_t border_width() const {
         return 8 + (rule() == weld_rule::first ? values() : 0);
     }
-    [[nodiscard]] std::uint64_t points_of(const tile& t) const {
-        return t.points.records / point_width();
-    }
+    [[nodiscard]] std::uint64_t points_of(const tile& t) const;
+    [[nodiscard]] std::filesystem::path points_file(std::size_t t, std::size_t part) const;
+    /// Of the points of files, those that a process reads.
+    [[nodiscard]] share read_by(std::size_t rank) const;
+    /// Tiles of a process, which has about as many points as the others.
+    [[nodiscard]] share tiles_of(std::size_t rank) const;
 
     struct cut_sizes;
     [[nodiscard]] tile_cuts plan();
@@ -134,27 +154,41 @@ class tile_steps {
     void set_tolerance();
     void say_plan();
 
+    void share_cuts();
+    [[nodiscard]] bool know();
+    [[nodiscard]] bool load_plan();
     [[nodiscard]] bool take_over();
-    void take_over_tile(std::size_t t);
+    [[nodiscard]] bool find_tile(std::size_t t, bool check);
+    void count_finished();
+    /// With `check`, of what it names, each byte is looked at.
+    [[nodiscard]] bool load_tile(std::size_t t, bool check);
     void store_plan() const;
     void store_tile(std::size_t t) const;
 
     void rank_points();
     void give_points();
-    void check_points(std::uint64_t read);
+    void share_counts(std::uint64_t read, const std::vector<record_count>& given);
     void weld_tile(std::size_t t);
     void weld_held(std::size_t t, tile_files& files);
     void weld_crowded(std::size_t t, tile_files& files);
     template <class Take>
     void each_point_of(std::size_t t, const tile_files& files, const Take& take) const;
     void sort_points(std::size_t t, tile_files& files) const;
+    template <class Take>
+    void each_row_of(std::size_t t, const Take& take) const;
 
-    [[nodiscard]] record_count settle_borders(tiles_welded& w, kept_points& kept) const;
-    void number_kept(const kept_points& by_rank, kept_points& kept) const;
-    [[nodiscard]] longest_move longest_chain_move(const border_weld& border) const;
-    [[nodiscard]] std::vector<record_count> sorted_members(const border_weld& border) const;
-    [[nodiscard]] std::filesystem::path members_file(std::size_t i) const;
+    class border_passes;
+    void tell(tiles_welded& w, kept_points& followed) const;
+    void follow(const tiles_welded& w, kept_points& kept, kept_points& followed) const;
+    void sum_up(tiles_welded& w, const kept_points& kept, const kept_points& followed,
+                longest_move longest) const;
+    [[nodiscard]] kept_points number_kept(const kept_points& by_rank) const;
+    [[nodiscard]] share told_to(std::size_t rank) const;
     [[nodiscard]] row_reader numbers_by_rank() const;
+    static void put_border(weld::tile_result& result, row_writer& to);
+    [[nodiscard]] row_reader border_rows(const std::filesystem::path& path,
+                                         const record_count& count) const;
+    [[nodiscard]] row_merge sorted_drops(const std::vector<tiles_welded::file>& files) const;
 
     [[nodiscard]] std::size_t at_a_time() const;
     [[nodiscard]] std::uint64_t bytes_per_point() const;
@@ -163,17 +197,24 @@ class tile_steps {
     pacer& pace_;
     const work_folder& folder_;
     const tile_task& task_;
+    const team& team_;
     joined_points& source_;
     const point_keys& keys_;
     point_survey survey_{};
     double tolerance_ = 0.0;
-    std::optional<tile_cuts> cuts_{};      ///< until the points are in their tiles
-    record_count numbers_{};               ///< of points by rank, where there is an order
-    std::unique_ptr<row_sorter> ranks_{};  ///< of points by number, for as long as they are given
+    std::optional<tile_cuts> cuts_{};
+    bool scattered_ = false;  ///< the points are in their tiles
+    record_count numbers_{};  ///< of points by rank, where there is an order
+    record_count ranks_{};    ///< of points by number, likewise
     std::vector<tile> tiles_{};
 };
 
+/// Borders as rows, which the values of points follow.
+[[nodiscard]] std::array<std::uint64_t, 8> row_of(const border_point& b);
+[[nodiscard]] border_point border_of(numbers row);
+
 inline constexpr const char* numbers_name = "numbers";  ///< the file of points by rank
+inline constexpr const char* ranks_name = "ranks";      ///< and that of ranks by point
 inline constexpr double bytes_of_border = 100.0;        ///< of a point in the border pass, about
 inline constexpr double bytes_of_cube = 200.0;          ///< of a cube in `crowded_chain`, about
 inline constexpr std::size_t piece = std::size_t{1} << 20;  ///< bytes read or written at a time

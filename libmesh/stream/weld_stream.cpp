@@ -17,6 +17,7 @@ namespace treeform {
 namespace {
 
 namespace fs = std::filesystem;
+using detail::stream::work_folder;
 
 std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o) {
     detail::stream::state_writer state;
@@ -39,9 +40,7 @@ std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o
     }
     state.number(static_cast<std::uint64_t>(o.order));
     state.text(o.order_by);
-    for (const std::uint64_t number :
-         {std::uint64_t{o.relative}, std::uint64_t{o.as_las}, o.memory, o.points_per_tile})
-        state.number(number);
+    for (const bool one : {o.relative, o.as_las}) state.number(one ? 1 : 0);
     return state.bytes();
 }
 
@@ -70,6 +69,12 @@ detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options optio
     return {std::move(inputs), std::move(options), std::move(identity), memory};
 }
 
+work_folder::use use_of(const weld_stream_options& o, const detail::stream::team& all) {
+    if (o.shared) return work_folder::use::shared;
+    if (!all.leads()) all.meet();  // the first one makes the folder
+    return all.leads() ? work_folder::use::alone : work_folder::use::member;
+}
+
 }  // namespace
 
 stream_error::stream_error(reason why, fs::path path, const std::string& text, std::uint64_t needed)
@@ -84,11 +89,27 @@ cloud_outline outline(const cloud_inputs& inputs) {
 struct stream_weld::state {
     state(cloud_inputs inputs, weld_stream_options options)
         : task(task_of(std::move(inputs), std::move(options))),
+          all(task.options.team),
           source(task.inputs, task.options.as_las),
           keys(source.header(), task.options),
           pace(task.options.progress),
-          folder(task.options.folder, "weld"),
-          steps(pace, folder, task, source, keys) {}
+          folder(task.options.folder, "weld", use_of(task.options, all)),
+          steps(pace, folder, task, all, source, keys) {
+        if (all.leads()) all.meet();
+    }
+
+    /// \throws stream_error where there are none
+    void check_tiles() {
+        if (steps.has_tiles()) return;
+        try {
+            const detail::stream::held_alone lock(folder);
+            folder.remove_unused();
+        } catch (const stream_error&) {  // others use it
+        }
+        throw stream_error(
+            stream_error::reason::read, folder.path(),
+            folder.path().string() + ": holds no tiles of this input with these options");
+    }
 
     /// Where the work is cancelled, says so.
     template <class Work>
@@ -103,10 +124,15 @@ struct stream_weld::state {
 
     /// Of what was written, which is another cloud where points are not as they were.
     void count_still_within(const weld_stream_outputs& outputs) {
-        if (!written.welded || outputs.withhold || !outputs.label.empty()) return;
+        if (!outputs.welded || outputs.withhold || !outputs.label.empty()) return;
         written.still_within = 0;
         const weld_stream_options& o = task.options;
-        const bool rounded = written.welded->max_displacement > 0.0;
+        detail::stream::state_writer mine;
+        mine.real(written.welded ? written.welded->max_displacement : 0.0);
+        mine.text(outputs.welded->path.string());
+        detail::stream::state_reader first = all.exchange(mine).front();
+        const bool rounded = first.real() > 0.0;
+        const fs::path path = first.text();
         if (o.keep == weld_keep::first && !rounded) return;
         weld_stream_options again = o;
         again.tolerance = steps.survey().tolerance;
@@ -116,7 +142,8 @@ struct stream_weld::state {
         again.memory = task.memory;
         again.folder += ".again";
         again.step_done = {};
-        const cloud_inputs input{.paths = {outputs.welded->path},
+        again.shared = false;
+        const cloud_inputs input{.paths = {path},
                                  .format = outputs.welded->options.format};
         const weld_stream_result result = weld_stream(input, {}, again);
         if (result.status == status::cancelled) throw detail::stream::cancelled{};
@@ -124,10 +151,12 @@ struct stream_weld::state {
     }
 
     detail::stream::tile_task task;
+    detail::stream::team all;
     detail::stream::joined_points source;
     detail::stream::point_keys keys;
     detail::stream::pacer pace;
-    detail::stream::work_folder folder;
+    work_folder folder;
+    std::optional<detail::stream::held_alone> alone{};  ///< while the tiles of a shared one are made
     detail::stream::tile_steps steps;
     std::optional<detail::stream::tiles_welded> welded{};
     std::optional<detail::stream::kept_rows> rows{};
@@ -137,17 +166,26 @@ struct stream_weld::state {
 
 stream_weld::stream_weld(cloud_inputs inputs, weld_stream_options options)
     : state_(std::make_unique<state>(std::move(inputs), std::move(options))) {
-    detail::stream::remove_leftovers(state_->folder);
+    if (state_->all.leads()) detail::stream::remove_leftovers(state_->folder);
 }
 stream_weld::~stream_weld() = default;
 stream_weld::stream_weld(stream_weld&&) noexcept = default;
 stream_weld& stream_weld::operator=(stream_weld&&) noexcept = default;
 
 status stream_weld::look() {
+    state& s = *state_;
+    if (s.task.options.shared && !s.steps.has_tiles()) {
+        s.alone.emplace(s.folder);
+        if (!s.steps.has_tiles() && s.steps.has_plan())  // else another process was quicker
+            throw stream_error(stream_error::reason::folder, s.folder.path(),
+                               s.folder.path().string() +
+                                   ": holds tiles of another input or of other options, or damaged "
+                                   "ones; remove it first");
+    }
     try {
-        return state::until_cancelled([&] { state_->steps.look(); });
+        return state::until_cancelled([&] { s.steps.look(); });
     } catch (const stream_error& error) {
-        if (error.why() == stream_error::reason::memory) state_->folder.remove_unused();
+        if (error.why() == stream_error::reason::memory && s.all.leads()) s.folder.remove_unused();
         throw;
     }
 }
@@ -155,17 +193,31 @@ status stream_weld::look() {
 const cloud_survey& stream_weld::survey() const { return state_->steps.survey(); }
 
 status stream_weld::scatter() {
-    return state::until_cancelled([&] { state_->steps.scatter(); });
+    const status ended = state::until_cancelled([&] { state_->steps.scatter(); });
+    state_->alone.reset();
+    return ended;
+}
+
+void stream_weld::check_tiles() { state_->check_tiles(); }
+
+status stream_weld::weld_tile(std::size_t tile) {
+    state_->check_tiles();
+    return state::until_cancelled([&] { state_->steps.weld_one(tile); });
 }
 
 status stream_weld::weld() {
     return state::until_cancelled([&] {
         state& s = *state_;
-        s.steps.weld_tiles();
+        if (s.task.options.shared) {
+            s.check_tiles();
+            s.steps.check_finished();
+        } else {
+            s.steps.weld_tiles();
+        }
         s.welded.emplace(s.steps.weld_borders());
-        if (s.task.options.keep != weld_keep::first)
+        if (s.task.options.keep != weld_keep::first && s.all.leads())
             s.rows.emplace(s.pace, s.folder, s.task, s.steps, *s.welded);
-        s.counts = {survey().points - s.welded->kept.dropped(), s.welded->groups,
+        s.counts = {survey().points - s.welded->dropped, s.welded->groups,
                     s.welded->max_displacement};
     });
 }
@@ -183,7 +235,10 @@ status stream_weld::write(const weld_stream_outputs& outputs) {
 
 const weld_stream_written& stream_weld::written() const { return state_->written; }
 
-void stream_weld::remove_folder() { state_->folder.remove(); }
+void stream_weld::remove_folder() {
+    state_->all.meet();
+    if (state_->all.leads()) state_->folder.remove();
+}
 
 weld_stream_result weld_stream(const cloud_inputs& inputs, const weld_stream_outputs& outputs,
                                const weld_stream_options& options) {

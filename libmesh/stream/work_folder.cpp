@@ -58,6 +58,7 @@ work_folder::work_folder(fs::path path, const std::string& job, use how)
 }
 
 void work_folder::hold(use how) {
+    if (how == use::member) return;
     const auto try_to = [this](use wanted) {
         return ::flock(lock_, (wanted == use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0;
     };
@@ -66,6 +67,13 @@ void work_folder::hold(use how) {
         refuse(reason::folder_in_use, path_, "is in use by another process");
     }
     how_ = how;
+}
+
+held_alone::~held_alone() {
+    try {
+        folder_.hold(work_folder::use::shared);
+    } catch (const stream_error&) {  // another process has it now; what is next will say so
+    }
 }
 
 std::string work_folder::own_name(const std::string& name) {

@@ -4,6 +4,7 @@
 
 #include <libmesh/stream/state_record.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,7 +15,7 @@ namespace treeform::detail::stream {
 /// call can go on.
 class work_folder {
   public:
-    enum class use : bool { alone, shared };
+    enum class use : std::uint8_t { alone, shared, member };  ///< of a team, whose first one holds it
 
     /// Makes the folder, or takes over what an earlier run has left. `job` is one word for what is
     /// done there.
@@ -51,6 +52,20 @@ class work_folder {
     std::filesystem::path path_;
     int lock_ = -1;
     use how_ = use::alone;
+};
+
+/// Holds a shared folder alone for its life.
+class held_alone {
+  public:
+    explicit held_alone(work_folder& folder) : folder_(folder) {
+        folder.hold(work_folder::use::alone);
+    }
+    ~held_alone();
+    held_alone(const held_alone&) = delete;
+    held_alone& operator=(const held_alone&) = delete;
+
+  private:
+    work_folder& folder_;
 };
 
 }  // namespace treeform::detail::stream

@@ -16,17 +16,18 @@ struct chain_component {
 };
 
 inline void settle_in_chain(const tile_point& p, const chain_component& c, tile_result& out) {
-    const bool first = p.id() == c.lowest;
     if (p.role() != tile_role::halo) {
-        if (!first) out.dropped.push_back({p.id(), c.lowest});
+        if (p.id() != c.lowest) out.dropped.push_back({p.id(), c.lowest});
         if (c.elsewhere)
-            out.members.push_back(tile_member::make(c.lowest, first, p.at));
+            out.members.push_back({p.at, c.lowest, c.at});
         else
             out.move.consider(p.at, c.at);
     }
     if (p.role() == tile_role::own) return;
     border_point link = border_point::make(p.id(), border_kind::link);
+    link.at = p.at;
     link.leader = c.lowest;
+    link.leader_at = c.at;
     out.border.push_back(link);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace treeform::detail::weld {
 namespace {
@@ -60,6 +61,11 @@ tile_cuts::tile_cuts(points_view sample, double tolerance, std::size_t count)
     split(points, count);
 }
 
+tile_cuts::tile_cuts(std::vector<node> nodes, double tolerance)
+    : tolerance_(tolerance), nodes_(std::move(nodes)) {
+    for (const node& n : nodes_) size_ += n.direction == leaf ? 1 : 0;
+}
+
 /// Below the cut are half of the tiles, and as large a share of the points.
 std::uint32_t tile_cuts::split(std::span<point3> sample, std::size_t count) {
     const auto mine = static_cast<std::uint32_t>(nodes_.size());
@@ -87,7 +93,7 @@ std::uint32_t tile_cuts::split(std::span<point3> sample, std::size_t count) {
             const auto below = static_cast<std::size_t>(above - sample.begin());
             split(sample.first(below), count / 2);
             const std::uint32_t other = split(sample.subspan(below), count - count / 2);
-            nodes_[mine] = {k, cut, other};
+            nodes_[mine] = {k, other, cut};
             return mine;
         }
     }

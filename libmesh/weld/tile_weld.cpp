@@ -33,10 +33,10 @@ struct remembered {
     void stand() { tag |= 2; }
 };
 
-/// The rule first inside a tile.
-class first_in_tile {
+/// The rule first, of the points of a tile or of the borders of some.
+class first_pass {
   public:
-    first_in_tile(double tolerance, const agreement& agree)
+    first_pass(double tolerance, const agreement& agree)
         : agree_(agree),
           within_(tolerance),
           // Where 1.26 tolerances leave the doubles, open points stand for equal ones only.
@@ -60,39 +60,68 @@ class first_in_tile {
                 cells_.prefetch(points[i + 2 * ahead].at, salt(i + 2 * ahead));
             if (i + ahead < points.size())
                 cells_.prefetch_entry(points[i + ahead].at, salt(i + ahead));
-            add({points[i], values.data() + i * agree_.size(), salt(i)}, out);
+            const tile_point& p = points[i];
+            add({.id = p.id(),
+                 .at = p.at,
+                 .values = values.data() + i * agree_.size(),
+                 .salt = salt(i),
+                 .own = p.role() != tile_role::halo,
+                 .shared = p.role() == tile_role::shared},
+                out);
         }
+    }
+
+    void add(const border_point& p, std::span<const std::uint64_t> values, bool outer,
+             tile_result& out) {
+        const arrival a{.id = p.id(),
+                        .at = p.at,
+                        .values = values.data(),
+                        .salt = agree_.salt(values.data()),
+                        .shared = outer,
+                        .unsure = outer,
+                        .leaning = p.kind() == border_kind::leaning ? &p : nullptr};
+        if (p.kind() == border_kind::kept)
+            keep(a, out);
+        else
+            add(a, out);
     }
 
   private:
     static constexpr double largest = 0x1p1000;
 
     struct arrival {
-        const tile_point& point;
+        std::uint64_t id;
+        const point3& at;
         const std::uint64_t* values;
         std::uint64_t salt;
+        bool own = true;
+        bool shared = false;  ///< others have to know of it
+        bool unsure = false;  ///< some of its neighbors may be unknown here
+        const border_point* leaning = nullptr;
     };
 
     void add(const arrival& a, tile_result& out) {
-        const tile_point& p = a.point;
-        const bool own = p.role() != tile_role::halo;
         const neighbors around = look(a);
         if (around.kept.any()) {
-            if (own) drop(a, around, out);
-        } else if (!own || around.some_open) {
-            if (own) put(at(p, border_kind::open), a, out);
+            if (a.own) drop(a, around, out);
+        } else if (!a.own || a.unsure || around.some_open) {
+            if (a.own) put(at(a, border_kind::open), a, out);
             if (around.covering != nullptr)
                 around.covering->stand();
             else
                 remember(a, true);
         } else {
-            if (p.role() == tile_role::shared) put(at(p, border_kind::kept), a, out);
-            remember(a, false);
+            keep(a, out);
         }
     }
 
+    void keep(const arrival& a, tile_result& out) {
+        if (a.shared) put(at(a, border_kind::kept), a, out);
+        remember(a, false);
+    }
+
     void remember(const arrival& a, bool open) {
-        cells_.add(remembered::make(a.point.id(), a.point.at, open), a.salt);
+        cells_.add(remembered::make(a.id, a.at, open), a.salt);
         values_.insert(values_.end(), a.values, a.values + agree_.size());
     }
     void put(const border_point& b, const arrival& a, tile_result& out) const {
@@ -109,8 +138,9 @@ class first_in_tile {
     };
 
     neighbors look(const arrival& a) {
-        const point3& p = a.point.at;
+        const point3& p = a.at;
         neighbors found{nearest_kept(p), nearest_kept(p), infinity, false, nullptr};
+        if (a.leaning != nullptr) found.kept.consider(a.leaning->leader, a.leaning->leader_at);
         cells_.visit(p, a.salt, [&](remembered& q, std::size_t number) {
             const std::uint64_t* const values = values_.data() + number * agree_.size();
             if (!q.open()) {
@@ -132,14 +162,13 @@ class first_in_tile {
     }
 
     void drop(const arrival& a, const neighbors& around, tile_result& out) const {
-        const tile_point& p = a.point;
         const nearest_kept& kept = around.kept;
-        if (!open_may_precede(p.at, around)) {
-            out.dropped.push_back({p.id(), kept.id()});
-            out.move.consider(p.at, kept.at());
+        if (!a.unsure && !open_may_precede(a.at, around)) {
+            out.dropped.push_back({a.id, kept.id()});
+            out.move.consider(a.at, kept.at());
             return;
         }
-        border_point leaning = at(p, border_kind::leaning);
+        border_point leaning = at(a, border_kind::leaning);
         leaning.leader = kept.id();
         leaning.leader_at = kept.at();
         put(leaning, a, out);
@@ -159,9 +188,9 @@ class first_in_tile {
                std::sqrt(kept) * (1.0 + 0x1p-40);
     }
 
-    [[nodiscard]] static border_point at(const tile_point& p, border_kind kind) {
-        border_point b = border_point::make(p.id(), kind);
-        b.at = p.at;
+    [[nodiscard]] static border_point at(const arrival& a, border_kind kind) {
+        border_point b = border_point::make(a.id, kind);
+        b.at = a.at;
         return b;
     }
 
@@ -236,47 +265,54 @@ class chain_in_tile {
     std::size_t next_ = 0;
 };
 
-/// Sets of numbers; each is known by its lowest.
-class sparse_sets {
+/// Sets of numbers; each is known by its lowest, and where that is.
+class lowest_points {
   public:
-    void join(std::uint64_t a, std::uint64_t b) {
-        if (a == b) return;
-        a = shorten(a);
-        b = shorten(b);
-        if (a != b) above_[std::max(a, b)] = std::min(a, b);
+    struct place {
+        std::uint64_t id = 0;
+        point3 at{};
+    };
+
+    void join(const place& a, const place& b) {
+        const place x = shorten(a);
+        const place y = shorten(b);
+        if (x.id != y.id) above_[std::max(x.id, y.id)] = x.id < y.id ? x : y;
     }
-    [[nodiscard]] std::uint64_t lowest(std::uint64_t a) const {
-        for (auto up = above_.find(a); up != above_.end(); up = above_.find(a)) a = up->second;
+    [[nodiscard]] place lowest(place a) const {
+        for (auto up = above_.find(a.id); up != above_.end(); up = above_.find(a.id))
+            a = up->second;
         return a;
     }
     /// All that are not lowest, ascending, each with its lowest.
-    [[nodiscard]] std::vector<tile_drop> flatten() {
-        std::vector<tile_drop> all;
+    [[nodiscard]] std::vector<border_point> flatten() {
+        std::vector<std::uint64_t> all;
         all.reserve(above_.size());
-        for (const auto& [id, up] : above_) all.push_back({id, up});
-        std::sort(all.begin(), all.end(),
-                  [](const tile_drop& a, const tile_drop& b) { return a.id < b.id; });
-        for (tile_drop& d : all) {  // what is above has been flattened
-            const auto up = above_.find(d.leader);
-            if (up != above_.end()) d.leader = up->second;
-            above_[d.id] = d.leader;
+        for (const auto& up : above_) all.push_back(up.first);
+        std::sort(all.begin(), all.end());
+        std::vector<border_point> links;
+        links.reserve(all.size());
+        for (const std::uint64_t id : all) {
+            const place top = shorten({id, {}});
+            links.push_back(border_point::make(id, border_kind::link));
+            links.back().leader = top.id;
+            links.back().leader_at = top.at;
         }
-        return all;
+        return links;
     }
 
   private:
     /// As `lowest`, and hangs what is on the way directly below it.
-    std::uint64_t shorten(std::uint64_t a) {
-        const std::uint64_t top = lowest(a);
-        for (auto up = above_.find(a); up != above_.end(); up = above_.find(a)) {
+    place shorten(place a) {
+        const place top = lowest(a);
+        for (auto up = above_.find(a.id); up != above_.end(); up = above_.find(a.id)) {
             a = up->second;
             up->second = top;
-            if (a == top) break;
+            if (a.id == top.id) break;
         }
         return top;
     }
 
-    std::unordered_map<std::uint64_t, std::uint64_t> above_{};
+    std::unordered_map<std::uint64_t, place> above_{};
 };
 
 }  // namespace
@@ -298,7 +334,7 @@ double longest_move::length() const {
 
 struct tile_weld::state {
     agreement agree{};
-    std::optional<first_in_tile> first{};
+    std::optional<first_pass> first{};
     std::optional<chain_in_tile> chain{};
 };
 
@@ -331,43 +367,15 @@ bool tile_weld::finish(tile_result& out) { return state_->chain && state_->chain
 
 struct border_weld::state {
     state(double tolerance, agreement asked)
-        : agree(std::move(asked)), within(tolerance), kept(tolerance, agree.size() > 0) {}
-
-    void settle(const border_point& p, const std::uint64_t* of_point, std::vector<tile_drop>& out) {
-        nearest_kept found(p.at);
-        const std::uint64_t salt = agree.salt(of_point);
-        if (p.kind() == border_kind::leaning) found.consider(p.leader, p.leader_at);
-        if (p.kind() != border_kind::kept)
-            kept.visit(p.at, salt, [&](const remembered& q, std::size_t number) {
-                if (within.holds(p.at, q.at) &&
-                    agree.holds(of_point, values.data() + number * agree.size()))
-                    found.consider(q.id(), q.at);
-            });
-        if (found.any()) {
-            out.push_back({p.id(), found.id()});
-            move.consider(p.at, found.at());
-        } else {
-            kept.add(remembered::make(p.id(), p.at, false), salt);
-            values.insert(values.end(), of_point, of_point + agree.size());
-        }
-    }
-
-    /// Links of one point come one after the other.
-    void join(const border_point& p) {
-        if (last_link && last_link->id() == p.id()) sets.join(last_link->leader, p.leader);
-        last_link = p;
-    }
+        : agree(std::move(asked)), first(tolerance, agree) {}
 
     agreement agree;
-    reach within;
-    near_cells<remembered> kept;
-    std::vector<std::uint64_t> values{};  ///< of those
-    longest_move move{};
+    first_pass first;
     std::optional<border_point> last_link{};
-    sparse_sets sets{};
+    lowest_points sets{};
 };
 
-border_weld::border_weld(weld_rule, double tolerance, agreement agree) {
+border_weld::border_weld(double tolerance, agreement agree) {
     check_tolerance("border_weld", tolerance);
     state_ = std::make_unique<state>(tolerance, std::move(agree));
 }
@@ -375,36 +383,36 @@ border_weld::~border_weld() = default;
 border_weld::border_weld(border_weld&&) noexcept = default;
 border_weld& border_weld::operator=(border_weld&&) noexcept = default;
 
-void border_weld::add(std::span<const border_point> points, std::vector<tile_drop>& out,
-                      std::span<const std::uint64_t> values) {
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (points[i].kind() == border_kind::link)
-            state_->join(points[i]);
-        else
-            state_->settle(points[i], values.data() + i * state_->agree.size(), out);
+void border_weld::add(const border_point& p, std::span<const std::uint64_t> values, bool outer,
+                      tile_result& out) {
+    if (p.kind() != border_kind::link) return state_->first.add(p, values, outer, out);
+    // Links of one point come one after the other.
+    std::optional<border_point>& last = state_->last_link;
+    if (last && last->id() == p.id())
+        state_->sets.join({last->leader, last->leader_at}, {p.leader, p.leader_at});
+    last = p;
 }
 
-void border_weld::finish(std::vector<tile_drop>& out) {
-    const std::vector<tile_drop> joined = state_->sets.flatten();
-    out.insert(out.end(), joined.begin(), joined.end());
+std::vector<border_point> border_weld::joined() { return state_->sets.flatten(); }
+
+border_point border_weld::handed_on(const border_point& link) const {
+    border_point settled = link;
+    const auto lowest = state_->sets.lowest({link.leader, link.leader_at});
+    settled.leader = lowest.id;
+    settled.leader_at = lowest.at;
+    return settled;
+}
+
+void border_weld::join(const border_point& link) {
+    state_->sets.join({link.id(), {}}, {link.leader, link.leader_at});
 }
 
 std::uint64_t border_weld::leader_of(std::uint64_t leader) const {
-    return state_->sets.lowest(leader);
+    return state_->sets.lowest({leader, {}}).id;
 }
 
-tile_member border_weld::settled(const tile_member& member) const {
-    const std::uint64_t lowest = leader_of(member.lowest());
-    return tile_member::make(lowest, member.is_lowest() && lowest == member.lowest(), member.at);
-}
-
-const longest_move& border_weld::move() const { return state_->move; }
-
-void chain_moves::add(const tile_member& member) {
-    if (member.is_lowest())
-        lowest_ = member.at;
-    else
-        move_.consider(member.at, lowest_);
+void border_weld::measure(const tile_member& member, longest_move& longest) const {
+    longest.consider(member.at, state_->sets.lowest({member.lowest, member.lowest_at}).at);
 }
 
 }  // namespace treeform::detail::weld

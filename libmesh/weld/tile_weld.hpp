@@ -34,7 +34,16 @@
 /// the cloud is one of tiles' components that share points, and shared are points of a tile that
 /// are in the halo of another: the border pass joins what they name. How far its points are from
 /// the lowest is known to no tile before; a tile names the points of components that may be larger,
-/// each with the lowest it knows of, and `chain_moves` measures when all are brought together.
+/// each with the lowest it knows of, and they are measured when all are brought together.
+///
+/// The border pass may be taken in parts: one for some tiles each, and then one for what some of
+/// these passes leave. A point is outer to a pass when it is in a tile that is not among its own,
+/// or in the halo of one. With the rule first, a pass is to its tiles' points what a tile is to its
+/// own, but it knows nothing of what is beyond its tiles: so it calls an outer point that no kept
+/// one drops open, lets an outer one that is dropped lean, and hands on both, what is open because
+/// of them, what may change sides to such, and outer kept ones. A pass with no outer points leaves
+/// none. With the rule chain, a pass hands on the links of outer points, with the lowest of what it
+/// has joined.
 
 #include <libmesh/weld/agreement.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -61,17 +70,21 @@ class TREEFORM_API tile_cuts {
 
     [[nodiscard]] std::size_t size() const { return size_; }
 
+    struct node {
+        std::uint32_t direction = leaf;
+        std::uint32_t above = 0;  ///< node; the one below is the next. Of a leaf: the tile
+        double cut = 0.0;         ///< places from here on are above
+    };
+    /// What makes other cuts the same.
+    [[nodiscard]] std::span<const node> nodes() const { return nodes_; }
+    tile_cuts(std::vector<node> nodes, double tolerance);
+
     /// The tile that the point is in. The others whose halo it is in replace the content of `halos`.
     ///
     /// \pre `p` is finite
     [[nodiscard]] std::uint32_t find(const point3& p, std::vector<std::uint32_t>& halos) const;
 
   private:
-    struct node {
-        std::uint32_t direction = leaf;
-        double cut = 0.0;         ///< places from here on are above
-        std::uint32_t above = 0;  ///< node; the one below is the next. Of a leaf: the tile
-    };
     static constexpr std::uint32_t leaf = 3;
 
     std::uint32_t split(std::span<point3> sample, std::size_t count);
@@ -129,16 +142,11 @@ struct border_point {
     [[nodiscard]] border_kind kind() const { return static_cast<border_kind>(tag & 3); }
 };
 
-/// A point of a component that is in several tiles, with the rule chain.
+/// A point of a component that may be in several tiles, with the rule chain.
 struct tile_member {
-    std::uint64_t tag = 0;  ///< number of the component's lowest point * 2 + 1; * 2 when it is that
     point3 at{};
-
-    [[nodiscard]] static tile_member make(std::uint64_t lowest, bool is_lowest, const point3& at) {
-        return {lowest << 1 | (is_lowest ? 0U : 1U), at};
-    }
-    [[nodiscard]] std::uint64_t lowest() const { return tag >> 1; }
-    [[nodiscard]] bool is_lowest() const { return (tag & 1) == 0; }
+    std::uint64_t lowest = 0;  ///< that the tile knows of the component
+    point3 lowest_at{};
 };
 
 /// The longest way from a dropped point to its leader.
@@ -198,47 +206,41 @@ class TREEFORM_API tile_weld {
     std::unique_ptr<state> state_;
 };
 
-/// The border pass: what the `border` of all tiles leads to.
+/// A border pass: what the `border` of tiles leads to.
 class TREEFORM_API border_weld {
   public:
     /// \throws std::invalid_argument for a tolerance that is negative or not finite
-    border_weld(weld_rule rule, double tolerance, agreement agree = {});
+    explicit border_weld(double tolerance, agreement agree = {});
     ~border_weld();
     border_weld(border_weld&&) noexcept;
     border_weld& operator=(border_weld&&) noexcept;
 
-    /// Takes the next points, whose numbers ascend over all calls and tiles (those of links may be
-    /// equal), and appends those that are dropped. Only kept points and linked components take
-    /// memory, some 60 and 100 bytes each.
-    void add(std::span<const border_point> points, std::vector<tile_drop>& out,
-             std::span<const std::uint64_t> values = {});
+    /// Takes the next point, whose numbers ascend over all calls and tiles (those of links may be
+    /// equal), and appends what it leads to: with the rule first a drop, or what the next pass has
+    /// to know. Only kept points, open ones, and linked components take memory, some 60 bytes each,
+    /// and 100 for a component.
+    ///
+    /// \pre `outer` is true if the point is, and `values` are those of the agreement
+    void add(const border_point& p, std::span<const std::uint64_t> values, bool outer,
+             tile_result& out);
 
-    /// The end; call it once, after which the rest holds. For the rule chain it appends points that
-    /// may be in a tile's `dropped` as well, with a leader that comes to the same.
-    void finish(std::vector<tile_drop>& out);
+    /// The end for the rule chain: links from what has been joined to the lowest, by ascending
+    /// numbers. Such a number is that of a dropped point, which may be in a tile's `dropped` as
+    /// well, with a leader that comes to the same.
+    [[nodiscard]] std::vector<border_point> joined();
+    /// The link with the lowest of what has been joined, as it is handed on.
+    [[nodiscard]] border_point handed_on(const border_point& link) const;
+    /// Takes what another pass has `joined`.
+    void join(const border_point& link);
 
     /// The kept point that the leader named by a tile belongs to; itself with the rule first.
     [[nodiscard]] std::uint64_t leader_of(std::uint64_t leader) const;
-    /// What a tile says of a point, with the lowest of the whole component.
-    [[nodiscard]] tile_member settled(const tile_member& member) const;
-
-    /// Of the points dropped here, with the rule first.
-    [[nodiscard]] const longest_move& move() const;
+    /// Considers the way from a member to the lowest point of its whole component.
+    void measure(const tile_member& member, longest_move& longest) const;
 
   private:
     struct state;
     std::unique_ptr<state> state_;
-};
-
-/// The longest move of settled members, whose tags ascend over all calls.
-class TREEFORM_API chain_moves {
-  public:
-    void add(const tile_member& member);
-    [[nodiscard]] const longest_move& move() const { return move_; }
-
-  private:
-    point3 lowest_{};
-    longest_move move_{};
 };
 
 }  // namespace treeform::detail::weld

@@ -42,6 +42,7 @@ HOME_OF_PACKAGE = {
     r"assimp/": "libmesh/io/",
     r"(pugixml|pugiconfig|minizip/|zlib\.h|zconf\.h)": "libmesh/io/",
     r"Eigen/": "libmesh/place/",
+    r"mpi\.h": "tools/mpi/mpi_team.cpp",
     r"openssl/": "tools/common/sha256.cpp",
     r"(CGAL/|gmp|mpfr)": "tests/",
 }

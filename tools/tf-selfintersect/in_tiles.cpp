@@ -49,7 +49,7 @@ bool needs_tiles(job& work, const search_settings& settings, const tile_options&
                  bool changes_mesh) {
     // By measure: of faces, points and tree in memory, for each byte of a file.
     constexpr std::uint64_t bytes_per_byte = 4;
-    const bool asked = tiles.per_tile > 0 || tiles.is_shared();
+    const bool asked = tiles.is_asked();
     const std::uint64_t allowed =
         work.options.memory > 0 ? work.options.memory : tf::default_memory();
     std::error_code error;

@@ -165,7 +165,7 @@ exit_status look_at(tools::job& work, const request& r) {
     tf::mesh_file file;
     tools::findings result;
     if (tools::needs_tiles(work, r.search, r.tiles, keeps_mesh)) {
-        if (r.tiles.is_shared() && !r.tiles.finish) {
+        if (r.tiles.is_part()) {
             tools::share_search(work, r.search, r.tiles);
             return tools::done;
         }

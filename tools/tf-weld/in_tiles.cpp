@@ -46,10 +46,13 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
     options.order = asked.order;
     options.order_by = asked.order_by;
     const auto path = mesh_output(work.options, work.path);
-    options.as_las = path && form_of(work, header, *path).is_las();
+    const std::string& format = work.options.output_format;
+    options.as_las = path ? form_of(work, header, *path).is_las() : format == "las" || format == "laz";
     options.memory = work.options.memory;
     options.folder = folder_for(work, request, tiles);
     options.points_per_tile = tiles.per_tile;
+    options.shared = tiles.is_shared();
+    options.team = tiles.team;
     options.progress = [&work](std::string_view step, double share) {
         return work.progress(step)(share);
     };
@@ -113,16 +116,25 @@ void say_plan(job& work, const tf::cloud_survey& survey, const fs::path& folder)
 /// Files as asked for, each in a place of its own until all are whole.
 class stream_files {
   public:
-    stream_files(job& work, const weld_request& request, const tf::mesh_file& header)
-        : work_(work), request_(request), asked_(request.outputs), outputs_(work) {
+    stream_files(job& work, const weld_request& request, const tile_options& tiles,
+                 const tf::mesh_file& header)
+        : work_(work),
+          request_(request),
+          tiles_(tiles),
+          asked_(request.outputs),
+          outputs_(work) {
         const common_options& o = work.options;
+        // Of a team, the first one has the files.
+        const auto add = [&](const fs::path& path, bool force) {
+            return leads() ? outputs_.add(path, force) : path;
+        };
         if (!asked_.map.empty()) open_map();
         if (!asked_.removed.empty() && !o.dry_run)
-            to_.removed = {outputs_.add(asked_.removed, o.force),
+            to_.removed = {add(asked_.removed, o.force),
                            write_options_for(o, {check_points_format(asked_.removed), o.ascii})};
         path_ = o.dry_run ? std::nullopt : mesh_output(o, work.path);
         if (path_)
-            to_.welded = {outputs_.add(*path_, o.force || o.in_place),
+            to_.welded = {add(*path_, o.force || o.in_place),
                           write_options_for(o, form_of(work, header, *path_))};
         to_.label = asked_.label;
         to_.withhold = asked_.withhold;
@@ -136,15 +148,19 @@ class stream_files {
         } catch (const tf::io_error& error) {
             throw failure(bad_output, "output", outputs_.said_of_paths(error.what()));
         }
-        enter(weld.written());
+        if (leads()) enter(weld.written());
         const job::timer timing = work_.time("write");
         if (map_) map_->commit();
         outputs_.commit();
-        weld.remove_folder();
+        if (!tiles_.finish) weld.remove_folder();
     }
 
   private:
+    [[nodiscard]] bool leads() const { return tiles_.team.rank == 0; }
+
     void open_map() {
+        to_.map = [](auto) {};
+        if (!leads()) return;
         map_.emplace(asked_.map, work_.options.force, work_.keeper);
         const bool as_csv = map_is_csv(asked_.map);
         if (as_csv) map_->write(map_heading);
@@ -165,6 +181,7 @@ class stream_files {
 
     job& work_;
     const weld_request& request_;
+    const tile_options& tiles_;
     const weld_outputs& asked_;
     pending_outputs outputs_;
     std::optional<fs::path> path_{};
@@ -185,6 +202,20 @@ welding in_words_of_memory(const tf::cloud_survey& survey, const tf::weld_stream
     return w;
 }
 
+tf::status weld_tile(job& work, tf::stream_weld& weld, std::uint64_t tile) {
+    weld.check_tiles();
+    const std::size_t tiles = weld.survey().tiles;
+    if (tile >= tiles)
+        throw failure(bad_usage, "usage",
+                      "--tile " + std::to_string(tile) + ": there are only " +
+                          counted(tiles, "tile", "tiles"));
+    const tf::status ended = weld.weld_tile(tile);
+    if (ended == tf::status::ok)
+        work.out.result(work.name + ": tile " + std::to_string(tile) + " of " + grouped(tiles) +
+                        " done");
+    return ended;
+}
+
 }  // namespace
 
 fs::path folder_for(const job& work, const weld_request& request, const tile_options& tiles) {
@@ -196,16 +227,24 @@ fs::path folder_for(const job& work, const weld_request& request, const tile_opt
 exit_status weld_in_tiles(job& work, const weld_request& request, const tile_options& tiles,
                           const tf::cloud_inputs& inputs, const tf::mesh_file& header) {
     enter_blank_report(work, request);
-    check_outputs(work, {request.outputs.map}, {request.outputs.removed});
+    const bool leads = tiles.team.rank == 0;
+    if (leads) check_outputs(work, {request.outputs.map}, {request.outputs.removed});
     check_formats(work, request, header);
     const tf::weld_stream_options options = library_options(work, request, tiles, header);
     std::optional<tf::stream_weld> weld;
     try {
         static_cast<void>(tf::weld_conditions(header.attributes, false, request.settings.options));
-        take(work, "read", [&] { return weld.emplace(inputs, options).look(); });
+        if (tiles.team.size > 1 && leads) tiles.team.exchange({});
+        take(work, "read", [&] {
+            weld.emplace(inputs, options);
+            if (tiles.tile) return weld_tile(work, *weld, *tiles.tile);
+            if (tiles.finish) weld->check_tiles();
+            return weld->look();
+        });
     } catch (const tf::weld_property_error& error) {
         throw property_failure(error, header.attributes);
     }
+    if (tiles.tile) return done;
     const tf::cloud_survey& survey = weld->survey();
     say_of_earlier_work(work, survey, options.folder);
     enter_sources(work, survey, inputs);
@@ -214,6 +253,11 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
         throw failure(bad_input, "label", work.name + ": too many points for --label");
     say_plan(work, survey, options.folder);
     take(work, "read", [&] { return weld->scatter(); });
+    if (tiles.plan) {
+        work.out.result(work.name + ": " + counted(survey.tiles, "tile", "tiles") + " in " +
+                        options.folder.string());
+        return done;
+    }
     take(work, "weld", [&] { return weld->weld(); });
 
     const welding w = in_words_of_memory(survey, weld->counts());
@@ -222,7 +266,7 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
     enter_report(work, w, request);
     work.entry["polygons"] = {{"in", 0}, {"out", 0}};
     warn_of_defects(work, w);
-    stream_files(work, request, header).write(*weld);
+    stream_files(work, request, tiles, header).write(*weld);
     return request.outputs.check && w.removed() > 0 ? found : done;
 }
 

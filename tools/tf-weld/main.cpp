@@ -8,6 +8,7 @@
 #include "tools/tf-weld/out_of_core.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/settings.hpp"
+#include "tools/tiles/team.hpp"
 #include <treeform/tf.hpp>
 
 namespace {
@@ -124,13 +125,13 @@ void check_what_is_marked(const weld_outputs& outputs, const weld_settings& s,
 }
 
 void check_request(const command_line& line, const tools::weld_request& r,
-                   const common_options& o) {
+                   const tools::tile_options& tiles, const common_options& o) {
     const bool mesh = tools::wants_mesh(o);
     const weld_outputs& outputs = r.outputs;
     if (outputs.check && (mesh || !outputs.removed.empty()))
         refuse("--check only counts; it excludes -o, --output-dir, --in-place and --removed");
-    if (!outputs.check) tools::require_output(line, o, "--check only counts");
-    if (!mesh && (!o.output_format.empty() || o.precision != "keep"))
+    if (!outputs.check && !tiles.is_part()) tools::require_output(line, o, "--check only counts");
+    if (!mesh && !tiles.is_part() && (!o.output_format.empty() || o.precision != "keep"))
         refuse("--output-format and --precision need -o, --output-dir or --in-place");
     if (!mesh && outputs.removed.empty() && (o.ascii || o.binary))
         refuse("--ascii and --binary need an output that they apply to");
@@ -143,16 +144,15 @@ void check_request(const command_line& line, const tools::weld_request& r,
         refuse("--order says which point stays; it excludes --keep " +
                tools::keep_in_words(options));
     check_what_is_marked(outputs, r.settings, o);
+    tools::check_tile_options(tiles, line, o);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv, const tf::weld_team& team) {
     command_line line("tf-weld", "[OPTIONS] INPUT...",
                       "Merge points or mesh vertices that lie within a distance of each other.\n"
                       "Point clouds stay point clouds; meshes are re-indexed.");
     tools::weld_request r;
-    tools::tile_options tiles;
+    tools::tile_options tiles{.team = team};
     common_options options;
     options.suffix = "-weld";
     bool exact = true;
@@ -176,6 +176,7 @@ int main(int argc, char** argv) {
     tools::add_tile_options(line, tiles,
                             "Clouds larger than --memory are welded in tiles on the disk",
                             "--tile-points");
+    tools::add_sharing_options(line, tiles);
     line.group("Common options");
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf", "pcd",
@@ -184,6 +185,30 @@ int main(int argc, char** argv) {
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "weld", "write"}, argc, argv,
-        [&] { check_request(line, r, options); },
-        [&](tools::job& work) { return tools::weld_somewhere(work, r, tiles); });
+        [&] {
+            if (team.rank > 0) {
+                options.quiet = true;  // the first one speaks for all
+                options.report.clear();
+            }
+            try {
+                check_request(line, r, tiles, options);
+            } catch (const tools::failure&) {
+                tools::let_first_speak(team);
+                throw;
+            }
+        },
+        [&](tools::job& work) {
+            try {
+                return tools::weld_somewhere(work, r, tiles);
+            } catch (...) {
+                tools::let_first_speak(team);
+                throw;
+            }
+        });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return tools::run_in_team([&](const tf::weld_team& team) { return run(argc, argv, team); });
 }

@@ -96,16 +96,20 @@ exit_status weld_mesh(job& work, const weld_request& request, std::uint64_t size
 
 exit_status weld_files(job& work, const weld_request& request, const tile_options& tiles,
                        const tf::cloud_inputs& inputs) {
-    const bool asked = tiles.per_tile > 0;
+    const bool asked = tiles.is_asked();
     const std::uint64_t allowed =
         work.options.memory > 0 ? work.options.memory : tf::default_memory();
     const std::uint64_t size = size_of(inputs);
+    if (tiles.team.rank > 0) tiles.team.exchange({});  // until the first one has looked
     if (size == 0 || (!asked && size < allowed / 64)) return weld_in_memory(work, request);
     std::optional<tf::cloud_outline> cloud;
     {
         const job::timer timing = work.time("read");
         cloud = cloud_at(inputs);
     }
+    if (!cloud && asked && tiles.per_tile == 0)
+        throw failure(bad_input, "read",
+                      work.name + ": is no cloud that can be read by blocks, as several processes do");
     if (!cloud) return weld_mesh(work, request, size);
     const std::uint64_t needed =
         (std::uint64_t{32} << 20) +
@@ -130,6 +134,8 @@ exit_status weld_somewhere(job& work, const weld_request& request, const tile_op
     inputs.paths.assign(inputs.names.begin(), inputs.names.end());
     const auto piped = std::ranges::find(inputs.paths, fs::path("-"));
     if (piped == inputs.paths.end()) return weld_files(work, request, tiles, inputs);
+    if (tiles.is_asked() && tiles.per_tile == 0)
+        throw failure(bad_usage, "usage", "several processes need a file, not standard input");
     if (o.memory == 0 && tiles.per_tile == 0) return weld_in_memory(work, request);
     std::optional<spooled_input> spooled;
     {

@@ -56,13 +56,18 @@ void add_sharing_options(command_line& line, tile_options& target) {
 
 void check_tile_options(const tile_options& tiles, const command_line& line,
                         const common_options& options) {
+    if (tiles.is_shared() && tiles.team.size > 1)
+        refuse("--plan, --tile and --finish are for processes without mpirun");
+    if (tiles.team.size > 1 && options.inputs.size() != 1 && !options.joined)
+        refuse("mpirun: one INPUT, or --join");
     if (!tiles.is_shared()) return;
     if (int{tiles.plan} + int{tiles.tile.has_value()} + int{tiles.finish} > 1)
         refuse("--plan, --tile and --finish exclude each other");
     if (tiles.folder.empty())
         refuse("--plan, --tile and --finish need --work DIR, the same folder for all");
-    if (options.inputs.size() != 1) refuse("--plan, --tile and --finish take one INPUT");
-    if (!tiles.finish && (!line.outputs().empty() || wants_mesh(options)))
+    if (options.inputs.size() != 1 && !options.joined)
+        refuse("--plan, --tile and --finish take one INPUT");
+    if (tiles.is_part() && (!line.outputs().empty() || wants_mesh(options)))
         refuse("--plan and --tile give nothing back: outputs belong to --finish");
 }
 

@@ -24,10 +24,15 @@ struct tile_options {
     bool plan = false;
     std::optional<std::uint64_t> tile{};
     bool finish = false;
+    tf::weld_team team{};       ///< of mpirun
     std::uint64_t stop_at = 0;  ///< for tests: the process kills itself after so many steps
 
     /// Whether there are other processes.
     [[nodiscard]] bool is_shared() const { return plan || tile || finish; }
+    /// Whether this one only does a part, and has nothing to give back.
+    [[nodiscard]] bool is_part() const { return plan || tile; }
+    /// Whether tiles are asked for, whatever the memory.
+    [[nodiscard]] bool is_asked() const { return per_tile > 0 || is_shared() || team.size > 1; }
     /// Where tiles go: as asked, or beside the first of `outputs` that is a file, or in the folder
     /// for temporary files; then its name ends with that of the tool.
     [[nodiscard]] std::filesystem::path folder_for(

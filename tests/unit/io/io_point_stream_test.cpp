@@ -14,6 +14,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -166,6 +167,70 @@ TEST_CASE("point streams: blocks written one by one are the bytes of the whole f
                     CHECK(result.written_as == file.stored_as);
                 }
             }
+}
+
+TEST_CASE("point streams: what follows the first points is the rest of the file") {
+    const scratch here;
+    std::vector<kind> all(std::begin(kinds), std::end(kinds));
+    all.push_back({"las", false, ""});
+    all.push_back({"laz", false, ""});
+    for (const kind& k : all) {
+        CAPTURE(k.format);
+        tf::mesh_file file = cloud(700, false);
+        if (k.format[0] == 'l') file.attributes = {};  // LAS holds not all of these values
+        file.format = k.read_as;
+        const fs::path path =
+            here.put(std::string("a.") + k.format,
+                     tf::write_to_memory(file, {.format = k.format, .ascii = k.ascii}));
+        const tf::mesh_file whole = tf::read(path);
+        for (const std::size_t first : std::vector<std::size_t>{0, 1, 333, 699, 700}) {
+            CAPTURE(first);
+            tf::point_reader reader(path, {}, first);
+            CHECK(reader.count() == 700);
+            tf::point_block block;
+            for (std::size_t i = first; i < 700; i += block.points.size()) {
+                REQUIRE(reader.read(block, 100));
+                CHECK(same_bits(block.points, {whole.mesh.points.begin() + std::ptrdiff_t(i),
+                                               whole.mesh.points.begin() +
+                                                   std::ptrdiff_t(i + block.points.size())}));
+            }
+            CHECK_FALSE(reader.read(block, 100));
+        }
+    }
+}
+
+TEST_CASE("point streams: parts written by several, put one after the other, are the whole file") {
+    const scratch here;
+    for (const kind& k : kinds) {
+        CAPTURE(k.format);
+        CAPTURE(k.ascii);
+        tf::mesh_file file = cloud(700, true);
+        file.format = k.read_as;
+        const tf::write_options options{.format = k.format, .ascii = k.ascii};
+        std::string bytes;
+        std::vector<std::uint32_t> rows;
+        tf::point_block block;
+        for (std::uint32_t i = 0; i < 700; ++i) {
+            rows.push_back(i);
+            block.points.push_back(file.mesh.points[i]);
+            if (i != 250 && i != 699) continue;
+            block.properties = tf::gather(file.attributes.elements[0], rows);
+            tf::point_writer writer(here.folder / "part", file, 700, options);
+            writer.write(block);
+            tf::write_result result;
+            if (!writer.has_parts()) {
+                CHECK_THROWS_AS(writer.commit_part(result), std::logic_error);
+                break;
+            }
+            const std::uint64_t head = writer.commit_part(result);
+            const std::string part = bytes_of(here.folder / "part");
+            bytes += i == 250 ? part : part.substr(head);
+            rows.clear();
+            block = {};
+        }
+        const bool is_packed = std::string_view(k.read_as) == "pcd-binary-compressed";
+        CHECK(bytes == (is_packed ? "" : tf::write_to_memory(file, options)));
+    }
 }
 
 TEST_CASE("point streams: lists and rows without coordinates alone pass through") {

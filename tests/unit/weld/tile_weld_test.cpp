@@ -110,10 +110,11 @@ tf::detail::weld::tile_result weld_crowded(const std::vector<tile_point>& points
 
 void check_equal(const tf::detail::weld::tile_result& a, const tf::detail::weld::tile_result& b) {
     const auto same_member = [](const auto& p, const auto& q) {
-        return p.tag == q.tag && p.at == q.at;
+        return p.at == q.at && p.lowest == q.lowest && p.lowest_at == q.lowest_at;
     };
     const auto same_border = [&](const border_point& p, const border_point& q) {
-        return same_member(p, q) && p.leader == q.leader;
+        return p.tag == q.tag && p.at == q.at && p.leader == q.leader &&
+               p.leader_at == q.leader_at;
     };
     CHECK(a.dropped == b.dropped);
     CHECK(std::ranges::equal(a.border, b.border, same_border));
@@ -121,12 +122,62 @@ void check_equal(const tf::detail::weld::tile_result& a, const tf::detail::weld:
     CHECK(a.move.length() == b.move.length());
 }
 
+/// What tiles [first, last) leave to others: by one pass, or by one over what two passes leave, each
+/// over a half of them, and so on.
+struct passes {
+    weld_rule rule;
+    double tolerance;
+    const tf::detail::weld::tile_cuts& cuts;
+    const std::vector<tf::detail::weld::tile_result>& tiles;
+    const values_of_points& more;
+    bool one_by_one = false;
+    std::vector<tile_drop> dropped{};
+    tf::detail::weld::longest_move longest{};
+    tf::detail::weld::border_weld joined{0.0};  ///< by all passes
+
+    std::vector<border_point> over(std::size_t first, std::size_t last) {
+        std::vector<border_point> border;
+        if (one_by_one && last - first > 1) {
+            const std::size_t middle = (first + last) / 2;
+            border = over(first, middle);
+            const std::vector<border_point> rest = over(middle, last);
+            border.insert(border.end(), rest.begin(), rest.end());
+        } else {
+            for (std::size_t t = first; t < last; ++t)
+                border.insert(border.end(), tiles[t].border.begin(), tiles[t].border.end());
+        }
+        std::ranges::stable_sort(border, {}, &border_point::id);
+        tf::detail::weld::border_weld pass(tolerance, more.agree);
+        tf::detail::weld::tile_result out;
+        std::vector<std::uint32_t> halos;
+        const auto is_outer = [&](const border_point& p) {
+            const auto is_other = [&](std::uint32_t t) { return t < first || t >= last; };
+            return is_other(cuts.find(p.at, halos)) || std::ranges::any_of(halos, is_other);
+        };
+        for (const border_point& p : border)
+            pass.add(p, {more.at(p.id()), more.agree.size()}, is_outer(p), out);
+        for (const border_point& link : pass.joined()) {
+            out.dropped.push_back({link.id(), link.leader});
+            joined.join(link);
+        }
+        if (rule == weld_rule::chain)
+            for (const border_point& p : border)
+                if (is_outer(p)) out.border.push_back(pass.handed_on(p));
+        dropped.insert(dropped.end(), out.dropped.begin(), out.dropped.end());
+        longest.consider(out.move);
+        return out.border;
+    }
+};
+
 /// The leader of each point by `count` tiles, done in an order of `random`, in blocks of any size.
 tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance, std::size_t count,
-                    test::random& random, const values_of_points& more = {}) {
+                    test::random& random, const values_of_points& more = {},
+                    bool one_by_one = false) {
     cloud sample;
     std::copy_if(points.begin(), points.end(), std::back_inserter(sample), finite);
-    const tf::detail::weld::tile_cuts slabs(sample, tolerance, count);
+    const tf::detail::weld::tile_cuts planned(sample, tolerance, count);
+    const tf::detail::weld::tile_cuts slabs({planned.nodes().begin(), planned.nodes().end()},
+                                            tolerance);
     const auto tiles = scatter(points, slabs);
     std::vector<std::size_t> order(tiles.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -137,10 +188,10 @@ tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance, std::
     std::iota(all.leader.begin(), all.leader.end(), std::uint64_t{0});
     tf::detail::weld::longest_move longest;
     std::vector<tile_drop> dropped;
-    std::vector<border_point> border;
     std::vector<tf::detail::weld::tile_member> members;
+    std::vector<tf::detail::weld::tile_result> results(tiles.size());
     for (const std::size_t t : order) {
-        const tf::detail::weld::tile_result result =
+        const tf::detail::weld::tile_result& result = results[t] =
             weld_tile(tiles[t], rule, tolerance, random, more);
         if (rule == weld_rule::first)
             REQUIRE(result.border_values.size() == result.border.size() * more.agree.size());
@@ -152,32 +203,20 @@ tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance, std::
         REQUIRE(std::is_sorted(result.border.begin(), result.border.end(),
                                [&](auto& a, auto& b) { return by_id(a.id(), b.id()); }));
         dropped.insert(dropped.end(), result.dropped.begin(), result.dropped.end());
-        border.insert(border.end(), result.border.begin(), result.border.end());
+        all.border += result.border.size();
         members.insert(members.end(), result.members.begin(), result.members.end());
         longest.consider(result.move);
     }
-    std::stable_sort(border.begin(), border.end(),
-                     [](const border_point& a, const border_point& b) { return a.id() < b.id(); });
-    all.border = border.size();
 
-    tf::detail::weld::border_weld pass(rule, tolerance, more.agree);
-    std::vector<tile_drop> settled;
-    std::vector<std::uint64_t> values;
-    for (const border_point& p : border)
-        values.insert(values.end(), more.at(p.id()), more.at(p.id()) + more.agree.size());
-    pass.add(border, settled, values);
-    pass.finish(settled);
-    longest.consider(pass.move());
-    for (tf::detail::weld::tile_member& m : members) m = pass.settled(m);
-    std::ranges::sort(members, {}, &tf::detail::weld::tile_member::tag);
-    tf::detail::weld::chain_moves moves;
-    for (const tf::detail::weld::tile_member& m : members) moves.add(m);
-    longest.consider(moves.move());
+    passes pass{rule, tolerance, slabs, results, more, one_by_one};
+    REQUIRE(pass.over(0, tiles.size()).empty());
+    longest.consider(pass.longest);
+    for (const tf::detail::weld::tile_member& m : members) pass.joined.measure(m, longest);
     all.longest = longest.length();
-    for (const tile_drop& d : dropped) all.leader[d.id] = pass.leader_of(d.leader);
+    for (const tile_drop& d : dropped) all.leader[d.id] = pass.joined.leader_of(d.leader);
     bool agree = true;  // where a point is named twice
-    for (const tile_drop& d : settled) {
-        const std::uint64_t leader = pass.leader_of(d.leader);
+    for (const tile_drop& d : pass.dropped) {
+        const std::uint64_t leader = pass.joined.leader_of(d.leader);
         agree = agree && (all.leader[d.id] == d.id || all.leader[d.id] == leader);
         all.leader[d.id] = leader;
     }
@@ -201,7 +240,9 @@ void check_same(const cloud& points, double tolerance, test::random& random) {
         for (const std::size_t count : {1U, 2U, 3U, 7U, 50U}) {
             CAPTURE(static_cast<int>(rule));
             CAPTURE(count);
-            CHECK(weld_in_tiles(points, rule, tolerance, count, random).leader == expected);
+            for (const bool one_by_one : {false, true})
+                CHECK(weld_in_tiles(points, rule, tolerance, count, random, {}, one_by_one)
+                          .leader == expected);
         }
         if (rule != weld_rule::first) continue;
         const auto tiled = tf::detail::weld::tiled_leaders(points, {.tolerance = tolerance},
@@ -230,7 +271,7 @@ TEST_CASE("tile_weld: a tolerance that is no length is refused") {
     for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(),
                              std::numeric_limits<double>::infinity()}) {
         CHECK_THROWS_AS(tf::detail::weld::tile_weld(weld_rule::first, bad), std::invalid_argument);
-        CHECK_THROWS_AS(tf::detail::weld::border_weld(weld_rule::first, bad),
+        CHECK_THROWS_AS(tf::detail::weld::border_weld{bad},
                         std::invalid_argument);
         CHECK_THROWS_AS(tf::detail::weld::crowded_chain{bad}, std::invalid_argument);
         CHECK_THROWS_AS(tf::detail::weld::tile_cuts({}, bad, 1), std::invalid_argument);
@@ -358,7 +399,8 @@ TEST_CASE("tile_weld: the longest move is that from a point to its leader") {
     for (const weld_rule rule : rules)
         for (const double tolerance : {0.0, 0.05, 0.15, 0.3}) {
             CAPTURE(tolerance);
-            const tiled found = weld_in_tiles(points, rule, tolerance, 6, random);
+            const tiled found =
+                weld_in_tiles(points, rule, tolerance, 6, random, {}, random.below(2) == 1);
             const auto apart = [&](std::size_t i, double x) {
                 const point3& leader = points[found.leader[i]];
                 return tf::compare_distance(points[i], leader, {}, {x, 0.0, 0.0});
@@ -409,8 +451,10 @@ TEST_CASE("tile_weld: points whose values do not agree stay apart, as in the who
                 for (const std::uint32_t g : groups.group_of_point)
                     expected.push_back(groups.first_of_group[g]);
                 for (const std::size_t count : {1U, 2U, 7U, 50U})
-                    CHECK(weld_in_tiles(points, rule, tolerance, count, random, more).leader ==
-                          expected);
+                    for (const bool one_by_one : {false, true})
+                        CHECK(weld_in_tiles(points, rule, tolerance, count, random, more,
+                                            one_by_one)
+                                  .leader == expected);
             }
     }
 }

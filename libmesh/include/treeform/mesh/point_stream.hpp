@@ -28,11 +28,13 @@ class TREEFORM_API point_reader {
   public:
     /// Reads the header. `path` and `format` as for `read`. Input that cannot be mapped (standard
     /// input, a pipe) is copied to an unnamed file in /var/tmp first, and so are the unpacked
-    /// points of a compressed PCD.
+    /// points of a compressed PCD. The `first` points, no more than there are, are passed over:
+    /// unread in binary PLY without lists, binary PCD and LAS.
     ///
     /// \throws io_error for a format without points, for a file with faces or other elements that
     ///         have rows, and as `read`
-    explicit point_reader(const std::filesystem::path& path, std::string_view format = {});
+    explicit point_reader(const std::filesystem::path& path, std::string_view format = {},
+                          std::uint64_t first = 0);
     ~point_reader();
     point_reader(point_reader&&) noexcept;
     point_reader& operator=(point_reader&&) noexcept;
@@ -79,6 +81,14 @@ class TREEFORM_API point_writer {
     /// Finishes the file. Without this call, no file stays.
     /// \throws io_error, also when fewer than `count` points were written
     write_result commit();
+
+    /// Whether others can write the rest of the points: not in LAS, LAZ and compressed PCD.
+    [[nodiscard]] bool has_parts() const;
+    /// Finishes a file that has only some of the points, and returns the number of bytes ahead of
+    /// them. The first part, and then the others without these bytes, are what one writer of all
+    /// points would have written.
+    /// \throws io_error, std::logic_error where it has no parts
+    std::uint64_t commit_part(write_result& result);
 
   private:
     struct state;

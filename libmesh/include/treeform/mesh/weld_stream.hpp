@@ -48,7 +48,15 @@ struct cloud_outline {
 ///         columns that `join` cannot unite
 [[nodiscard]] TREEFORM_API cloud_outline outline(const cloud_inputs& inputs);
 
-/// How to weld, and with how much memory.
+/// Processes that weld one cloud together, each its share, in a folder that all see. All call the same
+/// with the same options; outputs are those of rank 0, and where one fails, `exchange` must throw.
+struct weld_team {
+    std::size_t rank = 0;
+    std::size_t size = 1;
+    /// Gives all of them what each gives, in the order of the ranks.
+    std::function<std::vector<std::string>(const std::string&)> exchange{};
+};
+
 struct weld_stream_options {
     double tolerance = 0.0;  ///< as in `weld_options`
     bool relative = false;   ///< `tolerance` is a share of the diagonal of the cloud's box
@@ -64,11 +72,12 @@ struct weld_stream_options {
     std::uint64_t memory = 0;           ///< bytes that the process may take; 0: `default_memory`
     std::filesystem::path folder{};     ///< for the tiles; empty: the input's name and ".tiles"
     std::uint64_t points_per_tile = 0;  ///< at most about this many; 0: as the memory allows
+    weld_team team{};
+    bool shared = false;  ///< see `stream_weld`
     /// Called with the step ("look", "scatter", "weld", "write") and the share of it that is done.
     /// Returning false cancels.
     std::function<bool(std::string_view, double)> progress{};
-    /// Called after each step that need not be repeated when the run is interrupted.
-    std::function<void()> step_done{};
+    std::function<void()> step_done{};  ///< called after what an interruption does not undo
 };
 
 /// What is known of a cloud before it is welded.
@@ -132,7 +141,6 @@ struct weld_stream_written {
     std::optional<std::uint64_t> still_within{};
 };
 
-/// All that is known after `weld_stream`.
 struct weld_stream_result {
     cloud_survey survey{};
     weld_stream_counts counts{};
@@ -187,6 +195,11 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
 
 /// The same step by step, for callers who report or decide something in between. Call `look`,
 /// `scatter`, `weld` and `write` once each, in this order, as long as they return status::ok.
+///
+/// Shared (`weld_stream_options::shared`), many processes do it that see the folder: one calls `look`
+/// and `scatter`; then each calls `weld_tile` for its share of the tiles; and when all have ended, one
+/// calls `check_tiles`, `weld`, `write` and `remove_folder`. A tile that is finished is not welded
+/// again, and two that weld one tile at the same time write the same.
 class TREEFORM_API stream_weld {
   public:
     /// Takes the folder for itself, and removes what a killed run has left elsewhere.
@@ -200,7 +213,12 @@ class TREEFORM_API stream_weld {
     [[nodiscard]] const cloud_survey& survey() const;
     /// Gives each tile its points.
     [[nodiscard]] status scatter();
+    /// Shared: knows the tiles. \throws stream_error before `scatter` has ended, here or elsewhere
+    void check_tiles();
+    /// Shared. \throws stream_error as `check_tiles`; std::out_of_range for a tile that is not there
+    [[nodiscard]] status weld_tile(std::size_t tile);
     /// Welds the tiles that are not finished, and what lies along their borders.
+    /// \throws stream_error naming a tile that is not finished; that is, where they are shared
     [[nodiscard]] status weld();
     [[nodiscard]] const weld_stream_counts& counts() const;
     /// Writes the outputs, each whole or not at all.

@@ -1,0 +1,67 @@
+#pragma once
+/// \file
+/// The processes that do one work together: what each tells all, and which share is whose.
+
+#include <libmesh/stream/state_record.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+/// Consecutive things; all unless said otherwise.
+struct share {
+    std::uint64_t first = 0;
+    std::uint64_t last = std::numeric_limits<std::uint64_t>::max();  ///< and one more
+
+    [[nodiscard]] std::uint64_t size() const { return last - first; }
+    [[nodiscard]] bool has(std::uint64_t i) const { return i >= first && i < last; }
+};
+
+class team {
+  public:
+    explicit team(const weld_team& all) : all_(all) {}
+
+    [[nodiscard]] std::size_t size() const { return all_.size; }
+    [[nodiscard]] std::size_t rank() const { return all_.rank; }
+    [[nodiscard]] bool leads() const { return all_.rank == 0; }
+    /// One that is alone, where others do nothing.
+    [[nodiscard]] bool is_alone() const { return all_.size == 1; }
+
+    /// Of `count` things, those of a rank.
+    [[nodiscard]] share share_of(std::uint64_t count, std::size_t rank) const {
+        const std::uint64_t each = count / size();
+        const auto begin = [&](std::uint64_t r) {
+            return each * r + std::min<std::uint64_t>(r, count % size());
+        };
+        return {begin(rank), begin(rank + 1)};
+    }
+
+    /// Tells all, and returns what each has told. All come here, or none goes on.
+    [[nodiscard]] std::vector<state_reader> exchange(const state_writer& mine) const {
+        std::vector<state_reader> told;
+        if (is_alone())
+            told.emplace_back(mine.bytes());
+        else
+            for (std::string& bytes : all_.exchange(mine.bytes())) told.emplace_back(bytes);
+        return told;
+    }
+    /// Goes on when all are here.
+    void meet() const { static_cast<void>(exchange({})); }
+    [[nodiscard]] std::uint64_t sum(std::uint64_t mine) const {
+        state_writer told;
+        told.number(mine);
+        std::uint64_t all = 0;
+        for (state_reader& one : exchange(told)) all += one.number();
+        return all;
+    }
+
+  private:
+    weld_team all_;
+};
+
+}  // namespace treeform::detail::stream

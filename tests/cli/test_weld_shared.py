@@ -1,0 +1,184 @@
+"""tf-weld by many processes: --plan, --tile and --finish, and mpirun. The bytes are those of one."""
+
+from weld_support import *
+
+import random
+import shutil
+import signal
+import time
+
+MPIRUN = os.environ.get("TREEFORM_MPIRUN", "")
+NAN = float("nan")
+
+
+def ply(points, rng, number="double"):
+    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n" +
+            "".join(f"property {number} {axis}\n" for axis in "xyz") +
+            "property float shade\nend_header\n")
+    code = "<dddf" if number == "double" else "<ffff"
+    return head.encode() + b"".join(struct.pack(code, *p, rng.randrange(4) / 4) for p in points)
+
+
+def cloud(rng, count):
+    kinds = (lambda: tuple(rng.random() for _ in range(3)),
+             lambda: (0.5 + 0.02 * rng.random(), 0.5, 0.02 * rng.random()),
+             lambda: (0.05 * rng.randrange(12), 0.05 * rng.randrange(12), 0.5),
+             lambda: (NAN, 0.0, 1.0))
+    return [rng.choices(kinds, (6, 3, 2, 0.1))[0]() for _ in range(count)]
+
+
+class Shared(WeldTest):
+    def setUp(self):
+        super().setUp()
+        self.rng = random.Random(8)
+        self.write("in.ply", ply(cloud(self.rng, 1500), self.rng))
+
+    def written(self, names=("out.ply", "gone.ply", "map.csv")):
+        found = {name: self.read_bytes(name) for name in names if os.path.exists(self.path(name))}
+        for name in found:
+            os.remove(self.path(name))
+        return found
+
+    def one(self, *options):
+        self.run_tool("in.ply", *options, status=0)
+        return self.written()
+
+    def start(self, *arguments):
+        return subprocess.Popen([WELD, *map(str, arguments)], cwd=self.folder,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def test_processes_that_share_a_folder_give_what_one_gives(self):
+        outputs = ["-o", "out.ply", "--removed", "gone.ply", "--map", "map.csv"]
+        for options in (["-t", "0.02"], ["-t", "0.03", "--rule", "chain", "--same", "shade"],
+                        ["-t", "1%", "--order", "max:shade"], ["-t", "0.02", "--keep", "mean"]):
+            expected = self.one(*options, *outputs)
+            work = ["in.ply", *options, "--work", "tiles"]
+            run = self.run_tool(*work, "--plan", "--tile-points", 250, status=0)
+            tiles = int(run.text.split()[1])
+            self.assertGreater(tiles, 4)
+            run = self.run_tool(*work, "--finish", *outputs, status=3)
+            self.assertIn("tile 0 is not finished", run.err)
+            twice = [t for t in range(tiles) for _ in range(2)]  # at the same time
+            for process in [self.start(*work, "--tile", t) for t in twice]:
+                out, err = process.communicate()
+                self.assertEqual((process.returncode, err), (0, b""))
+                self.assertIn(f" of {tiles} done".encode(), out)
+            for _ in range(2):
+                self.run_tool(*work, "--finish", *outputs, status=0)
+                self.assertEqual(self.written(), expected)
+            shutil.rmtree(self.path("tiles"))
+
+    def test_a_tile_that_was_killed_is_done_again(self):
+        expected = self.one("-t", "0.02", "-o", "out.ply")
+        work = ["in.ply", "-t", "0.02", "--work", "tiles"]
+        run = self.run_tool(*work, "--plan", "--tile-points", 300, "--stop-at", 1)
+        self.assertEqual(run.status, -signal.SIGKILL)  # when all was done
+        tiles = int(self.run_tool(*work, "--plan", status=0).text.split()[1])
+        for t in range(tiles):
+            process = self.start(*work, "--tile", t)
+            time.sleep(self.rng.random() * 0.02)
+            process.kill()
+            process.communicate()
+        for t in range(tiles):
+            self.run_tool(*work, "--tile", t, status=0)
+        self.run_tool(*work, "--finish", "-o", "out.ply", status=0)
+        self.assertEqual(self.written(), expected)
+
+    def test_what_cannot_be_shared_is_refused_in_words(self):
+        work = ["--work", "tiles"]
+        for arguments, status, words in (
+                (["--plan"], 2, "need --work DIR"),
+                (["--plan", "--finish", *work], 2, "exclude each other"),
+                (["--tile", 0, *work, "-o", "out.ply"], 2, "outputs belong to --finish"),
+                (["--tile", 0, *work], 3, "holds no tiles of this input"),
+                (["--finish", *work, "-o", "out.ply"], 3, "holds no tiles of this input"),
+                (["--finish", *work], 2, "nothing to give back"),
+                (["in.ply", "--plan", *work], 2, "take one INPUT")):
+            run = self.run_tool("in.ply", "-t", "0.1", *arguments, status=status)
+            self.assertIn(words, run.err)
+            self.assertEqual(self.listing(), ["in.ply"])
+        self.assertIn("not standard input",
+                      self.run_tool("-", "-t", "0.1", "--plan", *work, status=2).err)
+        self.run_tool("in.ply", "-t", "0.02", "--plan", "--tile-points", 300, *work, status=0)
+        self.assertIn("there are only",
+                      self.run_tool("in.ply", "-t", "0.02", "--tile", 99, *work, status=2).err)
+        run = self.run_tool("in.ply", "-t", "0.03", "--plan", *work, status=4)
+        self.assertIn("holds tiles of another input or of other options", run.err)
+        self.write("cube.obj", obj_bytes(cube()))
+        self.assertIn("is no cloud",
+                      self.run_tool("cube.obj", "--plan", "--work", "other", status=3).err)
+
+    def mpi(self, size, *arguments, status=0, last=()):
+        """As so many ranks, the last of which has further options."""
+        run = lambda count, *more: ["-n", str(count), WELD, *map(str, arguments), *map(str, more)]
+        command = run(size) if not last else run(size - 1) + [":"] + run(1, *last)
+        done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", *command],
+                              cwd=self.folder, capture_output=True, timeout=300)
+        if status is not None:
+            self.assertEqual(done.returncode, status, msg=f"{arguments}\n{done.stderr.decode()}")
+        return Run(done)
+
+    @unittest.skipIf(not MPIRUN, "built without MPI")
+    def test_ranks_of_mpi_give_what_one_gives(self):
+        sizes = [(2, 7), (1, 4)]
+        for options, out in ((["-t", "0.02", "--removed", "gone.ply"], "out.ply"),
+                             (["-t", "0.03", "--rule", "chain"], "out.csv"),
+                             (["-t", "0.02", "--rule", "chain", "--same", "shade"], "out.pcd"),
+                             (["-t", "0.02", "--order", "shade", "--map", "map.csv"], "out.ply"),
+                             (["-t", "0.02", "--precision", "float"], "out.ply"),
+                             (["-t", "0.02", "--keep", "mean"], "out.xyz"),
+                             (["-t", "0.02"], "out.laz")):
+            given = "in.ply"
+            if out == "out.laz":
+                given = "in.las"
+                finite = [p for p in cloud(self.rng, 1500) if p[0] == p[0]]
+                self.run_tool(self.cloud("in.xyz", finite), "-o", given, status=0)
+                os.remove(self.path("in.xyz"))
+            names = (out, "gone.ply", "map.csv")
+            report = self.entry(given, *options, "-o", out, status=0)
+            expected = self.written(names)
+            sizes.reverse()
+            for size in sizes[0]:
+                with self.subTest(options=options, size=size):
+                    run = self.mpi(size, given, *options, "-o", out, "--tile-points", 200, "-r",
+                                   "-")
+                    self.assertEqual(self.written(names), expected)
+                    entry = json.loads(run.text)["files"][0]
+                    for key in ("points", "displacement", "box", "tolerance", "output"):
+                        self.assertEqual(entry[key], report[key])
+                    self.assertEqual(self.listing(), sorted({"in.ply", given}))
+
+    @unittest.skipIf(not MPIRUN, "built without MPI")
+    def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
+        expected = self.one("-t", "0.02", "-o", "out.ply")
+        work = ["in.ply", "-t", "0.02", "-o", "out.ply", "--tile-points", 150, "--work", "tiles"]
+        for size in (2, 3, 4):
+            for step in (1, 2, 3, 4):
+                run = self.mpi(size, *work, status=None, last=["--stop-at", step])
+                if run.status == 0:  # it had fewer steps
+                    self.written()
+                    continue
+                self.assertEqual(run.status, 128 + signal.SIGKILL)
+                self.assertNotIn("out.ply", self.listing())
+                run = self.mpi(self.rng.choice((1, 2, 4)), *work, "-v")
+                self.assertIn("finished before", run.err)
+                self.assertEqual(self.written(), expected)
+        self.assertEqual(self.listing(), ["in.ply"])
+
+    @unittest.skipIf(not MPIRUN, "built without MPI")
+    def test_what_fails_is_said_once_and_nothing_is_written(self):
+        self.write("there.ply", b"mine")
+        for arguments, status, words in (
+                (["none.ply", "-o", "out.ply"], 3, "none.ply: No such file"),
+                (["in.ply", "-t", "0.1", "-o", "there.ply"], 4, "there.ply: exists"),
+                (["in.ply", "--same", "color", "-o", "out.ply"], 3, "no such property"),
+                (["in.ply", "-t", "0.1"], 2, "nothing to give back")):
+            run = self.mpi(3, *arguments, status=status)
+            self.assertEqual(run.err.count(words), 1, msg=run.err)
+            self.assertEqual(self.listing(), ["in.ply", "there.ply"])
+        self.assertEqual(self.read_bytes("there.ply"), b"mine")
+        self.mpi(2, "in.ply", "-t", "0.1", "--check", status=1)
+
+
+if __name__ == "__main__":
+    main()

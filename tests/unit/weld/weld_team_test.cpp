@@ -1,0 +1,370 @@
+/// \file
+/// Clouds welded by several that share one folder: a team, or processes that do not know of each
+/// other. Whoever does it, and however often some are killed, the bytes are those of one.
+
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/weld.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+#include <treeform/mesh/write.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/own_folder.hpp>
+#include <support/random.hpp>
+
+#include <algorithm>
+#include <array>
+#include <condition_variable>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct killed : std::runtime_error {
+    killed() : std::runtime_error("killed") {}
+};
+
+/// A team of threads: where one is killed, none goes on.
+class threads_of_team {
+  public:
+    explicit threads_of_team(std::size_t size) : mine_(size) {}
+
+    [[nodiscard]] tf::weld_team as(std::size_t rank) {
+        return {rank, mine_.size(),
+                [this, rank](const std::string& told) { return exchange(rank, told); }};
+    }
+    void kill() {
+        const std::lock_guard lock(mutex_);
+        broken_ = true;
+        changed_.notify_all();
+    }
+
+  private:
+    std::vector<std::string> exchange(std::size_t rank, const std::string& told) {
+        std::unique_lock lock(mutex_);
+        const std::size_t round = round_;
+        mine_[rank] = told;
+        if (++here_ == mine_.size()) {
+            here_ = 0;
+            ++round_;
+            all_ = mine_;
+            changed_.notify_all();
+        }
+        changed_.wait(lock, [&] { return broken_ || round_ != round; });
+        if (round_ == round) throw killed();
+        return all_;
+    }
+
+    std::mutex mutex_{};
+    std::condition_variable changed_{};
+    std::vector<std::string> mine_;
+    std::vector<std::string> all_{};
+    std::size_t here_ = 0;
+    std::size_t round_ = 0;
+    bool broken_ = false;
+};
+
+/// What a run has written: files by their names.
+std::vector<std::string> contents(const fs::path& folder, const std::vector<std::string>& names) {
+    std::vector<std::string> all;
+    for (const std::string& name : names) {
+        std::ifstream in(folder / name, std::ios::binary);
+        all.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    }
+    return all;
+}
+
+struct job {
+    tf::cloud_inputs inputs{};
+    tf::weld_stream_options options{};
+    std::function<tf::weld_stream_outputs()> outputs{};
+};
+
+tf::weld_stream_result weld_alone(const job& work) {
+    return tf::weld_stream(work.inputs, work.outputs(), work.options);
+}
+
+/// As a team; one is killed after so many steps, if any. Returns what the first one knows.
+std::optional<tf::weld_stream_result> weld_as_team(const job& work, std::size_t size,
+                                                   std::size_t victim = 0, int steps = 0) {
+    threads_of_team all(size);
+    std::optional<tf::weld_stream_result> first;
+    std::vector<std::exception_ptr> thrown(size);
+    std::vector<std::thread> threads;
+    for (std::size_t rank = 0; rank < size; ++rank)
+        threads.emplace_back([&, rank] {
+            try {
+                tf::weld_stream_options options = work.options;
+                options.team = all.as(rank);
+                if (rank == victim && steps > 0)
+                    options.step_done = [left = steps]() mutable {
+                        if (--left == 0) throw killed();
+                    };
+                auto result = tf::weld_stream(work.inputs, work.outputs(), options);
+                if (rank == 0) first = std::move(result);
+            } catch (...) {
+                thrown[rank] = std::current_exception();
+                all.kill();
+            }
+        });
+    for (std::thread& t : threads) t.join();
+    bool was_killed = false;
+    for (const std::exception_ptr& error : thrown) try {
+            if (error) std::rethrow_exception(error);
+        } catch (const killed&) {
+            was_killed = true;
+        }
+    return was_killed ? std::nullopt : first;
+}
+
+/// As processes that do not know of each other.
+tf::weld_stream_result weld_shared(const job& work, test::random& random) {
+    tf::weld_stream_options options = work.options;
+    options.shared = true;
+    std::size_t tiles = 0;
+    for (int twice = 0; twice < 2; ++twice) {
+        tf::stream_weld one(work.inputs, options);
+        CHECK(one.look() == tf::status::ok);
+        CHECK(one.scatter() == tf::status::ok);
+        tiles = one.survey().tiles;
+    }
+    std::vector<std::size_t> order;
+    for (std::size_t t = 0; t < 2 * tiles; ++t) order.push_back(t / 2);
+    random.shuffle(order);
+    std::vector<std::thread> threads;
+    for (std::size_t part = 0; part < 3; ++part)
+        threads.emplace_back([&, part] {
+            for (std::size_t i = part; i < order.size(); i += 3)
+                static_cast<void>(tf::stream_weld(work.inputs, options).weld_tile(order[i]));
+        });
+    for (std::thread& t : threads) t.join();
+    tf::stream_weld last(work.inputs, options);
+    CHECK(last.look() == tf::status::ok);
+    CHECK(last.weld() == tf::status::ok);
+    CHECK(last.write(work.outputs()) == tf::status::ok);
+    last.remove_folder();
+    return {last.survey(), last.counts(), last.written()};
+}
+
+/// Clouds that are hard in one way each.
+std::vector<std::vector<tf::point3>> families(std::size_t count, test::random& random) {
+    std::vector<std::vector<tf::point3>> all(7);
+    for (std::size_t i = 0; i < count; ++i) {
+        const tf::point3 p{random.unit(), random.unit(), random.unit()};
+        const auto x = static_cast<double>(i) / static_cast<double>(count);
+        all[0].push_back(p);                                                      // shuffled
+        all[1].push_back({x, 0.1 * p.y, 0.1 * p.z});                              // sorted
+        all[2].push_back(i % 2 == 0 ? p : tf::point3{0.5 + 0.02 * p.x, 0.5, p.z * 0.02});
+        all[3].push_back({2 * p.x, 0.001 * p.y, 0.0});                            // a line
+        all[4].push_back({p.x, p.y, 0.25});                                       // a plane
+        all[5].push_back(i % 3 == 0 ? p : tf::point3{0.5, 0.5, 0.5});             // equal points
+        all[6].push_back({0.05 * static_cast<double>(random.below(12)),
+                          0.05 * static_cast<double>(random.below(12)),
+                          i % 50 == 0 ? std::numeric_limits<double>::quiet_NaN() : 0.0});
+    }
+    return all;
+}
+
+/// A folder with a cloud in two files, and what is written there.
+class team_folder : public test::own_folder {
+  public:
+    team_folder() : own_folder("weld_team_test") {}
+
+    void put(const std::vector<tf::point3>& points, test::random& random) const {
+        const std::size_t half = points.size() / 2 - 3;
+        for (const bool second : {false, true}) {
+            tf::mesh_file file;
+            file.mesh.points.assign(points.begin() + (second ? std::ptrdiff_t(half) : 0),
+                                    second ? points.end() : points.begin() + std::ptrdiff_t(half));
+            const std::size_t rows = file.mesh.points.size();
+            tf::element& vertices = tf::obtain_element(file.attributes, "vertex", rows);
+            std::vector<float> shade(rows);
+            for (float& x : shade) x = 0.25F * static_cast<float>(random.below(4));
+            tf::set_column(vertices, tf::make_column<float>("shade", shade));
+            tf::write(input(second), file);
+        }
+    }
+    [[nodiscard]] fs::path input(bool second) const {
+        return path / (second ? "b.ply" : "a.ply");
+    }
+    [[nodiscard]] job work(const std::string& format) const {
+        job work;
+        work.inputs.paths = {input(false), input(true)};
+        work.options.folder = path / "work";
+        work.outputs = [this, format] {
+            tf::weld_stream_outputs outputs;
+            outputs.welded = {path / ("welded." + format), {}};
+            outputs.removed = {path / ("removed." + format), {}};
+            return outputs;
+        };
+        return work;
+    }
+    [[nodiscard]] std::vector<std::string> take(const std::string& format) const {
+        const std::vector<std::string> names{"welded." + format, "removed." + format};
+        auto all = contents(path, names);
+        for (const std::string& name : names) fs::remove(path / name);
+        return all;
+    }
+};
+
+void check_counts(const tf::weld_stream_result& a, const tf::weld_stream_result& b) {
+    CHECK(a.counts.kept == b.counts.kept);
+    CHECK(a.counts.groups == b.counts.groups);
+    CHECK(a.counts.max_displacement == b.counts.max_displacement);
+    CHECK(a.survey.points == b.survey.points);
+    CHECK(a.survey.non_finite == b.survey.non_finite);
+    CHECK(a.survey.box == b.survey.box);
+    CHECK(a.survey.single == b.survey.single);
+    CHECK(a.survey.warnings.size() == b.survey.warnings.size());
+    CHECK(a.written.still_within == b.written.still_within);
+}
+
+using change = std::function<void(tf::weld_stream_options&)>;
+const std::vector<change> choices{
+    [](auto&) {},
+    [](auto& o) { o.same = {{.property = "shade", .tolerance = 0.25}}; },
+    [](auto& o) {
+        o.order = tf::weld_order::highest;
+        o.order_by = "shade";
+    },
+    [](auto& o) { o.keep = tf::weld_keep::mean; },
+    [](auto& o) {
+        o.tolerance = 0.01;
+        o.relative = true;
+    }};
+
+}  // namespace
+
+TEST_CASE("weld_team: any number of processes write what one writes") {
+    test::random random(11);
+    const team_folder folder;
+    std::size_t turn = 0;
+    for (const auto& points : families(500, random)) {
+        folder.put(points, random);
+        for (const tf::weld_rule rule : {tf::weld_rule::first, tf::weld_rule::chain})
+            for (const std::size_t c : {std::size_t{0}, 1 + turn % (choices.size() - 1)}) {
+                const std::string format = ++turn % 3 == 0 ? "csv" : "ply";
+                job work = folder.work(format);
+                work.options.tolerance = 0.02;
+                work.options.rule = rule;
+                choices[c](work.options);
+                work.options.points_per_tile = 60 + 40 * (turn % 4);
+                CAPTURE(turn);
+                CAPTURE(c);
+                const auto one = weld_alone(work);
+                const auto expected = folder.take(format);
+                const std::size_t size = std::array{2U, 4U, 7U}[turn % 3];
+                CAPTURE(size);
+                const auto several = weld_as_team(work, size);
+                REQUIRE(several);
+                check_counts(*several, one);
+                CHECK(folder.take(format) == expected);
+                CHECK_FALSE(fs::exists(work.options.folder));
+                if (turn % 4 != 0) continue;
+                check_counts(weld_shared(work, random), one);
+                CHECK(folder.take(format) == expected);
+            }
+    }
+}
+
+TEST_CASE("weld_team: killed at any step, another number of processes goes on to the same bytes") {
+    test::random random(12);
+    const team_folder folder;
+    const auto all = families(400, random);
+    std::size_t continued = 0;
+    for (int round = 0; round < 16; ++round) {
+        CAPTURE(round);
+        folder.put(all[random.below(all.size())], random);
+        job work = folder.work("ply");
+        work.options.tolerance = 0.03;
+        work.options.rule = random.below(2) == 0 ? tf::weld_rule::first : tf::weld_rule::chain;
+        choices[random.below(choices.size())](work.options);
+        work.options.points_per_tile = 60;
+        const auto one = weld_alone(work);
+        const auto expected = folder.take("ply");
+        std::optional<tf::weld_stream_result> several;
+        for (int tries = 0; !several; ++tries) {
+            const std::size_t size = 1 + random.below(5);
+            several = weld_as_team(work, size, random.below(size),
+                                   tries < 3 ? 1 + static_cast<int>(random.below(8)) : 0);
+        }
+        continued += several->survey.continued ? 1 : 0;
+        check_counts(*several, one);
+        CHECK(folder.take("ply") == expected);
+    }
+    CHECK(continued > 3);
+}
+
+TEST_CASE("weld_team: maps and labels are those of one") {
+    test::random random(13);
+    const team_folder folder;
+    const auto all = families(600, random);
+    for (const bool label : {false, true}) {
+        folder.put(all[0], random);
+        job work = folder.work("ply");
+        work.options.tolerance = 0.05;
+        work.options.points_per_tile = 60;
+        std::vector<std::uint64_t> map;
+        work.outputs = [&, files = work.outputs] {
+            tf::weld_stream_outputs outputs = files();
+            if (label) {
+                outputs.label = "group";
+                outputs.removed.reset();
+            } else {
+                outputs.map = [&](auto next) { map.insert(map.end(), next.begin(), next.end()); };
+            }
+            return outputs;
+        };
+        weld_alone(work);
+        const auto expected = folder.take("ply");
+        const auto expected_map = std::exchange(map, {});
+        REQUIRE(weld_as_team(work, 3));
+        CHECK(folder.take("ply") == expected);
+        CHECK(map == expected_map);
+    }
+}
+
+TEST_CASE("weld_team: what is not there, or of another job, is refused in words") {
+    test::random random(14);
+    const team_folder folder;
+    folder.put(families(300, random)[0], random);
+    job work = folder.work("ply");
+    work.options.tolerance = 0.05;
+    work.options.points_per_tile = 60;
+    work.options.shared = true;
+    const auto says = [](const std::function<void()>& step) -> std::string {
+        try {
+            step();
+        } catch (const tf::stream_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const auto has = [](const std::string& text, const char* words) {
+        return text.find(words) != std::string::npos;
+    };
+    tf::stream_weld early(work.inputs, work.options);
+    CHECK(has(says([&] { static_cast<void>(early.weld_tile(0)); }), "holds no tiles of this"));
+    {
+        tf::stream_weld one(work.inputs, work.options);
+        REQUIRE(one.look() == tf::status::ok);
+        CHECK(has(says([&] { tf::stream_weld(work.inputs, work.options); }), "is in use"));
+        REQUIRE(one.scatter() == tf::status::ok);
+        CHECK_THROWS_AS(static_cast<void>(one.weld_tile(one.survey().tiles)), std::out_of_range);
+        CHECK(has(says([&] { static_cast<void>(one.weld()); }), "tile 0 is not finished"));
+    }
+    work.options.tolerance = 0.06;
+    tf::stream_weld other(work.inputs, work.options);
+    CHECK(has(says([&] { static_cast<void>(other.look()); }), "holds tiles of another input"));
+}
