@@ -13,7 +13,7 @@ namespace tf = treeform;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 void check(tf::status status) {
     if (status == tf::status::cancelled) throw glue::cancelled{};
@@ -36,8 +36,8 @@ void fill(treeform_deviation_result& r, const tf::deviation_result& d) {
     r.highest = d.highest;
     r.there_sampled = d.there.sampled;
     r.there_at_most = d.there.at_most;
-    r.back_sampled = d.back ? d.back->sampled : nan;
-    r.back_at_most = d.back ? d.back->at_most : nan;
+    r.back_sampled = d.back ? d.back->sampled : not_known;
+    r.back_at_most = d.back ? d.back->at_most : not_known;
     r.histogram_low = d.histogram.low;
     r.histogram_high = d.histogram.high;
     r.histogram = d.histogram.counts.data();
@@ -80,7 +80,7 @@ treeform_code treeform_closest_point(const treeform_mesh* mesh, const double* qu
             if (faces) faces[i] = found[i] ? found[i]->face : TREEFORM_NONE;
             if (distances) distances[i] = found[i] ? found[i]->distance : infinity;
             if (points)
-                glue::copy(found[i] ? found[i]->point : tf::point3{nan, nan, nan}, points + 3 * i);
+                glue::copy(found[i] ? found[i]->point : tf::point3{not_known, not_known, not_known}, points + 3 * i);
         }
     });
 }
@@ -94,7 +94,7 @@ treeform_code treeform_closest_points(const treeform_mesh* a, const treeform_mes
         const auto found = glue::asked(a, b, [&](const auto& x, const auto& y) {
             return tf::closest_points(x, y, how);
         });
-        to = {TREEFORM_NONE, TREEFORM_NONE, infinity, {nan, nan, nan}, {nan, nan, nan}};
+        to = {TREEFORM_NONE, TREEFORM_NONE, infinity, {not_known, not_known, not_known}, {not_known, not_known, not_known}};
         if (!found) return;
         to.face_a = found->face_a;
         to.face_b = found->face_b;
@@ -210,7 +210,7 @@ treeform_code treeform_count_sides(const double* points, size_t count,
 void treeform_deviation_options_init(treeform_deviation_options* options, size_t size) {
     const tf::deviation_options from;
     treeform_deviation_options defaults{};
-    defaults.band_low = defaults.band_high = nan;
+    defaults.band_low = defaults.band_high = not_known;
     defaults.bins = from.bins;
     defaults.both_ways = from.both_ways;
     glue::init(options, size, defaults);

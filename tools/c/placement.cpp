@@ -12,7 +12,7 @@ namespace tf = treeform;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 using fixed_meshes = std::span<const tf::prepared_mesh>;
 
@@ -71,7 +71,7 @@ std::unique_ptr<glue::answer<treeform_placement>> answer_of(tf::placement from) 
     glue::copy(at.direction, p.direction);
     p.travel = at.travel;
     p.clearance = at.clearance;
-    p.bed = at.bed.value_or(nan);
+    p.bed = at.bed.value_or(not_known);
     p.below_bed = at.below_bed;
     p.on_bed = at.on_bed;
     p.at_start = static_cast<treeform_standing>(at.at_start);
@@ -147,7 +147,7 @@ void treeform_place_options_init(treeform_place_options* options, size_t size) {
     const tf::separate_options apart;
     const tf::turn_options turned;
     treeform_place_options defaults{};
-    defaults.max_travel = defaults.bed = defaults.tolerance = nan;
+    defaults.max_travel = defaults.bed = defaults.tolerance = not_known;
     defaults.precision = TREEFORM_FLOAT64;
     defaults.close_in = 1;
     defaults.limit = apart.limit;

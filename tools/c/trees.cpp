@@ -31,12 +31,14 @@ std::span<const point_of<D>> points_of(const double* data, std::size_t count, co
 
 template <std::size_t D>
 struct points_and_tree {
+    static constexpr std::size_t dimensions = D;
     std::vector<point_of<D>> points;
     tf::point_search<D> search;
 };
 
 template <std::size_t D>
 struct boxes_and_tree {
+    static constexpr std::size_t dimensions = D;
     std::vector<tf::aabb<double, D>> boxes;
     tf::tree<D> tree;
 };
@@ -115,6 +117,9 @@ void fill_rows(const Lists& found, std::size_t k, std::uint32_t* ids, double* di
     }
 }
 
+template <class Tree>
+constexpr std::size_t dimensions_of = std::remove_cvref_t<Tree>::dimensions;
+
 template <std::size_t D>
 double squared_distance(const tf::aabb<double, D>& box, const point_of<D>& from) {
     double sum = 0.0;
@@ -146,15 +151,6 @@ void with(const treeform_point_tree* tree, const Call& call) {
 template <class Call>
 void with(const treeform_box_tree* tree, const Call& call) {
     std::visit(call, glue::need(tree, "tree").of);
-}
-
-template <std::size_t D>
-constexpr std::size_t dimensions_of(const points_and_tree<D>&) {
-    return D;
-}
-template <std::size_t D>
-constexpr std::size_t dimensions_of(const boxes_and_tree<D>&) {
-    return D;
 }
 
 /// The pairs of points, block by block, so that the lists of all points are never there at once.
@@ -206,7 +202,7 @@ treeform_code treeform_point_tree_nearest(const treeform_point_tree* tree, const
                                           double* distances) {
     return glue::guard([&] {
         with(tree, [&](const auto& of) {
-            const auto all = points_of<dimensions_of(of)>(queries, count, "queries");
+            const auto all = points_of<dimensions_of<decltype(of)>>(queries, count, "queries");
             fill_rows(of.search.k_nearest(all, k, radius), k, ids, distances,
                       [](const tf::near_point& one) { return one.distance; });
         });
@@ -220,7 +216,7 @@ treeform_code treeform_point_tree_within(const treeform_point_tree* tree, const 
         glue::start(neighbors);
         auto made = glue::make<treeform_neighbors>();
         with(tree, [&](const auto& of) {
-            const auto all = points_of<dimensions_of(of)>(queries, count, "queries");
+            const auto all = points_of<dimensions_of<decltype(of)>>(queries, count, "queries");
             const auto& found = made->keep(of.search.all_within(all, radius));
             made->value.begin = found.begin.data();
             made->value.neighbors = glue::same<treeform_neighbor>(found.neighbors);
@@ -294,7 +290,7 @@ treeform_code treeform_box_tree_query(const treeform_box_tree* tree, const doubl
     return glue::guard([&] {
         glue::start(lists);
         with(tree, [&](const auto& of) {
-            const auto queries = boxes_of<dimensions_of(of)>(mins, maxs, count);
+            const auto queries = boxes_of<dimensions_of<decltype(of)>>(mins, maxs, count);
             give_lists(
                 count,
                 [&](std::size_t i) {
@@ -313,7 +309,7 @@ treeform_code treeform_box_tree_rays(const treeform_box_tree* tree, const double
     return glue::guard([&] {
         glue::start(lists);
         with(tree, [&](const auto& of) {
-            constexpr std::size_t D = dimensions_of(of);
+            constexpr std::size_t D = dimensions_of<decltype(of)>;
             const auto from = points_of<D>(origins, count, "origins");
             const auto along = points_of<D>(directions, count, "directions");
             give_lists(
@@ -338,7 +334,7 @@ treeform_code treeform_box_tree_nearest(const treeform_box_tree* tree, const dou
                                         double* distances) {
     return glue::guard([&] {
         with(tree, [&](const auto& of) {
-            const auto queries = points_of<dimensions_of(of)>(points, count, "points");
+            const auto queries = points_of<dimensions_of<decltype(of)>>(points, count, "points");
             const auto found = tf::k_nearest_batch(
                 of.tree, queries, k,
                 [&](std::size_t query, std::uint32_t id) {
