@@ -1,5 +1,3 @@
-#include <doctest/doctest.h>
-#include <treeform.h>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -10,6 +8,9 @@
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <treeform.h>
 
 #include <cstring>
 #include <filesystem>
@@ -35,7 +36,9 @@ handle<T> result_of(const Call& call, treeform_code code = TREEFORM_OK) {
     return handle<T>(made);
 }
 
-std::string model_path(const char* name) { return std::string(TREEFORM_SOURCE_DIR "/data/") + name; }
+std::string model_path(const char* name) {
+    return std::string(TREEFORM_SOURCE_DIR "/data/") + name;
+}
 
 tf::mesh mesh_of(const std::string& path) {
     tf::mesh_file file = tf::read(path);
@@ -67,11 +70,11 @@ std::vector<std::string> models() {
             std::size_t taken = 0;
             std::vector<std::string> found;
             for (const auto& entry : std::filesystem::directory_iterator(folder + "/" + kind))
-                if (entry.is_regular_file() && entry.file_size() < 4'000'000)
+                if (entry.is_regular_file() && entry.file_size() < 200'000)
                     found.push_back(entry.path().string());
             std::sort(found.begin(), found.end());
             for (const std::string& path : found)
-                if (taken < 4 && path.find("SOURCES") == std::string::npos) {
+                if (taken < 3 && path.find("SOURCES") == std::string::npos) {
                     paths.push_back(path);
                     ++taken;
                 }

@@ -1,5 +1,6 @@
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/clash.hpp>
+
+#include <tools/c/glue.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -88,9 +89,9 @@ treeform_code treeform_pairs_named(const char* const* names, size_t count, const
     return glue::guard([&] {
         glue::start(pairs);
         auto made = glue::make<treeform_indices>();
-        const auto& found = made->keep(tf::pairs_named(glue::texts(names, count, "names"),
-                                                       &glue::need(first, "first"),
-                                                       &glue::need(second, "second")));
+        const auto& found =
+            made->keep(tf::pairs_named(glue::texts(names, count, "names"),
+                                       &glue::need(first, "first"), &glue::need(second, "second")));
         made->value.values = found.empty() ? nullptr : found.data()->data();
         made->value.count = 2 * found.size();
         glue::give(std::move(made), pairs);

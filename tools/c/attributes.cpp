@@ -1,8 +1,9 @@
-#include <tools/c/glue.hpp>
-#include <tools/c/inputs.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/placement.hpp>
+
+#include <tools/c/glue.hpp>
+#include <tools/c/inputs.hpp>
 
 namespace tf = treeform;
 
@@ -114,9 +115,9 @@ treeform_code treeform_add_source_columns(treeform_file* file, const char* name,
         (void)glue::need(name, "name");
         const std::size_t faces = to.mesh.faces.size();
         (void)glue::array(face_source, faces, "face_source");
-        tf::add_source_columns(
-            to, name, {reinterpret_cast<const tf::operand_element*>(face_source), faces},
-            glue::texts(inputs, count, "inputs"));
+        tf::add_source_columns(to, name,
+                               {reinterpret_cast<const tf::operand_element*>(face_source), faces},
+                               glue::texts(inputs, count, "inputs"));
     });
 }
 

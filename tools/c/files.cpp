@@ -1,9 +1,10 @@
-#include <tools/c/files.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/write.hpp>
+
+#include <tools/c/files.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -12,9 +13,7 @@ namespace tf = treeform;
 
 namespace {
 
-const tf::mesh_file& content(const treeform_file* file) {
-    return glue::need(file, "file").content;
-}
+const tf::mesh_file& content(const treeform_file* file) { return glue::need(file, "file").content; }
 
 template <class C>
 const treeform_rows* elements_of(glue::answer<C>& owner, const std::vector<tf::element>& from) {
@@ -26,8 +25,8 @@ const treeform_rows* elements_of(glue::answer<C>& owner, const std::vector<tf::e
                                c.list_length.has_value(), c.role != tf::column_role::data,
                                c.values.data(), tf::value_count(c),
                                c.list_length ? c.list_begin.data() : nullptr});
-        elements.push_back({e.name.c_str(), e.rows, owner.keep(std::move(columns)).data(),
-                            e.columns.size()});
+        elements.push_back(
+            {e.name.c_str(), e.rows, owner.keep(std::move(columns)).data(), e.columns.size()});
     }
     return owner.keep(std::move(elements)).data();
 }
@@ -137,8 +136,7 @@ treeform_code treeform_read_memory(const void* bytes, size_t size, const char* n
                                    const char* format, treeform_file** file) {
     return glue::guard([&] {
         glue::start(file);
-        const std::span all =
-            glue::array(static_cast<const std::byte*>(bytes), size, "bytes");
+        const std::span all = glue::array(static_cast<const std::byte*>(bytes), size, "bytes");
         glue::give(tf::read(all, name ? name : "memory", glue::text(format)), file);
     });
 }
@@ -209,9 +207,9 @@ treeform_code treeform_file_set_column(treeform_file* file, const char* element,
         if (wanted != static_cast<std::size_t>(-1) && wanted != rows)
             throw std::invalid_argument(std::to_string(rows) + " values of \"" + name + "\" for " +
                                         std::to_string(wanted) + " rows of \"" + of + "\"");
-        tf::column column = tf::with_type(
-            glue::choice<tf::scalar_type>(type, 10, "type"),
-            [&](auto one) { return column_of<decltype(one)>(name, values, rows); });
+        tf::column column =
+            tf::with_type(glue::choice<tf::scalar_type>(type, 10, "type"),
+                          [&](auto one) { return column_of<decltype(one)>(name, values, rows); });
         if (of == "face" && to.stored_face.empty()) to.stored_faces = to.mesh.faces.size();
         tf::set_column(tf::obtain_element(to.attributes, of, rows), std::move(column));
     });
@@ -222,8 +220,7 @@ treeform_code treeform_file_set_texture(treeform_file* file, const double* textu
     return glue::guard([&] {
         tf::mesh_file& to = glue::need(file, "file").content;
         const std::span uvw = glue::array(texture, 3 * texture_count, "texture");
-        const std::span corners =
-            glue::faces(of_corner, to.mesh.faces.size(), "of_corner");
+        const std::span corners = glue::faces(of_corner, to.mesh.faces.size(), "of_corner");
         tf::corner_values made = to.attributes.corners;
         made.texture.resize(texture_count);
         made.has_w = false;
@@ -298,9 +295,9 @@ treeform_code treeform_write(const char* path, const treeform_file* file,
                              const treeform_write_options* options, treeform_written** written) {
     return glue::guard([&] {
         if (written) *written = nullptr;
-        glue::give_written(tf::write(&glue::need(path, "path"), content(file),
-                                     glue::write_options_of(options)),
-                           written);
+        glue::give_written(
+            tf::write(&glue::need(path, "path"), content(file), glue::write_options_of(options)),
+            written);
     });
 }
 
@@ -324,8 +321,7 @@ treeform_code treeform_write_mesh(const char* path, const treeform_mesh* mesh,
 }
 
 treeform_code treeform_write_memory(const treeform_file* file,
-                                    const treeform_write_options* options,
-                                    treeform_bytes** bytes) {
+                                    const treeform_write_options* options, treeform_bytes** bytes) {
     return glue::guard([&] {
         glue::start(bytes);
         auto made = glue::make<treeform_bytes>();

@@ -2,8 +2,9 @@
 /// \file
 /// How files are written, and what was.
 
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/write.hpp>
+
+#include <tools/c/glue.hpp>
 
 namespace glue {
 

@@ -1,6 +1,7 @@
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tree/version.hpp>
+
+#include <tools/c/glue.hpp>
 
 #include <exception>
 #include <filesystem>

@@ -3,13 +3,14 @@
 /// What all functions of the C surface share: exceptions become codes, arguments are checked, and
 /// results are kept until they are freed.
 
-#include <treeform.h>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
+
+#include <treeform.h>
 
 #include <cmath>
 #include <cstddef>
@@ -238,8 +239,7 @@ template <class C>
                                            const std::vector<tf::io_warning>& from) {
     const std::vector<tf::io_warning>& kept = owner.keep(from);
     std::vector<treeform_warning> warnings;
-    for (const tf::io_warning& one : kept)
-        warnings.push_back({one.code.c_str(), one.text.c_str()});
+    for (const tf::io_warning& one : kept) warnings.push_back({one.code.c_str(), one.text.c_str()});
     return owner.keep(std::move(warnings)).data();
 }
 

@@ -2,9 +2,10 @@
 /// \file
 /// Files as inputs of operations that carry attributes.
 
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
+
+#include <tools/c/glue.hpp>
 
 #include <deque>
 

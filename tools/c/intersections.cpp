@@ -1,11 +1,12 @@
-#include <tools/c/glue.hpp>
-#include <tools/c/pairs.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+
+#include <tools/c/glue.hpp>
+#include <tools/c/pairs.hpp>
 
 #include <algorithm>
 
@@ -251,8 +252,7 @@ treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* par
             if (looked_at.triangle(f) >= to.mesh.faces.size())
                 throw std::invalid_argument("the part is not of this file");
         const auto found = pairs_of(faces, pairs, count);
-        tf::color_marks(
-            to, looked_at,
-            tf::mark_faces(faces, found, tf::group_pairs(looked_at.mesh, found)));
+        tf::color_marks(to, looked_at,
+                        tf::mark_faces(faces, found, tf::group_pairs(looked_at.mesh, found)));
     });
 }

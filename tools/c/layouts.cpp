@@ -1,7 +1,8 @@
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/pack.hpp>
+
+#include <tools/c/glue.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -170,8 +171,8 @@ treeform_code treeform_pack(const treeform_mesh* const* parts, size_t count,
         glue::start(packing);
         const glue::mesh_row row(parts, count, "parts");
         auto made = glue::make<treeform_packing>();
-        const tf::packing& found = made->keep(
-            tf::pack(std::span<const tf::prepared_mesh>(row), options_of(options)));
+        const tf::packing& found =
+            made->keep(tf::pack(std::span<const tf::prepared_mesh>(row), options_of(options)));
         if (found.certificate.status == tf::status::cancelled) throw glue::cancelled{};
         fill(*made, found);
         const bool all_placed = found.not_placed.empty();
@@ -208,7 +209,8 @@ treeform_code treeform_align(const treeform_mesh* moving, const treeform_mesh* f
         if (found.status == tf::status::cancelled) throw glue::cancelled{};
         fill(*made, found);
         const bool converged = found.converged;
-        if (!converged) glue::say((std::string(tf::name_of(found.end)) + ": " + found.message()).c_str());
+        if (!converged)
+            glue::say((std::string(tf::name_of(found.end)) + ": " + found.message()).c_str());
         glue::give(std::move(made), result);
         return converged ? TREEFORM_OK : TREEFORM_NO_PLACE;
     });

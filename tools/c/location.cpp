@@ -1,6 +1,7 @@
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/raycast.hpp>
+
+#include <tools/c/glue.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -14,8 +15,7 @@ void answer(const std::vector<tf::point_location>& found, std::uint8_t* where,
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (where) where[i] = static_cast<std::uint8_t>(found[i].where);
         if (winding) winding[i] = found[i].winding;
-        if (on)
-            on[i] = found[i].where == tf::location::boundary ? found[i].on : TREEFORM_NONE;
+        if (on) on[i] = found[i].where == tf::location::boundary ? found[i].on : TREEFORM_NONE;
     }
 }
 
@@ -77,9 +77,8 @@ treeform_code treeform_locate_in_curves(const double* points, size_t point_count
         (void)glue::array(points, point_count, "points");
         (void)glue::array(edges, edge_count, "edges");
         (void)glue::array(queries, count, "queries");
-        const tf::curve_view curves{
-            {reinterpret_cast<const tf::point2*>(points), point_count},
-            {reinterpret_cast<const tf::curve_edge*>(edges), edge_count}};
+        const tf::curve_view curves{{reinterpret_cast<const tf::point2*>(points), point_count},
+                                    {reinterpret_cast<const tf::curve_edge*>(edges), edge_count}};
         const tf::tree<2> tree = tf::edge_tree(curves);
         answer(tf::curve_locator(curves, tree)
                    .locate(std::span(reinterpret_cast<const tf::point2*>(queries), count)),
@@ -92,9 +91,8 @@ treeform_code treeform_raycast(const treeform_mesh* mesh, const treeform_ray* ra
     return glue::guard([&] {
         const std::span out = glue::array(hits, count, "hits");
         const std::vector<tf::ray3> all = rays_of(rays, count);
-        const auto found = glue::asked(mesh, [&](const auto& m) {
-            return tf::raycast(m, std::span<const tf::ray3>(all));
-        });
+        const auto found = glue::asked(
+            mesh, [&](const auto& m) { return tf::raycast(m, std::span<const tf::ray3>(all)); });
         std::transform(found.begin(), found.end(), out.begin(), hit_of);
     });
 }
@@ -116,8 +114,8 @@ treeform_code treeform_raycast_all(const treeform_mesh* mesh, const treeform_ray
         glue::start(hits);
         const std::vector<tf::ray3> all = rays_of(rays, count);
         auto made = glue::make<treeform_hits>();
-        const auto& found = made->keep(
-            glue::asked(mesh, [&](const auto& m) { return tf::raycast_all(m, all); }));
+        const auto& found =
+            made->keep(glue::asked(mesh, [&](const auto& m) { return tf::raycast_all(m, all); }));
         made->value.begin = found.begin.data();
         made->value.hits = glue::same<treeform_hit>(found.hits);
         made->value.count = count;

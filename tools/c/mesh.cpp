@@ -1,8 +1,9 @@
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/weld.hpp>
+
+#include <tools/c/glue.hpp>
 
 #include <limits>
 
@@ -113,15 +114,14 @@ treeform_code treeform_cloud_create_float(const float* points, size_t point_coun
 treeform_code treeform_mesh_arrays(const treeform_mesh* mesh, treeform_arrays* arrays) {
     return glue::guard([&] {
         const tf::mesh_view view = glue::view(mesh);
-        glue::need(arrays, "arrays") = glue::arrays(
-            mesh->prepared->is_cloud() ? tf::mesh_view{view.points, {}} : view);
+        glue::need(arrays, "arrays") =
+            glue::arrays(mesh->prepared->is_cloud() ? tf::mesh_view{view.points, {}} : view);
     });
 }
 
 treeform_code treeform_mesh_is_cloud(const treeform_mesh* mesh, int32_t* is_cloud) {
-    return glue::guard([&] {
-        glue::need(is_cloud, "is_cloud") = glue::need(mesh, "mesh").prepared->is_cloud();
-    });
+    return glue::guard(
+        [&] { glue::need(is_cloud, "is_cloud") = glue::need(mesh, "mesh").prepared->is_cloud(); });
 }
 
 treeform_code treeform_mesh_indexes_built(const treeform_mesh* mesh, uint64_t* indexes) {

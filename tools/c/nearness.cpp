@@ -1,9 +1,10 @@
-#include <tools/c/pairs.hpp>
-#include <tools/c/relations.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
+
+#include <tools/c/pairs.hpp>
+#include <tools/c/relations.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -74,13 +75,14 @@ treeform_code treeform_closest_point(const treeform_mesh* mesh, const double* qu
                                      double* points) {
     return glue::guard([&] {
         const tf::points_view from = glue::points(queries, count, "queries");
-        const auto found = glue::asked(
-            mesh, [&](const auto& m) { return tf::closest_point(m, from, radius); });
+        const auto found =
+            glue::asked(mesh, [&](const auto& m) { return tf::closest_point(m, from, radius); });
         for (std::size_t i = 0; i < count; ++i) {
             if (faces) faces[i] = found[i] ? found[i]->face : TREEFORM_NONE;
             if (distances) distances[i] = found[i] ? found[i]->distance : infinity;
             if (points)
-                glue::copy(found[i] ? found[i]->point : tf::point3{not_known, not_known, not_known}, points + 3 * i);
+                glue::copy(found[i] ? found[i]->point : tf::point3{not_known, not_known, not_known},
+                           points + 3 * i);
         }
     });
 }
@@ -91,10 +93,13 @@ treeform_code treeform_closest_points(const treeform_mesh* a, const treeform_mes
     return glue::guard([&] {
         treeform_closest& to = glue::need(closest, "closest");
         const tf::distance_options how{glue::matrix(move_a), glue::matrix(move_b), radius};
-        const auto found = glue::asked(a, b, [&](const auto& x, const auto& y) {
-            return tf::closest_points(x, y, how);
-        });
-        to = {TREEFORM_NONE, TREEFORM_NONE, infinity, {not_known, not_known, not_known}, {not_known, not_known, not_known}};
+        const auto found = glue::asked(
+            a, b, [&](const auto& x, const auto& y) { return tf::closest_points(x, y, how); });
+        to = {TREEFORM_NONE,
+              TREEFORM_NONE,
+              infinity,
+              {not_known, not_known, not_known},
+              {not_known, not_known, not_known}};
         if (!found) return;
         to.face_a = found->face_a;
         to.face_b = found->face_b;
@@ -142,8 +147,8 @@ treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
         how.radius = o.radius;
         how.vertices = glue::vertices(o.vertices);
         how.progress = glue::progress(o);
-        const auto found = glue::asked(
-            a, b, [&](const auto& x, const auto& y) { return tf::measure(x, y, how); });
+        const auto found =
+            glue::asked(a, b, [&](const auto& x, const auto& y) { return tf::measure(x, y, how); });
         if (!found) return;
         check(found->relation.status);
         auto made = glue::make<treeform_relation>();
@@ -160,10 +165,9 @@ treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
         (void)glue::need(how, "how");
         tf::relation_options options;
         options.vertices = glue::vertices(vertices);
-        *how = static_cast<treeform_standing>(
-            glue::asked(a, b, [&](const auto& x, const auto& y) {
-                return tf::relation(x, y, options).relation;
-            }));
+        *how = static_cast<treeform_standing>(glue::asked(a, b, [&](const auto& x, const auto& y) {
+            return tf::relation(x, y, options).relation;
+        }));
     });
 }
 
@@ -184,9 +188,8 @@ treeform_code treeform_penetration_depth(const treeform_mesh* a, const treeform_
         how.directions = glue::limit(o.directions);
         how.vertices = glue::vertices(o.vertices);
         how.progress = glue::progress(o);
-        const auto found = glue::asked(a, b, [&](const auto& x, const auto& y) {
-            return tf::penetration_depth(x, y, how);
-        });
+        const auto found = glue::asked(
+            a, b, [&](const auto& x, const auto& y) { return tf::penetration_depth(x, y, how); });
         if (found) check(found->status);
         *depth = found ? found->depth : 0.0;
         glue::copy(found ? found->move : tf::point3{}, move);
@@ -199,8 +202,7 @@ treeform_code treeform_count_sides(const double* points, size_t count,
     return glue::guard([&] {
         (void)glue::need(counts, "counts");
         const glue::mesh_row row(solids, solid_count, "solids");
-        const tf::side_counts found =
-            tf::count_sides(glue::points(points, count, "points"), row);
+        const tf::side_counts found = tf::count_sides(glue::points(points, count, "points"), row);
         counts[0] = found.inside;
         counts[1] = found.on;
         counts[2] = found.outside;

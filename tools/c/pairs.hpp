@@ -2,9 +2,10 @@
 /// \file
 /// Pairs of faces, and positions of two meshes, in C.
 
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+
+#include <tools/c/glue.hpp>
 
 #include <algorithm>
 

@@ -1,8 +1,9 @@
-#include <tools/c/relations.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
+
+#include <tools/c/relations.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -170,8 +171,7 @@ treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* c
 
 treeform_code treeform_drop(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                             size_t fixed_count, const double* direction,
-                            const treeform_place_options* options,
-                            treeform_placement** placement) {
+                            const treeform_place_options* options, treeform_placement** placement) {
     return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, fixed_meshes f) {
         auto how = options_of<tf::drop_options>(options);
         if (direction) how.direction = glue::point(direction, "direction");
@@ -250,8 +250,8 @@ treeform_code treeform_classify_contacts(const treeform_mesh* moving,
         const tf::prepared_mesh& m = *glue::need(moving, "moving").prepared;
         const glue::mesh_row row(fixed, fixed_count, "fixed");
         void* const owner = glue::need(placement, "placement").owner;
-        auto* const from = dynamic_cast<glue::answer<treeform_placement>*>(
-            static_cast<glue::owned*>(owner));
+        auto* const from =
+            dynamic_cast<glue::answer<treeform_placement>*>(static_cast<glue::owned*>(owner));
         if (!from) throw std::invalid_argument("placement is none of this library");
         const tf::placement& at = static_cast<const kept_placement*>(from->kept[0].get())->at;
         if (at.points.size() != m.view().points.size())

@@ -1,10 +1,11 @@
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/triangle.hpp>
+
+#include <tools/c/glue.hpp>
 
 #include <algorithm>
 #include <array>
@@ -84,8 +85,7 @@ double of_finite(const treeform_mesh* mesh, double (*value)(tf::mesh_view)) {
 }  // namespace
 
 treeform_code treeform_volume(const treeform_mesh* mesh, double* volume) {
-    return glue::guard(
-        [&] { glue::need(volume, "volume") = of_finite(mesh, tf::signed_volume); });
+    return glue::guard([&] { glue::need(volume, "volume") = of_finite(mesh, tf::signed_volume); });
 }
 
 treeform_code treeform_area(const treeform_mesh* mesh, double* area) {
@@ -114,8 +114,8 @@ treeform_code treeform_check_solid(const treeform_mesh* mesh, treeform_progress 
         glue::start(certificate);
         auto made = glue::make<treeform_certificate>();
         void* const owner = made->value.owner;
-        const auto& found = made->keep(
-            tf::check_solid(glue::view(mesh), glue::progress(progress, progress_data)));
+        const auto& found =
+            made->keep(tf::check_solid(glue::view(mesh), glue::progress(progress, progress_data)));
         if (found.status == tf::status::cancelled) throw glue::cancelled{};
         made->value = *glue::keep(*made, found);
         made->value.owner = owner;
@@ -177,8 +177,8 @@ treeform_code treeform_find_defects(const treeform_mesh* mesh, treeform_defects*
 treeform_code treeform_find_open_edge(const treeform_mesh* mesh, uint32_t edge[2]) {
     return glue::guard([&] {
         (void)glue::need(edge, "edge");
-        const auto found = tf::find_open_edge(glue::view(mesh))
-                               .value_or(std::array{TREEFORM_NONE, TREEFORM_NONE});
+        const auto found =
+            tf::find_open_edge(glue::view(mesh)).value_or(std::array{TREEFORM_NONE, TREEFORM_NONE});
         edge[0] = found[0];
         edge[1] = found[1];
     });
@@ -188,9 +188,9 @@ treeform_code treeform_closing_tolerance(const treeform_mesh* mesh, const double
                                          size_t count, size_t* which) {
     return glue::guard([&] {
         (void)glue::need(which, "which");
-        *which = tf::closing_tolerance(glue::view(mesh),
-                                       glue::array(tolerances, count, "tolerances"))
-                     .value_or(count);
+        *which =
+            tf::closing_tolerance(glue::view(mesh), glue::array(tolerances, count, "tolerances"))
+                .value_or(count);
     });
 }
 
@@ -287,8 +287,7 @@ treeform_code treeform_convex_hull(const treeform_mesh* mesh, treeform_progress 
 treeform_code treeform_orient2d(const double a[2], const double b[2], const double c[2],
                                 int32_t* sign) {
     return glue::guard([&] {
-        glue::need(sign, "sign") =
-            tf::orient2d(finite2(a, "a"), finite2(b, "b"), finite2(c, "c"));
+        glue::need(sign, "sign") = tf::orient2d(finite2(a, "a"), finite2(b, "b"), finite2(c, "c"));
     });
 }
 

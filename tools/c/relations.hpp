@@ -2,8 +2,9 @@
 /// \file
 /// How two meshes lie, in C.
 
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/measure.hpp>
+
+#include <tools/c/glue.hpp>
 
 namespace glue {
 

@@ -1,5 +1,6 @@
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/read.hpp>
+
+#include <tools/c/glue.hpp>
 
 #include <limits>
 

@@ -1,6 +1,7 @@
+#include <treeform/mesh/self_intersections.hpp>
+
 #include <tools/c/glue.hpp>
 #include <tools/c/pairs.hpp>
-#include <treeform/mesh/self_intersections.hpp>
 
 namespace tf = treeform;
 
@@ -71,9 +72,8 @@ treeform_code treeform_self_intersections_of_file(const char* path,
                                                   treeform_search_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        give_found(
-            tf::self_intersections_of_file(&glue::need(path, "path"), options_of(options)),
-            result);
+        give_found(tf::self_intersections_of_file(&glue::need(path, "path"), options_of(options)),
+                   result);
     });
 }
 

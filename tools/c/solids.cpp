@@ -1,8 +1,9 @@
-#include <tools/c/glue.hpp>
-#include <tools/c/inputs.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/wrap.hpp>
+
+#include <tools/c/glue.hpp>
+#include <tools/c/inputs.hpp>
 
 #include <limits>
 
@@ -105,12 +106,14 @@ tf::repair_options options_of(const treeform_repair_options* options) {
 }
 
 treeform_repair_statistics statistics_of(const tf::repair_statistics& s) {
-    return {s.tetrahedra,   s.degenerate,     s.repeated,      s.closed_edges, s.split_edges,
-            s.gap,          s.widest,         s.flipped,       s.turned,       s.strays,
-            s.holes,        s.hole_edges,     s.filled,        s.open_edges,   s.resolved,
-            s.pairs,        s.labeled_cells,  s.dropped_area,  s.turned_area,  s.removed,
-            s.split_vertices, s.detached,     s.touching,      s.vanished_components,
-            s.volume_before, s.volume_after,  s.area_before,   s.area_after,   s.area_lost};
+    return {s.tetrahedra,     s.degenerate,   s.repeated,    s.closed_edges,
+            s.split_edges,    s.gap,          s.widest,      s.flipped,
+            s.turned,         s.strays,       s.holes,       s.hole_edges,
+            s.filled,         s.open_edges,   s.resolved,    s.pairs,
+            s.labeled_cells,  s.dropped_area, s.turned_area, s.removed,
+            s.split_vertices, s.detached,     s.touching,    s.vanished_components,
+            s.volume_before,  s.volume_after, s.area_before, s.area_after,
+            s.area_lost};
 }
 
 /// What `repair` and `repair_file` have in common.
@@ -161,8 +164,8 @@ treeform_code treeform_boolean(const treeform_mesh* const* operands, size_t coun
     return glue::guard([&] {
         glue::start(result);
         const tf::boolean_expression formula(&glue::need(expression, "expression"), count);
-        return give_solid(
-            tf::boolean(operands_of(operands, count), formula, options_of(options)), result);
+        return give_solid(tf::boolean(operands_of(operands, count), formula, options_of(options)),
+                          result);
     });
 }
 
@@ -174,8 +177,8 @@ treeform_code treeform_boolean_named(const treeform_mesh* const* operands, const
         glue::start(result);
         const std::vector<std::string> words = glue::texts(names, count, "names");
         const tf::boolean_expression formula(&glue::need(expression, "expression"), words);
-        return give_solid(
-            tf::boolean(operands_of(operands, count), formula, options_of(options)), result);
+        return give_solid(tf::boolean(operands_of(operands, count), formula, options_of(options)),
+                          result);
     });
 }
 
@@ -220,10 +223,9 @@ treeform_code treeform_unite_all(const treeform_mesh* const* operands, size_t co
                                  treeform_boolean_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return give_solid(
-            tf::boolean(operands_of(operands, count), tf::boolean_expression::union_of(count),
-                        options_of(options)),
-            result);
+        return give_solid(tf::boolean(operands_of(operands, count),
+                                      tf::boolean_expression::union_of(count), options_of(options)),
+                          result);
     });
 }
 
@@ -233,9 +235,9 @@ treeform_code treeform_clip(const treeform_mesh* const* operands, size_t count, 
     return glue::guard([&] {
         glue::start(result);
         const tf::boolean_expression formula(&glue::need(expression, "expression"), count);
-        return give_solid(tf::clip(glue::views(operands, count, "operands"), sheet, formula,
-                                   options_of(options)),
-                          result);
+        return give_solid(
+            tf::clip(glue::views(operands, count, "operands"), sheet, formula, options_of(options)),
+            result);
     });
 }
 
@@ -244,8 +246,8 @@ treeform_code treeform_split(const treeform_mesh* const* operands, size_t count,
                              treeform_boolean_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return give_solid(
-            tf::split(glue::views(operands, count, "operands"), options_of(options)), result);
+        return give_solid(tf::split(glue::views(operands, count, "operands"), options_of(options)),
+                          result);
     });
 }
 

@@ -1,7 +1,8 @@
-#include <tools/c/files.hpp>
-#include <tools/c/weld.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/weld_stream.hpp>
+
+#include <tools/c/files.hpp>
+#include <tools/c/weld.hpp>
 
 namespace tf = treeform;
 
@@ -92,19 +93,16 @@ uint64_t treeform_default_memory(void) {
     return code == TREEFORM_OK ? bytes : 0;
 }
 
-treeform_code treeform_memory_to_weld(const treeform_file* file, uint64_t points,
-                                      uint64_t* bytes) {
+treeform_code treeform_memory_to_weld(const treeform_file* file, uint64_t points, uint64_t* bytes) {
     return glue::guard([&] {
-        glue::need(bytes, "bytes") =
-            tf::memory_to_weld(glue::need(file, "file").content, points);
+        glue::need(bytes, "bytes") = tf::memory_to_weld(glue::need(file, "file").content, points);
     });
 }
 
 treeform_code treeform_memory_to_stream(const treeform_file* file, uint64_t points,
                                         uint64_t* bytes) {
     return glue::guard([&] {
-        glue::need(bytes, "bytes") =
-            tf::memory_to_stream(glue::need(file, "file").content, points);
+        glue::need(bytes, "bytes") = tf::memory_to_stream(glue::need(file, "file").content, points);
     });
 }
 
@@ -155,9 +153,8 @@ treeform_code treeform_point_writer_create(const char* path, const treeform_file
     return glue::guard([&] {
         glue::start(writer);
         auto made = glue::make<treeform_point_writer>();
-        made->value.writer.emplace(&glue::need(path, "path"),
-                                   glue::need(header, "header").content, count,
-                                   glue::write_options_of(options));
+        made->value.writer.emplace(&glue::need(path, "path"), glue::need(header, "header").content,
+                                   count, glue::write_options_of(options));
         glue::give(std::move(made), writer);
     });
 }

@@ -1,4 +1,3 @@
-#include <tools/c/glue.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/nearness_batch.hpp>
@@ -7,6 +6,8 @@
 #include <treeform/tree/search.hpp>
 #include <treeform/tree/search_pair.hpp>
 #include <treeform/tree/search_self.hpp>
+
+#include <tools/c/glue.hpp>
 
 #include <algorithm>
 #include <array>
@@ -55,8 +56,7 @@ std::vector<tf::aabb<double, D>> boxes_of(const double* mins, const double* maxs
         boxes[i].max = high[i];
         for (std::size_t k = 0; k < D; ++k)
             if (!std::isfinite(low[i][k]) || !std::isfinite(high[i][k]) || boxes[i].empty())
-                throw std::invalid_argument("box " + std::to_string(i) +
-                                            " is empty or not finite");
+                throw std::invalid_argument("box " + std::to_string(i) + " is empty or not finite");
     }
     return boxes;
 }
@@ -183,8 +183,8 @@ treeform_code treeform_point_tree_create(const double* points, size_t count, uin
         auto made = glue::make<treeform_point_tree>();
         with_dimensions(dimensions, [&](auto d) {
             const auto all = points_of<d.value>(points, count, "points");
-            made->value.of = points_and_tree<d.value>{{all.begin(), all.end()},
-                                                      tf::point_search<d.value>(all)};
+            made->value.of =
+                points_and_tree<d.value>{{all.begin(), all.end()}, tf::point_search<d.value>(all)};
         });
         glue::give(std::move(made), tree);
     });
@@ -335,12 +335,12 @@ treeform_code treeform_box_tree_nearest(const treeform_box_tree* tree, const dou
     return glue::guard([&] {
         with(tree, [&](const auto& of) {
             const auto queries = points_of<dimensions_of<decltype(of)>>(points, count, "points");
-            const auto found = tf::k_nearest_batch(
-                of.tree, queries, k,
-                [&](std::size_t query, std::uint32_t id) {
-                    return squared_distance(of.boxes[id], queries[query]);
-                },
-                {.radius = radius});
+            const auto found =
+                tf::k_nearest_batch(of.tree, queries, k,
+                                    [&](std::size_t query, std::uint32_t id) {
+                                        return squared_distance(of.boxes[id], queries[query]);
+                                    },
+                                    {.radius = radius});
             fill_rows(found, k, ids, distances,
                       [](const auto& one) { return std::sqrt(one.squared_distance()); });
         });

@@ -1,5 +1,6 @@
-#include <tools/c/weld.hpp>
 #include <treeform/mesh/weld.hpp>
+
+#include <tools/c/weld.hpp>
 
 namespace tf = treeform;
 
@@ -12,10 +13,8 @@ tf::weld_options options_of(const treeform_weld_options* options) {
     how.rule = glue::choice<tf::weld_rule>(o.rule, 2, "rule");
     how.label = glue::array(o.label, o.label_count, "label");
     if (o.may_merge)
-        how.may_merge = [call = o.may_merge, data = o.may_merge_data](std::uint32_t a,
-                                                                      std::uint32_t b) {
-            return call(a, b, data) != 0;
-        };
+        how.may_merge = [call = o.may_merge, data = o.may_merge_data](
+                            std::uint32_t a, std::uint32_t b) { return call(a, b, data) != 0; };
     how.same = glue::conditions(o.same, o.same_count);
     how.keep_seams = o.keep_seams != 0;
     how.across = glue::texts(o.across, o.across_count, "across");
@@ -86,8 +85,8 @@ treeform_code treeform_weld(const treeform_mesh* mesh, const treeform_weld_optio
             fill_from(r, kept);
             r.mesh = glue::arrays({kept.points, {}});
         } else {
-            const auto& kept = made->keep(
-                glue::asked(mesh, [&](const auto& m) { return tf::weld(m, how); }));
+            const auto& kept =
+                made->keep(glue::asked(mesh, [&](const auto& m) { return tf::weld(m, how); }));
             fill_from(r, kept);
             r.mesh = glue::arrays(kept.mesh);
             r.face_of_new = kept.face_of_new.data();
@@ -102,8 +101,7 @@ treeform_code treeform_weld_file(const treeform_file* file, const treeform_weld_
         glue::start(result);
         auto made = glue::make<treeform_weld_result>();
         treeform_weld_result& r = made->value;
-        auto& kept =
-            made->keep(tf::weld(glue::need(file, "file").content, options_of(options)));
+        auto& kept = made->keep(tf::weld(glue::need(file, "file").content, options_of(options)));
         fill_from(r, kept);
         r.face_of_new = kept.face_of_new.data();
         r.file = glue::keep(*made, std::move(kept.file));
@@ -137,9 +135,8 @@ treeform_code treeform_count_still_within(const treeform_file* welded,
     return glue::guard([&] {
         (void)glue::need(count, "count");
         (void)glue::need(known, "known");
-        const auto found =
-            tf::count_still_within(glue::need(welded, "the file").content, options_of(options),
-                                   glue::precision(written_as));
+        const auto found = tf::count_still_within(glue::need(welded, "the file").content,
+                                                  options_of(options), glue::precision(written_as));
         *count = found.value_or(0);
         *known = found.has_value();
     });

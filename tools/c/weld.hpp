@@ -2,8 +2,9 @@
 /// \file
 /// Options that welding in memory and from file to file have in common.
 
-#include <tools/c/glue.hpp>
 #include <treeform/mesh/weld_options.hpp>
+
+#include <tools/c/glue.hpp>
 
 namespace glue {
 

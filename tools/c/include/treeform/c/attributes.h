@@ -34,14 +34,14 @@ TREEFORM_C_API treeform_code treeform_carry_one(treeform_file* file,
                                                 const uint32_t* face_source,
                                                 const uint32_t* vertex_source);
 
-/// A group for each face of all inputs, for `treeform_boolean_options::face_groups`. With `by_values`
-/// a group has one material and equal values, with `by_input` faces of one input only.
+/// A group for each face of all inputs, for `treeform_boolean_options::face_groups`. With
+/// `by_values` a group has one material and equal values, with `by_input` faces of one input only.
 TREEFORM_C_API treeform_code treeform_face_groups(const treeform_carry_source* inputs, size_t count,
                                                   int32_t by_values, int32_t by_input,
                                                   treeform_indices** groups);
 
-/// Gives faces the columns NAME_mesh and NAME_face: the operand that each comes from, and its number
-/// there; a comment for each of `inputs` [count] says its name.
+/// Gives faces the columns NAME_mesh and NAME_face: the operand that each comes from, and its
+/// number there; a comment for each of `inputs` [count] says its name.
 TREEFORM_C_API treeform_code treeform_add_source_columns(treeform_file* file, const char* name,
                                                          const treeform_element* face_source,
                                                          const char* const* inputs, size_t count);

@@ -4,15 +4,17 @@
 /// What all of the C surface shares: rules, errors, memory, progress, threads, version.
 ///
 /// Calls. Nearly every function returns a `treeform_code` and writes its answer through its last
-/// parameters. 0 is success, a positive code comes with a result that is not all that was asked for,
-/// a negative one comes without. `treeform_last_error` says in a sentence what was wrong, and which
-/// face, point, option or file it was. No argument may be null unless its description says so, and a
-/// null argument, a number out of range or a coordinate that is not finite is an error, not a crash.
+/// parameters. 0 is success, a positive code comes with a result that is not all that was asked
+/// for, a negative one comes without. `treeform_last_error` says in a sentence what was wrong, and
+/// which face, point, option or file it was. No argument may be null unless its description says
+/// so, and a null argument, a number out of range or a coordinate that is not finite is an error,
+/// not a crash.
 ///
-/// Memory. What a function creates (meshes, files, trees, results) is given back by `treeform_free`,
-/// whatever it is. Results are structs; the arrays that they point to belong to them, and stay until
-/// they are freed. The first member of a result, `owner`, is the library's. Arrays that you pass are
-/// yours; a function has read them when it returns, except where it says that it borrows them.
+/// Memory. What a function creates (meshes, files, trees, results) is given back by
+/// `treeform_free`, whatever it is. Results are structs; the arrays that they point to belong to
+/// them, and stay until they are freed. The first member of a result, `owner`, is the library's.
+/// Arrays that you pass are yours; a function has read them when it returns, except where it says
+/// that it borrows them.
 ///
 /// Options. Structs of options begin with their size: call their `..._init` with `sizeof`, then set
 /// what you need; null in place of options means the defaults. Structs of options and results may
@@ -25,8 +27,8 @@
 /// numbers, three rows of four: new = M * old, so the first twelve of a 4x4 matrix by rows.
 ///
 /// Threads. Functions may be called from any threads at once. The same handle may be given to
-/// several calls at once as long as each takes it as const. Answers do not depend on how many threads
-/// the library uses.
+/// several calls at once as long as each takes it as const. Answers do not depend on how many
+/// threads the library uses.
 
 #include <stddef.h>
 #include <stdint.h>

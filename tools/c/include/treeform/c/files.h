@@ -13,7 +13,8 @@ extern "C" {
 typedef struct treeform_file treeform_file;
 
 /// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its dot
-/// ("stl", "ply", ...), or null: the content decides, then the extension. Coordinates are as stored.
+/// ("stl", "ply", ...), or null: the content decides, then the extension. Coordinates are as
+/// stored.
 TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
                                            treeform_file** file);
 
@@ -235,8 +236,8 @@ TREEFORM_C_API treeform_code treeform_usable_part(const treeform_file* file,
                                                   const treeform_part_options* options,
                                                   treeform_part** part);
 
-/// The whole mesh of a file: corners with equal coordinates become one vertex, triangles that are not
-/// finite are left out. Points keep their numbers, so that attributes can be carried.
+/// The whole mesh of a file: corners with equal coordinates become one vertex, triangles that are
+/// not finite are left out. Points keep their numbers, so that attributes can be carried.
 TREEFORM_C_API treeform_code treeform_as_mesh(const treeform_file* file, treeform_part** part);
 
 /// One file with the points and faces of all. `names` [count] are for warnings; or null.

@@ -102,8 +102,8 @@ typedef struct treeform_intersections_options {
 TREEFORM_C_API void treeform_intersections_options_init(treeform_intersections_options* options,
                                                         size_t size);
 
-/// All pairs of a face of `a` and a face of `b` that have a common point; exact. Surfaces count, not
-/// solids.
+/// All pairs of a face of `a` and a face of `b` that have a common point; exact. Surfaces count,
+/// not solids.
 TREEFORM_C_API treeform_code treeform_intersections(const treeform_mesh* a, const treeform_mesh* b,
                                                     const treeform_intersections_options* options,
                                                     treeform_pairs** pairs);
@@ -162,8 +162,8 @@ typedef struct treeform_paths {
     size_t path_count;
 } treeform_paths;
 
-/// The segments joined into paths where their ends are equal as exact points. Faces of the pairs must
-/// have an area.
+/// The segments joined into paths where their ends are equal as exact points. Faces of the pairs
+/// must have an area.
 TREEFORM_C_API treeform_code treeform_intersection_paths(const treeform_mesh* mesh,
                                                          const treeform_face_pair* pairs,
                                                          size_t count, treeform_paths** paths);
@@ -173,8 +173,8 @@ TREEFORM_C_API treeform_code treeform_write_curves(const char* path, const treef
                                                    const treeform_face_pair* pairs, size_t count,
                                                    const char* format);
 
-/// Gives `file` the colors of its faces that meet, and the properties tf_class and tf_region. `part`
-/// is what was looked at, of this file, and `pairs` are those of its mesh.
+/// Gives `file` the colors of its faces that meet, and the properties tf_class and tf_region.
+/// `part` is what was looked at, of this file, and `pairs` are those of its mesh.
 TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* part,
                                                   const treeform_face_pair* pairs, size_t count);
 
@@ -212,8 +212,8 @@ typedef struct treeform_search_result {
 } treeform_search_result;
 
 /// The pairs that `treeform_self_intersections` finds in the usable part of a file (binary STL, or
-/// PLY), for files larger than memory. The folder stays when the process is killed, and the same call
-/// goes on from there.
+/// PLY), for files larger than memory. The folder stays when the process is killed, and the same
+/// call goes on from there.
 TREEFORM_C_API treeform_code treeform_self_intersections_of_file(
     const char* path, const treeform_search_file_options* options, treeform_search_result** result);
 
@@ -223,7 +223,8 @@ TREEFORM_C_API treeform_code treeform_is_searched_in_tiles(const char* path, con
 
 /// The same search step by step, for many processes that see one folder.
 typedef struct treeform_search treeform_search;
-/// Begins: all processes give the same input and options. Only the progress of `options` may differ.
+/// Begins: all processes give the same input and options. Only the progress of `options` may
+/// differ.
 TREEFORM_C_API treeform_code treeform_search_create(const char* path,
                                                     const treeform_search_file_options* options,
                                                     treeform_search** search);

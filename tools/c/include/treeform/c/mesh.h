@@ -78,8 +78,8 @@ typedef struct treeform_made_mesh {
     size_t index_count;
 } treeform_made_mesh;
 
-/// The mesh with points of equal coordinates joined (-0 equals +0), in the order in which they first
-/// appear; faces keep their order. `index` [V] is the new number of each point. O(V + F).
+/// The mesh with points of equal coordinates joined (-0 equals +0), in the order in which they
+/// first appear; faces keep their order. `index` [V] is the new number of each point. O(V + F).
 TREEFORM_C_API treeform_code treeform_join_equal_points(const treeform_mesh* mesh,
                                                         treeform_made_mesh** made);
 
@@ -92,8 +92,8 @@ TREEFORM_C_API treeform_code treeform_join_meshes(const treeform_mesh* const* me
 TREEFORM_C_API treeform_code treeform_select_faces(const treeform_mesh* mesh, const uint32_t* faces,
                                                    size_t count, treeform_made_mesh** made);
 
-/// The mesh with each coordinate rounded to the nearest number of the precision; infinite beyond its
-/// range. `treeform_rounding_effects` says what that breaks.
+/// The mesh with each coordinate rounded to the nearest number of the precision; infinite beyond
+/// its range. `treeform_rounding_effects` says what that breaks.
 TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_precision precision,
                                             treeform_made_mesh** made);
 

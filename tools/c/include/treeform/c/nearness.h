@@ -1,7 +1,8 @@
 #ifndef TREEFORM_C_NEARNESS_H
 #define TREEFORM_C_NEARNESS_H
 /// \file
-/// Nearest points, distances, inside and outside, rays, relation and depth of two meshes, deviation.
+/// Nearest points, distances, inside and outside, rays, relation and depth of two meshes,
+/// deviation.
 ///
 /// Functions of many points or rays answer into your arrays, in the order of the queries and in
 /// parallel. An array of answers that you do not want may be null.
@@ -13,8 +14,8 @@ extern "C" {
 #endif
 
 /// The points of the surface nearest to `queries` [count][3]: `faces` [count], `distances` [count],
-/// `points` [count][3]. Beyond `radius` (infinite for none) they are `TREEFORM_NONE`, infinite, NaN.
-/// Of several faces at the same distance, the lowest.
+/// `points` [count][3]. Beyond `radius` (infinite for none) they are `TREEFORM_NONE`, infinite,
+/// NaN. Of several faces at the same distance, the lowest.
 TREEFORM_C_API treeform_code treeform_closest_point(const treeform_mesh* mesh,
                                                     const double* queries, size_t count,
                                                     double radius, uint32_t* faces,
@@ -53,8 +54,8 @@ enum { TREEFORM_OUTSIDE = 0, TREEFORM_INSIDE = 1, TREEFORM_BOUNDARY = 2 };
 
 /// Where `points` [count][3] are with respect to a closed mesh, exactly: `where` [count] (a
 /// `treeform_location` each), `winding` [count] how often the surface winds around the point, `on`
-/// [count] the lowest face that holds a point of the boundary, else `TREEFORM_NONE`. An open mesh is
-/// `TREEFORM_INVALID`, naming an edge.
+/// [count] the lowest face that holds a point of the boundary, else `TREEFORM_NONE`. An open mesh
+/// is `TREEFORM_INVALID`, naming an edge.
 TREEFORM_C_API treeform_code treeform_locate(const treeform_mesh* mesh, const double* points,
                                              size_t count, uint8_t* where, int32_t* winding,
                                              uint32_t* on);
@@ -153,8 +154,8 @@ typedef struct treeform_measure_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* options, size_t size);
 
-/// The relation of two meshes, their distance and nearest points; null when one has no faces, or they
-/// are separate and further apart than the radius. The relation is exact.
+/// The relation of two meshes, their distance and nearest points; null when one has no faces, or
+/// they are separate and further apart than the radius. The relation is exact.
 TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
                                               const treeform_measure_options* options,
                                               treeform_relation** relation);

@@ -4,9 +4,9 @@
 /// Where a mesh goes: slid, dropped, mated, turned, separated, laid flat, packed, aligned; when it
 /// meets another in motion.
 ///
-/// Placements are checked exactly in the coordinates that they return. Where there is no such place,
-/// they return `TREEFORM_NO_PLACE` with a result that says why. `fixed` [fixed_count] are meshes that
-/// stay; of a `treeform_mesh_set`, they keep their indexes from call to call.
+/// Placements are checked exactly in the coordinates that they return. Where there is no such
+/// place, they return `TREEFORM_NO_PLACE` with a result that says why. `fixed` [fixed_count] are
+/// meshes that stay; of a `treeform_mesh_set`, they keep their indexes from call to call.
 
 #include <treeform/c/nearness.h>
 #include <treeform/c/properties.h>
@@ -104,8 +104,8 @@ TREEFORM_C_API treeform_code treeform_slide(const treeform_mesh* moving,
                                             const treeform_place_options* options,
                                             treeform_placement** placement);
 
-/// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`, of which
-/// there may be none.
+/// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`, of
+/// which there may be none.
 TREEFORM_C_API treeform_code treeform_drop(const treeform_mesh* moving,
                                            const treeform_mesh* const* fixed, size_t fixed_count,
                                            const double* direction,
@@ -201,7 +201,8 @@ TREEFORM_C_API treeform_code treeform_time_of_impact(const treeform_mesh* a, con
                                                      const treeform_impact_options* options,
                                                      treeform_impact** impact);
 
-/// The first time after which it is nearer to `b` than `distance`, which is greater than 0; rounded.
+/// The first time after which it is nearer to `b` than `distance`, which is greater than 0;
+/// rounded.
 TREEFORM_C_API treeform_code treeform_time_to_distance(const treeform_mesh* a,
                                                        const treeform_mesh* b,
                                                        const double motion[3], double distance,

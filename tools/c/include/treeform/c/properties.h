@@ -10,14 +10,15 @@
 extern "C" {
 #endif
 
-/// The volume inside a closed mesh, in cubic units; negative when it is inside out. For an open mesh,
-/// the sum of the signed volumes of the tetrahedra from the origin to its faces. O(F).
+/// The volume inside a closed mesh, in cubic units; negative when it is inside out. For an open
+/// mesh, the sum of the signed volumes of the tetrahedra from the origin to its faces. O(F).
 TREEFORM_C_API treeform_code treeform_volume(const treeform_mesh* mesh, double* volume);
 
 /// The sum of the areas of all faces, in square units, rounded. O(F).
 TREEFORM_C_API treeform_code treeform_area(const treeform_mesh* mesh, double* area);
 
-/// The smallest box around all finite points; without any, min is +infinity and max -infinity. O(V).
+/// The smallest box around all finite points; without any, min is +infinity and max -infinity.
+/// O(V).
 TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform_box* bounds);
 
 /// Whether the mesh bounds a solid, as an operand of `treeform_boolean` has to.

@@ -245,8 +245,8 @@ TREEFORM_C_API treeform_code treeform_repair(const treeform_mesh* mesh,
 typedef int32_t treeform_repair_scope;
 enum { TREEFORM_EACH_PART = 0, TREEFORM_WHOLE_FILE = 1 };
 
-/// The same of a file, or each of its parts, with its attributes. The mesh of the file is taken as it
-/// is read.
+/// The same of a file, or each of its parts, with its attributes. The mesh of the file is taken as
+/// it is read.
 TREEFORM_C_API treeform_code treeform_repair_file(const treeform_file* file,
                                                   treeform_repair_scope scope,
                                                   const treeform_repair_options* options,

@@ -23,9 +23,9 @@ TREEFORM_C_API treeform_code treeform_point_tree_size(const treeform_point_tree*
                                                       size_t* count);
 
 /// The `k` nearest points of each of `queries` [count][dimensions], nearest first, within `radius`
-/// (inclusive; infinite for none): `ids` [count][k] and `distances` [count][k], either of which may be
-/// null. Where there are fewer, ids are `TREEFORM_NONE` and distances infinite. Equally near points
-/// come by number.
+/// (inclusive; infinite for none): `ids` [count][k] and `distances` [count][k], either of which may
+/// be null. Where there are fewer, ids are `TREEFORM_NONE` and distances infinite. Equally near
+/// points come by number.
 TREEFORM_C_API treeform_code treeform_point_tree_nearest(const treeform_point_tree* tree,
                                                          const double* queries, size_t count,
                                                          size_t k, double radius, uint32_t* ids,
@@ -58,7 +58,8 @@ typedef struct treeform_id_pairs {
     size_t count;
 } treeform_id_pairs;
 
-/// All pairs of points within `radius` (inclusive) of each other, each once, the lower number first.
+/// All pairs of points within `radius` (inclusive) of each other, each once, the lower number
+/// first.
 TREEFORM_C_API treeform_code treeform_point_tree_pairs(const treeform_point_tree* tree,
                                                        double radius, treeform_id_pairs** pairs);
 

@@ -110,14 +110,15 @@ TREEFORM_C_API treeform_code treeform_group_points(const treeform_mesh* mesh,
 TREEFORM_C_API treeform_code treeform_count_nearly_equal(const treeform_mesh* mesh, double distance,
                                                          uint64_t* count);
 
-/// How many points of a welded file would be merged if it were written with this precision, read and
-/// welded again; `known` is 0 where points stay apart on purpose.
+/// How many points of a welded file would be merged if it were written with this precision, read
+/// and welded again; `known` is 0 where points stay apart on purpose.
 TREEFORM_C_API treeform_code treeform_count_still_within(const treeform_file* welded,
                                                          const treeform_weld_options* options,
                                                          treeform_precision written_as,
                                                          uint64_t* count, int32_t* known);
 
-/// Sets the flag "withheld" of LAS at the points of `file` that `welded`, made of it, does not keep.
+/// Sets the flag "withheld" of LAS at the points of `file` that `welded`, made of it, does not
+/// keep.
 TREEFORM_C_API treeform_code treeform_withhold(treeform_file* file,
                                                const treeform_weld_result* welded);
 
