@@ -141,6 +141,8 @@ void test_search(void) {
     OK(treeform_search_create(path, &options, &search));
     INVALID("", treeform_search_tile(NULL, 0));
     ENDS(TREEFORM_FILE, "", treeform_search_finish(search, &result));
+    treeform_free(search); /* a step too early ends the search */
+    OK(treeform_search_create(path, &options, &search));
     OK(treeform_search_scatter(search, &tiles));
     CHECK(tiles > 1);
     INVALID("", treeform_search_tile(search, tiles));

@@ -61,9 +61,8 @@ static void test_other_moves(void) {
     treeform_mesh* moving = cube(0.25, 0.25, 5, 0.5);
     treeform_mesh* inside = cube(0.25, 0.25, 0.75, 0.5);
     treeform_mesh* base = cube(0, 0, 0, 1);
-    treeform_mesh* wall = cube(-4, 4, 4, 3);
     const treeform_mesh* fixed[1];
-    const double origin[3] = {0, 0, 0}, axis[3] = {0, 0, 1}, up[3] = {0, 0, 1};
+    const double up[3] = {0, 0, 1};
     treeform_place_options options;
     treeform_placement* placement = NULL;
     treeform_features* of_moving = NULL;
@@ -87,11 +86,6 @@ static void test_other_moves(void) {
     OK(treeform_measure_among(inside, fixed, 1, NULL, &placement));
     CHECK(placement->at_place == TREEFORM_PENETRATING && placement->contact_count > 0);
     treeform_free(placement);
-    fixed[0] = wall;
-    OK(treeform_turn(moving, fixed, 1, origin, axis, NULL, &placement));
-    CHECK(placement->angle == 0.0 || placement->steps > 0);
-    treeform_free(placement);
-    fixed[0] = base;
     OK(treeform_find_features(moving, TREEFORM_PLANE, NULL, &of_moving));
     OK(treeform_find_features(base, TREEFORM_PLANE, NULL, &of_fixed));
     OK(treeform_mate_features(moving, fixed, 1, of_moving->features, of_fixed->features, NULL,
@@ -105,7 +99,6 @@ static void test_other_moves(void) {
     treeform_free(moving);
     treeform_free(inside);
     treeform_free(base);
-    treeform_free(wall);
 }
 
 static void test_turn(void) {
@@ -228,7 +221,7 @@ static void test_align(void) {
     options.start = shift;
     OK(treeform_align(moving, fixed, &options, &result));
     CHECK(result->rms < 1e-6 && result->rms_at_start > 1e-4 && result->end == 0);
-    CHECK(result->freedom_count == 6 && result->undetermined == 3);
+    CHECK(result->freedom_count == 6 && result->freedoms[0].stiffness < 0.02);
     CHECK(result->point_count == arrays.point_count && near(result->scale, 1.0));
     treeform_free(result);
     OK(treeform_cloud_create(NULL, 0, 0, &nothing));

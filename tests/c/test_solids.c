@@ -82,7 +82,7 @@ static void test_open(void) {
     OK(treeform_mesh_create(cube_points, 8, cube_faces, 2, 0, &open));
     both[0] = open;
     both[1] = solid;
-    ENDS(TREEFORM_NOT_CERTIFIED, "open", treeform_unite(open, solid, NULL, &result));
+    ENDS(TREEFORM_NOT_CERTIFIED, "ends at 4 edges", treeform_unite(open, solid, NULL, &result));
     CHECK(result && result->certificate->status == TREEFORM_STATUS_OPEN_INPUT);
     CHECK(result && result->certificate->open_count > 0 && result->mesh.face_count == 0);
     treeform_free(result);

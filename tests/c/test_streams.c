@@ -29,7 +29,7 @@ static void test_weld_files(void) {
     options.points_per_tile = 100;
     OK(treeform_weld_stream(inputs, 1, output, &options, &result));
     CHECK(result->points == 1000 && result->kept == 100 && result->groups == 100);
-    CHECK(is(result->format, "ply-binary") && result->tolerance == 0.5 && result->tiles > 1);
+    CHECK(is(result->format, "ply-binary-le") && result->tolerance == 0.5 && result->tiles > 1);
     treeform_free(result);
     OK(treeform_read(output, NULL, &made));
     OK(treeform_file_look(made, &view));
@@ -78,7 +78,7 @@ static void test_blocks(void) {
     }
     CHECK(blocks == 4 && points == 1000);
     OK(treeform_point_writer_commit(writer, &written));
-    CHECK(is(written->format, "ply-binary"));
+    CHECK(is(written->format, "ply-binary-le"));
     treeform_free(written);
     treeform_free(writer);
     /* Fewer points than promised: no file. */

@@ -232,7 +232,8 @@ TREEFORM_C_API treeform_code treeform_search_create(const char* path,
 TREEFORM_C_API treeform_code treeform_search_scatter(treeform_search* search, size_t* tiles);
 /// Searches a tile, unless that is done. Each process does its share.
 TREEFORM_C_API treeform_code treeform_search_tile(treeform_search* search, size_t tile);
-/// Puts together what was found, when all tiles are searched.
+/// Puts together what was found, when all tiles are searched. Steps that come before their turn
+/// fail, and end the search.
 TREEFORM_C_API treeform_code treeform_search_finish(treeform_search* search,
                                                     treeform_search_result** result);
 /// Removes the folder.
