@@ -12,6 +12,7 @@
 #include <doctest/doctest.h>
 #include <treeform.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <memory>

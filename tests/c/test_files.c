@@ -47,6 +47,8 @@ static void test_change(void) {
     INVALID("3 points", treeform_file_set_points(file, moved, 3));
     OK(treeform_file_set_column(file, "vertex", "heat", TREEFORM_SCALAR_FLOAT32, heat, 4));
     INVALID("4 rows", treeform_file_set_column(file, "vertex", "heat", TREEFORM_INT8, heat, 3));
+    INVALID("stands for",
+            treeform_file_set_column(file, "vertex", "x", TREEFORM_SCALAR_FLOAT32, heat, 4));
     INVALID("type is 10", treeform_file_set_column(file, "vertex", "heat", 10, heat, 4));
     OK(treeform_file_split_polygons(file));
     OK(treeform_file_set_texture(file, uv, 2, of_corner));

@@ -207,6 +207,11 @@ treeform_code treeform_file_set_column(treeform_file* file, const char* element,
         if (wanted != static_cast<std::size_t>(-1) && wanted != rows)
             throw std::invalid_argument(std::to_string(rows) + " values of \"" + name + "\" for " +
                                         std::to_string(wanted) + " rows of \"" + of + "\"");
+        if (const tf::element* const rows_of = tf::find_element(to.attributes, of))
+            if (const tf::column* const before = tf::find_column(*rows_of, name);
+                before && before->role != tf::column_role::data)
+                throw std::invalid_argument("\"" + std::string(name) +
+                                            "\" stands for what points and faces hold");
         tf::column column =
             tf::with_type(glue::choice<tf::scalar_type>(type, 10, "type"),
                           [&](auto one) { return column_of<decltype(one)>(name, values, rows); });

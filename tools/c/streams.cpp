@@ -61,9 +61,7 @@ void give_streamed(tf::weld_stream_result from, treeform_weld_stream_result** ou
 }  // namespace
 
 void treeform_weld_stream_options_init(treeform_weld_stream_options* options, size_t size) {
-    treeform_weld_stream_options defaults{};
-    treeform_write_options_init(&defaults.write, sizeof defaults.write);
-    glue::init(options, size, defaults);
+    glue::init(options, size, treeform_weld_stream_options{});
 }
 
 treeform_code treeform_weld_stream(const char* const* inputs, size_t count, const char* output,
@@ -77,7 +75,7 @@ treeform_code treeform_weld_stream(const char* const* inputs, size_t count, cons
             from.paths.emplace_back(one);
         if (from.paths.empty()) throw std::invalid_argument("no inputs to weld");
         from.format = glue::text(o.format);
-        const tf::write_options how = glue::write_options_of(&o.write);
+        const tf::write_options how = glue::write_options_of(o.write);
         tf::weld_stream_outputs to;
         to.welded = {&glue::need(output, "output"), how};
         if (o.removed) to.removed = {o.removed, how};

@@ -121,7 +121,8 @@ TREEFORM_C_API treeform_code treeform_file_set_points(treeform_file* file, const
                                                       size_t count);
 
 /// Sets a column of `element` ("vertex", "face"), one value a row, `values` [rows] of `type`. The
-/// rows of vertices and faces are those that the file has.
+/// rows of vertices and faces are those that the file has. Columns that stand for coordinates or
+/// corners are refused.
 TREEFORM_C_API treeform_code treeform_file_set_column(treeform_file* file, const char* element,
                                                       const char* name, treeform_scalar type,
                                                       const void* values, size_t rows);

@@ -29,8 +29,8 @@ typedef struct treeform_weld_stream_options {
     const char* removed;       ///< write the dropped points to this file; or null
     const char* label;         ///< write all points, with their group in this property; or null
     int32_t withhold;          ///< write all points, with the flag "withheld" of LAS
-    treeform_write_options write;  ///< of the output; all zero but the precision by default
-    treeform_progress progress;    ///< its share starts anew with each step
+    const treeform_write_options* write;  ///< how to write the output; or null
+    treeform_progress progress;           ///< its share starts anew with each step
     void* progress_data;
 } treeform_weld_stream_options;
 /// Sets the defaults.
