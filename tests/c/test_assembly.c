@@ -78,7 +78,59 @@ static void test_poses(void) {
     treeform_free(b);
 }
 
+static void test_bodies(void) {
+    treeform_mesh* low = cube(0, 0, 0, 1);
+    treeform_mesh* high = cube(0, 0, 1, 1);
+    treeform_file* files[2];
+    treeform_file* scene = NULL;
+    treeform_file* moved = NULL;
+    const treeform_file* inputs[1];
+    const char* const names[2] = {"low", "high"};
+    const char* const label[1] = {"stack.obj"};
+    const double shift[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 5};
+    treeform_bodies* bodies = NULL;
+    treeform_clashes* clashes = NULL;
+    treeform_file_view* view = NULL;
+    OK(treeform_file_create(low, &files[0]));
+    OK(treeform_file_create(high, &files[1]));
+    OK(treeform_scene((const treeform_file* const*)files, names, 2, &scene));
+    inputs[0] = scene;
+    OK(treeform_bodies_of(inputs, label, 1, TREEFORM_BODY_PARTS, &bodies));
+    CHECK(bodies->count == 1);
+    treeform_free(bodies);
+    OK(treeform_bodies_of(inputs, label, 1, TREEFORM_BODY_NAMED, &bodies));
+    CHECK(bodies->count == 2 && is(bodies->bodies[1].name, "high"));
+    CHECK(is(bodies->bodies[0].label, "stack.obj: low") && bodies->bodies[1].face_count == 12);
+    CHECK(bodies->bodies[1].face_in_file[0] == 12 && bodies->meshes[1] == bodies->bodies[1].mesh);
+    OK(treeform_clash(bodies->meshes, bodies->count, NULL, &clashes));
+    CHECK(clashes->count == 1 && clashes->pairs[0].how == TREEFORM_MEETING);
+    treeform_free(clashes);
+    treeform_free(bodies);
+    OK(treeform_bodies_of(inputs, label, 1, TREEFORM_BODY_FILE, &bodies));
+    CHECK(bodies->count == 1 && is(bodies->bodies[0].name, ""));
+    treeform_free(bodies);
+    inputs[0] = files[0];
+    OK(treeform_bodies_of(inputs, label, 1, TREEFORM_BODY_FILE, &bodies));
+    OK(treeform_put_back(bodies, 0, cube_points, 8, shift, TREEFORM_FLOAT64, &moved));
+    OK(treeform_file_look(moved, &view));
+    CHECK(view->mesh.point_count == 8 && view->mesh.points[3] == 1.0);
+    treeform_free(view);
+    treeform_free(moved);
+    INVALID("7 points", treeform_put_back(bodies, 0, cube_points, 7, shift, 1, &moved));
+    INVALID("body 1", treeform_put_back(bodies, 1, cube_points, 8, shift, 1, &moved));
+    treeform_free(bodies);
+    INVALID("kind is 3", treeform_bodies_of(inputs, label, 1, 3, &bodies));
+    INVALID("labels is null", treeform_bodies_of(inputs, NULL, 1, TREEFORM_BODY_FILE, &bodies));
+    CHECK(bodies == NULL && moved == NULL);
+    treeform_free(scene);
+    treeform_free(files[0]);
+    treeform_free(files[1]);
+    treeform_free(low);
+    treeform_free(high);
+}
+
 void test_assembly(void) {
+    test_bodies();
     test_clashes();
     test_names();
     test_poses();

@@ -13,6 +13,13 @@ static const char* write_grid(const char* name) {
     return path;
 }
 
+static void count_numbers(const uint64_t* numbers, size_t count, void* data) {
+    uint64_t* const seen = data;
+    size_t i;
+    for (i = 0; i < count; ++i)
+        if (numbers[i] < 100) ++*seen;
+}
+
 static void test_weld_files(void) {
     const char* inputs[1];
     const char* const output = path_in_work("thin.ply");
@@ -21,7 +28,7 @@ static void test_weld_files(void) {
     treeform_weld_stream_result* result = NULL;
     treeform_file* made = NULL;
     treeform_file_view* view = NULL;
-    uint64_t bytes = 0, more = 0;
+    uint64_t bytes = 0, more = 0, numbered = 0;
     int calls = 0;
     inputs[0] = write_grid("grid.xyz");
     treeform_weld_stream_options_init(&options, sizeof options);
@@ -31,8 +38,11 @@ static void test_weld_files(void) {
     treeform_write_options_init(&write, sizeof write);
     write.ascii = 1;
     options.write = &write;
+    options.map = count_numbers;
+    options.map_data = &numbered;
     OK(treeform_weld_stream(inputs, 1, output, &options, &result));
-    CHECK(result->points == 1000 && result->kept == 100 && result->groups == 100);
+    CHECK(numbered == 1000 && result->points == 1000 && result->kept == 100 &&
+          result->groups == 100);
     CHECK(is(result->format, "ply-ascii") && result->tolerance == 0.5 && result->tiles > 1);
     treeform_free(result);
     OK(treeform_read(output, NULL, &made));

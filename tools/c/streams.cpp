@@ -81,6 +81,10 @@ treeform_code treeform_weld_stream(const char* const* inputs, size_t count, cons
         if (o.removed) to.removed = {o.removed, how};
         to.label = glue::text(o.label);
         to.withhold = o.withhold != 0;
+        if (o.map)
+            to.map = [&](std::span<const std::uint64_t> numbers) {
+                o.map(numbers.data(), numbers.size(), o.map_data);
+            };
         give_streamed(tf::weld_stream(from, to, options_of(o)), result);
     });
 }

@@ -73,7 +73,7 @@ void with_dimensions(std::uint32_t dimensions, const Call& call) {
                                     ", which is neither 2 nor 3");
 }
 
-void give_pairs(std::vector<tf::id_pair> found, treeform_id_pairs** out) {
+void give_pairs(const std::vector<tf::id_pair>& found, treeform_id_pairs** out) {
     auto made = glue::make<treeform_id_pairs>();
     std::vector<std::uint32_t> flat;
     flat.reserve(2 * found.size());

@@ -1,13 +1,55 @@
 #ifndef TREEFORM_C_ASSEMBLY_H
 #define TREEFORM_C_ASSEMBLY_H
 /// \file
-/// Which parts of an assembly penetrate, touch, or are too close; the same in many poses.
+/// Bodies of files. Which parts of an assembly penetrate, touch, or are too close; the same in many
+/// poses.
 
+#include <treeform/c/files.h>
 #include <treeform/c/nearness.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/// What of a file is a body.
+typedef int32_t treeform_body_kind;
+enum {
+    TREEFORM_BODY_FILE = 0,   ///< all of it
+    TREEFORM_BODY_PARTS = 1,  ///< each object, group or node; those with common points are one
+    TREEFORM_BODY_NAMED = 2   ///< each object, group or node, even with common points
+};
+
+/// A body of a file.
+typedef struct treeform_body {
+    const treeform_mesh* mesh;     ///< finite faces, equal corners joined; it belongs to the bodies
+    uint32_t file;                 ///< number of its file
+    const char* name;              ///< of the part; "" when the file has only one
+    const char* label;             ///< for people: the file and the part
+    const uint32_t* face_in_file;  ///< [face_count] of a cloud, the numbers of points
+    size_t face_count;
+} treeform_body;
+
+/// Bodies of files.
+typedef struct treeform_bodies {
+    void* owner;
+    const treeform_body* bodies;         ///< [count]
+    const treeform_mesh* const* meshes;  ///< [count] those of the bodies, as a `treeform_mesh_set`
+    size_t count;
+} treeform_bodies;
+
+/// The bodies of `files` [count], which are called `labels` [count]: for `treeform_clash` and all
+/// placements. Files are copied.
+TREEFORM_C_API treeform_code treeform_bodies_of(const treeform_file* const* files,
+                                                const char* const* labels, size_t count,
+                                                treeform_body_kind kind, treeform_bodies** bodies);
+
+/// The file of a body with its points moved to `points` [count][3], those of a placement, and all
+/// other points of the file moved by `matrix` [12]. The bodies hold the file from there on; their
+/// meshes stay.
+TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t body,
+                                               const double* points, size_t count,
+                                               const double* matrix, treeform_precision written_as,
+                                               treeform_file** file);
 
 /// How to look for clashes.
 typedef struct treeform_clash_options {

@@ -29,6 +29,9 @@ typedef struct treeform_weld_stream_options {
     const char* removed;       ///< write the dropped points to this file; or null
     const char* label;         ///< write all points, with their group in this property; or null
     int32_t withhold;          ///< write all points, with the flag "withheld" of LAS
+    /// Called with the new numbers of the next input points, from the first to the last; or null.
+    void (*map)(const uint64_t* numbers, size_t count, void* data);
+    void* map_data;
     const treeform_write_options* write;  ///< how to write the output; or null
     treeform_progress progress;           ///< its share starts anew with each step
     void* progress_data;
