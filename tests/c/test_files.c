@@ -213,6 +213,7 @@ static void test_robots(void) {
     OK(treeform_link_transforms(robot, joints, &quarter, 1, places));
     CHECK(places[0] == 1.0 && near(places[12], 0.0) && near(places[13], -1.0));
     INVALID("null", treeform_link_transforms(robot, joints, &quarter, 1, NULL));
+    treeform_free(robot);
     ENDS(TREEFORM_FILE, "", treeform_read_urdf("data/cube.stl", NULL, &robot));
     CHECK(robot == NULL);
     treeform_free(mesh);

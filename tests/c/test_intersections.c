@@ -30,6 +30,7 @@ static void test_of_one(void) {
     wrong.b = 640;
     treeform_free(segments);
     INVALID("pair 0", treeform_intersection_curves(mesh, &wrong, 1, &segments));
+    treeform_free(regions);
     INVALID("pair 0", treeform_group_pairs(mesh, &wrong, 1, &regions));
     wrong.b = 1;
     wrong.kind = 7;
