@@ -61,6 +61,10 @@ static void test_booleans(void) {
     INVALID("position", treeform_boolean(all, 3, "(a-", NULL, &result));
     INVALID("", treeform_boolean(all, 2, "a-c", NULL, &result));
     INVALID("expression is null", treeform_boolean(all, 2, NULL, NULL, &result));
+    options.simplify = 1;
+    options.face_groups = cube_faces;
+    options.face_group_count = 5;
+    INVALID("face groups", treeform_unite(a, b, &options, &result));
     options.inside = 3;
     INVALID("inside is 3", treeform_unite(a, b, &options, &result));
     treeform_boolean_options_init(&options, sizeof options);
@@ -90,6 +94,7 @@ static void test_open(void) {
     CHECK(result->mesh.face_count > 0);
     treeform_free(result);
     INVALID("", treeform_clip(both, 2, 0, "a+b", NULL, &result));
+    INVALID("", treeform_clip(both, 2, 5, "a*b", NULL, &result));
     treeform_free(open);
     treeform_free(solid);
 }

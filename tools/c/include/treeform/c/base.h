@@ -20,7 +20,7 @@
 /// what you need; null in place of options means the defaults. Structs of options and results may
 /// grow at their end in later versions, which old programs do not notice: they are passed by
 /// address, and never within other structs. All other structs (`treeform_face_pair`, ...) stay as
-/// they are within a major version.
+/// they are within a major version; while that is 0, within a minor one.
 ///
 /// Numbers. Coordinates are doubles, points are x, y, z one after the other; faces are three 32-bit
 /// numbers of points, counter-clockwise seen from outside. Truth values are 0 and 1. An option that
