@@ -1,5 +1,7 @@
+#include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/topology/area.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <cmath>
@@ -23,3 +25,12 @@ double area(mesh_view mesh) {
 }
 
 }  // namespace treeform::detail::topology
+
+namespace treeform {
+
+double surface_area(mesh_view mesh) {
+    detail::base::check_faces("surface_area", mesh.points.size(), mesh.faces);
+    return detail::topology::area(mesh);
+}
+
+}  // namespace treeform

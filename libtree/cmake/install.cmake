@@ -1,5 +1,5 @@
-# What `cmake --install` writes: headers under include/treeform/, the two libraries, and what makes
-# them found by find_package(treeform CONFIG) and by pkg-config. The folder can be moved afterwards.
+# What `cmake --install` writes: headers under include/treeform/, the libraries, and what makes them
+# found by find_package(treeform CONFIG) and by pkg-config. The folder can be moved afterwards.
 include(CMakePackageConfigHelpers)
 
 # A shared library carries its own dependencies; who links a static one has to find them too.
@@ -29,6 +29,9 @@ set(treeform_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/treeform)
 install(TARGETS treeform_tree treeform_mesh
     EXPORT treeformTargets
     FILE_SET HEADERS)
+if(TREEFORM_BUILD_C)
+    install(TARGETS treeform_c EXPORT treeformTargets FILE_SET HEADERS)
+endif()
 install(EXPORT treeformTargets NAMESPACE treeform:: DESTINATION ${treeform_config_dir})
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/treeformConfig.cmake.in
@@ -44,5 +47,11 @@ install(FILES
 
 file(RELATIVE_PATH treeform_pc_prefix
     /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
-configure_file(${CMAKE_CURRENT_LIST_DIR}/treeform.pc.in ${PROJECT_BINARY_DIR}/treeform.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/treeform.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+set(treeform_pc_files treeform.pc)
+if(TREEFORM_BUILD_C)
+    list(APPEND treeform_pc_files treeform-c.pc)
+endif()
+foreach(name IN LISTS treeform_pc_files)
+    configure_file(${CMAKE_CURRENT_LIST_DIR}/${name}.in ${PROJECT_BINARY_DIR}/${name} @ONLY)
+    install(FILES ${PROJECT_BINARY_DIR}/${name} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()

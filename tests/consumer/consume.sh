@@ -62,6 +62,29 @@ pkg_config() {
     run_all "$folder"
 }
 
+# The library in C: the project has no C++, the compiler no C++ either.
+find_package_c() {
+    local folder=$WORK/find_c_$1
+    rm -rf "$folder"
+    cmake -S "$SOURCE/tests/consumer/project_c" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+        -DCMAKE_PREFIX_PATH="$installed" >/dev/null
+    cmake --build "$folder"
+    "$folder/consumer_c"
+}
+
+pkg_config_c() {
+    local flags folder=$WORK/pkg_c_$1
+    command -v pkg-config >/dev/null || { echo "skipped: no pkg-config"; exit 77; }
+    export PKG_CONFIG_PATH=$installed/$LIBDIR/pkgconfig
+    flags=$(pkg-config --cflags --libs treeform-c)
+    rm -rf "$folder"
+    mkdir "$folder"
+    # shellcheck disable=SC2086 # the flags are words
+    cc -std=c99 -pedantic -Wall -Wextra -Werror -o "$folder/consumer_c" \
+        "$SOURCE/tests/consumer/project_c/main.c" $flags -Wl,-rpath,"$installed/$LIBDIR"
+    "$folder/consumer_c"
+}
+
 run_tool() {
     "$installed/bin/tf-selfintersect" "$SOURCE/data/cube.stl"
     local status=0
@@ -82,7 +105,7 @@ check_headers() {
     local include=$installed/include header status=0
     while read -r header; do
         [[ -f $include/$header ]] || { echo "not installed: $header"; status=1; }
-    done < <(cd "$SOURCE" && find lib*/include -name '*.hpp' | cut -d/ -f3-)
+    done < <(cd "$SOURCE" && find lib*/include tools/c/include -name '*.h*' | sed 's|.*/include/||')
     while read -r header; do
         [[ -f $include/$header ]] || { echo "included, not installed: $header"; status=1; }
     done < <(grep -rhoE '#include <(treeform|lib(tree|mesh))/[^>]+' "$include" | sed 's/.*<//' | sort -u)

@@ -96,7 +96,8 @@ def main():
         return self_test()
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     broken = [f"{path.relative_to(root)}:{line}: {what}"
-              for path in sorted(root.glob("lib*/include/**/*.h*"))
+              for pattern in ("lib*/include/**/*.h*", "tools/*/include/**/*.h")
+              for path in sorted(root.glob(pattern))
               for line, what in faults(path.read_text())]
     print("\n".join(broken) if broken else "every docstring is whole")
     return 1 if broken else 0

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 #include <utility>
 
 namespace {
@@ -84,4 +85,13 @@ TEST_CASE("volume: as of one face after the other, in twice the precision") {
         }
         CHECK(tf::signed_volume(soup) == sum.high / 6.0);
     }
+}
+
+TEST_CASE("surface_area: the sum of the faces, of corners that are there") {
+    CHECK(tf::surface_area({}) == 0.0);
+    CHECK(tf::surface_area(box(1, 2, 3)) == 22.0);
+    CHECK(tf::surface_area(inside_out(box(1, 2, 3))) == 22.0);
+    tf::mesh wrong = box(1, 1, 1);
+    wrong.faces[3][1] = 8;
+    CHECK_THROWS_AS((void)tf::surface_area(wrong), std::invalid_argument);
 }

@@ -91,6 +91,14 @@ struct topology_counts {
 ///         18 (1971)
 [[nodiscard]] TREEFORM_API double signed_volume(mesh_view mesh);
 
+/// The sum of the areas of all faces, in square units; rounded as sums of doubles are.
+///
+/// \pre    every coordinate is finite
+/// \throws std::invalid_argument naming the lowest face with a corner out of range
+/// \cost   O(F)
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API double surface_area(mesh_view mesh);
+
 /// A mesh of the given faces, in the order of `faces`, and of the points that they use, in the
 /// order of `mesh`.
 ///

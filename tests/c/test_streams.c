@@ -1,0 +1,112 @@
+/* Clouds from file to file, and block by block. */
+#include "test.h"
+
+#include <stdio.h>
+
+static const char* write_grid(const char* name) {
+    const char* const path = path_in_work(name);
+    FILE* const out = fopen(path, "wb");
+    int i;
+    CHECK(out != NULL);
+    for (i = 0; i < 1000; ++i) fprintf(out, "%d %d %g\n", i % 10, i / 10 % 10, i / 100 * 0.001);
+    fclose(out);
+    return path;
+}
+
+static void count_numbers(const uint64_t* numbers, size_t count, void* data) {
+    uint64_t* const seen = data;
+    size_t i;
+    for (i = 0; i < count; ++i)
+        if (numbers[i] < 100) ++*seen;
+}
+
+static void test_weld_files(void) {
+    const char* inputs[1];
+    const char* const output = path_in_work("thin.ply");
+    treeform_weld_stream_options options;
+    treeform_write_options write;
+    treeform_weld_stream_result* result = NULL;
+    treeform_file* made = NULL;
+    treeform_file_view* view = NULL;
+    uint64_t bytes = 0, more = 0, numbered = 0;
+    int calls = 0;
+    inputs[0] = write_grid("grid.xyz");
+    treeform_weld_stream_options_init(&options, sizeof options);
+    options.tolerance = 0.5;
+    options.folder = path_in_work("weld_tiles");
+    options.points_per_tile = 100;
+    treeform_write_options_init(&write, sizeof write);
+    write.ascii = 1;
+    options.write = &write;
+    options.map = count_numbers;
+    options.map_data = &numbered;
+    OK(treeform_weld_stream(inputs, 1, output, &options, &result));
+    CHECK(numbered == 1000 && result->points == 1000 && result->kept == 100 &&
+          result->groups == 100);
+    CHECK(is(result->format, "ply-ascii") && result->tolerance == 0.5 && result->tiles > 1);
+    treeform_free(result);
+    OK(treeform_read(output, NULL, &made));
+    OK(treeform_file_look(made, &view));
+    CHECK(view->mesh.point_count == 100);
+    treeform_free(view);
+    OK(treeform_memory_to_weld(made, 1000, &bytes));
+    OK(treeform_memory_to_weld(made, 2000, &more));
+    CHECK(bytes > 0 && more > bytes);
+    OK(treeform_memory_to_stream(made, 1000, &bytes));
+    CHECK(bytes > 0 && treeform_default_memory() > (uint64_t)1 << 20);
+    treeform_free(made);
+    options.progress = stop;
+    options.progress_data = &calls;
+    ENDS(TREEFORM_CANCELLED, "", treeform_weld_stream(inputs, 1, output, &options, &result));
+    INVALID("no inputs", treeform_weld_stream(inputs, 0, output, &options, &result));
+    options.progress = NULL;
+    options.tolerance = -1.0;
+    INVALID("", treeform_weld_stream(inputs, 1, output, &options, &result));
+    inputs[0] = "no_such.xyz";
+    ENDS(TREEFORM_FILE, "no_such", treeform_weld_stream(inputs, 1, output, NULL, &result));
+    CHECK(result == NULL);
+}
+
+static void test_blocks(void) {
+    treeform_point_reader* reader = NULL;
+    treeform_point_writer* writer = NULL;
+    treeform_file* header = NULL;
+    treeform_file* block = NULL;
+    treeform_file_view* view = NULL;
+    treeform_written* written = NULL;
+    uint64_t count = 0, blocks = 0, points = 0;
+    int32_t known = 0;
+    OK(treeform_point_reader_create(write_grid("blocks.xyz"), NULL, &reader));
+    OK(treeform_point_reader_header(reader, &header, &count, &known));
+    OK(treeform_point_writer_create(path_in_work("blocks.ply"), header, 1000, NULL, &writer));
+    INVALID("most is 0", treeform_point_reader_next(reader, 0, &block));
+    for (;;) {
+        OK(treeform_point_reader_next(reader, 300, &block));
+        if (!block) break;
+        OK(treeform_point_writer_write(writer, block));
+        OK(treeform_file_look(block, &view));
+        points += view->mesh.point_count;
+        ++blocks;
+        treeform_free(view);
+        treeform_free(block);
+    }
+    CHECK(blocks == 4 && points == 1000);
+    OK(treeform_point_writer_commit(writer, &written));
+    CHECK(is(written->format, "ply-binary-le"));
+    treeform_free(written);
+    treeform_free(writer);
+    /* Fewer points than promised: no file. */
+    OK(treeform_point_writer_create(path_in_work("short.ply"), header, 1000, NULL, &writer));
+    ENDS(TREEFORM_FILE, "", treeform_point_writer_commit(writer, NULL));
+    treeform_free(writer);
+    ENDS(TREEFORM_FILE, "", treeform_read(path_in_work("short.ply"), NULL, &block));
+    treeform_free(reader);
+    ENDS(TREEFORM_FILE, "", treeform_point_reader_create("data/cube.stl", NULL, &reader));
+    CHECK(reader == NULL);
+    treeform_free(header);
+}
+
+void test_streams(void) {
+    test_weld_files();
+    test_blocks();
+}

@@ -1,0 +1,20 @@
+#ifndef TREEFORM_H
+#define TREEFORM_H
+/// \file
+/// treeform in C: everything. Each header answers the questions of one kind.
+
+#include <treeform/c/assembly.h>
+#include <treeform/c/attributes.h>
+#include <treeform/c/base.h>
+#include <treeform/c/files.h>
+#include <treeform/c/intersections.h>
+#include <treeform/c/mesh.h>
+#include <treeform/c/nearness.h>
+#include <treeform/c/placement.h>
+#include <treeform/c/properties.h>
+#include <treeform/c/solids.h>
+#include <treeform/c/streams.h>
+#include <treeform/c/trees.h>
+#include <treeform/c/weld.h>
+
+#endif

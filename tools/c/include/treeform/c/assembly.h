@@ -1,0 +1,163 @@
+#ifndef TREEFORM_C_ASSEMBLY_H
+#define TREEFORM_C_ASSEMBLY_H
+/// \file
+/// Bodies of files. Which parts of an assembly penetrate, touch, or are too close; the same in many
+/// poses.
+
+#include <treeform/c/files.h>
+#include <treeform/c/nearness.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// What of a file is a body.
+typedef int32_t treeform_body_kind;
+enum {
+    TREEFORM_BODY_FILE = 0,   ///< all of it
+    TREEFORM_BODY_PARTS = 1,  ///< each object, group or node; those with common points are one
+    TREEFORM_BODY_NAMED = 2   ///< each object, group or node, even with common points
+};
+
+/// A body of a file.
+typedef struct treeform_body {
+    const treeform_mesh* mesh;     ///< finite faces, equal corners joined; it belongs to the bodies
+    uint32_t file;                 ///< number of its file
+    const char* name;              ///< of the part; "" when the file has only one
+    const char* label;             ///< for people: the file and the part
+    const uint32_t* face_in_file;  ///< [face_count] of a cloud, the numbers of points
+    size_t face_count;
+} treeform_body;
+
+/// Bodies of files.
+typedef struct treeform_bodies {
+    void* owner;
+    const treeform_body* bodies;         ///< [count]
+    const treeform_mesh* const* meshes;  ///< [count] those of the bodies, as a `treeform_mesh_set`
+    size_t count;
+} treeform_bodies;
+
+/// The bodies of `files` [count], which are called `labels` [count]: for `treeform_clash` and all
+/// placements. Files are copied.
+TREEFORM_C_API treeform_code treeform_bodies_of(const treeform_file* const* files,
+                                                const char* const* labels, size_t count,
+                                                treeform_body_kind kind, treeform_bodies** bodies);
+
+/// The file of a body with its points moved to `points` [count][3], those of a placement, and all
+/// other points of the file moved by `matrix` [12]. The bodies hold the file from there on; their
+/// meshes stay.
+TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t body,
+                                               const double* points, size_t count,
+                                               const double* matrix, treeform_precision written_as,
+                                               treeform_file** file);
+
+/// How to look for clashes.
+typedef struct treeform_clash_options {
+    size_t size;
+    double clearance;
+    int32_t volumes;          ///< of what two closed parts have in common; default 1
+    int32_t depths;           ///< of penetrating parts; default 1
+    uint64_t limit;           ///< faces listed for each region and part; default 1000
+    const uint32_t* ignored;  ///< [ignored_count][2] pairs that are not looked at; or null
+    size_t ignored_count;
+    treeform_vertices vertices;
+    treeform_progress progress;
+    void* progress_data;
+} treeform_clash_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_clash_options_init(treeform_clash_options* options, size_t size);
+
+/// A place where two parts meet.
+typedef struct treeform_contact_region {
+    treeform_box box;
+    uint64_t face_pairs;
+    const uint32_t* faces_a;  ///< [face_count_a] ascending; the first `limit`
+    size_t face_count_a;
+    const uint32_t* faces_b;
+    size_t face_count_b;
+} treeform_contact_region;
+
+/// Two parts that are not clear of each other.
+typedef struct treeform_part_clash {
+    uint32_t a;  ///< the lower number
+    uint32_t b;
+    treeform_standing how;
+    int32_t a_inside_b;
+    int32_t b_inside_a;
+    double distance;
+    double on_a[3];  ///< nearest points of those that are too close; else NaN
+    double on_b[3];
+    uint64_t face_pairs;
+    const treeform_contact_region* regions;  ///< [region_count]
+    size_t region_count;
+    double volume;   ///< of what is inside both; NaN where not known
+    double depth;    ///< of penetrating parts; NaN where not known
+    double move[3];  ///< that takes `a` out of `b`
+} treeform_part_clash;
+
+/// All that is not clear.
+typedef struct treeform_clashes {
+    void* owner;
+    const treeform_part_clash* pairs;  ///< [count] ascending
+    size_t count;
+    uint64_t counts[5];    ///< of pairs that were looked at, by `treeform_standing`
+    uint64_t boxes_apart;  ///< pairs that their boxes keep apart
+    uint64_t ignored;
+    uint64_t parts_indexed;
+    uint64_t clashes;  ///< pairs that penetrate or are closer than the clearance
+} treeform_clashes;
+
+/// How all parts [count] lie to each other, two by two; exact.
+TREEFORM_C_API treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
+                                            const treeform_clash_options* options,
+                                            treeform_clashes** clashes);
+
+/// All pairs of parts of which one's name matches `first`, and the other's `second`, where * stands
+/// for any characters and ? for one: [count / 2][2], for `ignored`.
+TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size_t count,
+                                                  const char* first, const char* second,
+                                                  treeform_indices** pairs);
+
+/// How to check poses.
+typedef struct treeform_poses_options {
+    size_t size;
+    double clearance;
+    int32_t first_only;       ///< name only the first clash of each pose
+    const uint32_t* ignored;  ///< [ignored_count][2]; or null
+    size_t ignored_count;
+    treeform_vertices vertices;
+    treeform_progress progress;
+    void* progress_data;
+} treeform_poses_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_poses_options_init(treeform_poses_options* options, size_t size);
+
+/// Two parts that are not clear of each other in a pose.
+typedef struct treeform_pose_clash {
+    uint32_t a;
+    uint32_t b;
+    uint8_t how;      ///< a `treeform_standing`
+    double distance;  ///< of those that are closer than the clearance; else 0
+} treeform_pose_clash;
+
+/// What clashes in each pose: those of pose p are clashes[begin[p]] ... clashes[begin[p + 1] - 1].
+typedef struct treeform_poses_result {
+    void* owner;
+    const size_t* begin;  ///< [pose_count + 1]
+    const treeform_pose_clash* clashes;
+    size_t pose_count;
+    uint64_t clashing;  ///< poses with a pair that penetrates or is too close
+    uint64_t boxes_apart;
+} treeform_poses_result;
+
+/// What clashes in each of many poses: `poses` [pose_count][count][12] has a matrix for each part,
+/// pose after pose. Exact, for the corners as moved.
+TREEFORM_C_API treeform_code treeform_check_poses(const treeform_mesh* const* parts, size_t count,
+                                                  const double* poses, size_t pose_count,
+                                                  const treeform_poses_options* options,
+                                                  treeform_poses_result** result);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

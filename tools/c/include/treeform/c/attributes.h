@@ -1,0 +1,63 @@
+#ifndef TREEFORM_C_ATTRIBUTES_H
+#define TREEFORM_C_ATTRIBUTES_H
+/// \file
+/// Attributes of inputs carried over to what was made of them; colors.
+
+#include <treeform/c/files.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// An input of an operation.
+typedef struct treeform_carry_source {
+    const treeform_file* file;
+    /// [F] the file's triangle that each face of the input was (`treeform_part`); null: its number.
+    const uint32_t* triangle_of_face;
+    size_t face_count;  ///< of `triangle_of_face`
+} treeform_carry_source;
+
+/// Gives `file`, whose mesh was made of the `inputs` [count], their attributes: columns of vertices
+/// and faces, texture coordinates and normals, materials; of a single input, also names of parts.
+/// `face_source` [F], `vertex_source` [V] and `face_of_cut_vertex` ([V] or null) are those of a
+/// `treeform_boolean_result`.
+TREEFORM_C_API treeform_code treeform_carry(treeform_file* file,
+                                            const treeform_carry_source* inputs, size_t count,
+                                            const treeform_element* face_source,
+                                            const treeform_element* vertex_source,
+                                            const treeform_element* face_of_cut_vertex);
+
+/// The same for what was made of one input: `face_source` [F] and `vertex_source` [V] are those of
+/// a `treeform_resolve_result` or `treeform_repair_result`.
+TREEFORM_C_API treeform_code treeform_carry_one(treeform_file* file,
+                                                const treeform_carry_source* input,
+                                                const uint32_t* face_source,
+                                                const uint32_t* vertex_source);
+
+/// A group for each face of all inputs, for `treeform_boolean_options::face_groups`. With
+/// `by_values` a group has one material and equal values, with `by_input` faces of one input only.
+TREEFORM_C_API treeform_code treeform_face_groups(const treeform_carry_source* inputs, size_t count,
+                                                  int32_t by_values, int32_t by_input,
+                                                  treeform_indices** groups);
+
+/// Gives faces the columns NAME_mesh and NAME_face: the operand that each comes from, and its
+/// number there; a comment for each of `inputs` [count] says its name.
+TREEFORM_C_API treeform_code treeform_add_source_columns(treeform_file* file, const char* name,
+                                                         const treeform_element* face_source,
+                                                         const char* const* inputs, size_t count);
+
+/// Gives the vertices of a file the property "distance" and colors from blue (`low`) over white (0)
+/// to red (`high`); `distances` [count] has one for each point.
+TREEFORM_C_API treeform_code treeform_color_distances(treeform_file* file, const double* distances,
+                                                      size_t count, double low, double high);
+
+/// Gives the triangles of a file (of a cloud, its points) the property tf_class and its color:
+/// `classes` [count] are those of `treeform_contact_classes`. Triangles up to twice `halo` wide
+/// around them have a tint.
+TREEFORM_C_API treeform_code treeform_color_contacts(treeform_file* file, const uint8_t* classes,
+                                                     size_t count, double halo);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,347 @@
+#ifndef TREEFORM_C_FILES_H
+#define TREEFORM_C_FILES_H
+/// \file
+/// Files: read, looked into, changed, joined, split into parts, written; robots.
+
+#include <treeform/c/mesh.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The content of a mesh or point file: points, faces, all attributes.
+typedef struct treeform_file treeform_file;
+
+/// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its dot
+/// ("stl", "ply", ...), or null: the content decides, then the extension. Coordinates are as
+/// stored.
+TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
+                                           treeform_file** file);
+
+/// The same of bytes in memory. Errors say `name`.
+TREEFORM_C_API treeform_code treeform_read_memory(const void* bytes, size_t size, const char* name,
+                                                  const char* format, treeform_file** file);
+
+/// A file without attributes, with copies of the points and faces of a mesh or cloud.
+TREEFORM_C_API treeform_code treeform_file_create(const treeform_mesh* mesh, treeform_file** file);
+
+/// A copy of a file.
+TREEFORM_C_API treeform_code treeform_file_copy(const treeform_file* file, treeform_file** copy);
+
+/// The type of the values of a column.
+typedef int32_t treeform_scalar;
+enum {
+    TREEFORM_INT8 = 0,
+    TREEFORM_UINT8 = 1,
+    TREEFORM_INT16 = 2,
+    TREEFORM_UINT16 = 3,
+    TREEFORM_INT32 = 4,
+    TREEFORM_UINT32 = 5,
+    TREEFORM_INT64 = 6,
+    TREEFORM_UINT64 = 7,
+    TREEFORM_SCALAR_FLOAT32 = 8,
+    TREEFORM_SCALAR_FLOAT64 = 9
+};
+
+/// One named property: a value, or a list of values, for each row of its element.
+typedef struct treeform_column {
+    const char* name;
+    treeform_scalar type;
+    int32_t is_list;
+    int32_t is_stored_elsewhere;  ///< it stands for coordinates, corners or texture coordinates
+    const void* values;           ///< [value_count]
+    size_t value_count;
+    const uint64_t* list_begin;  ///< [rows + 1] of lists; else null
+} treeform_column;
+
+/// A kind of row in a file: "vertex", "face", "edge", ...
+typedef struct treeform_rows {
+    const char* name;
+    size_t rows;
+    const treeform_column* columns;  ///< [column_count]
+    size_t column_count;
+} treeform_rows;
+
+/// Consecutive faces that a file puts under one name; until the next one starts.
+typedef struct treeform_named_faces {
+    const char* object;
+    const char* group;
+    const char* material;
+    uint32_t first_face;  ///< number in the file
+} treeform_named_faces;
+
+/// Something that a person should know about a file.
+typedef struct treeform_warning {
+    const char* code;  ///< "trailing-bytes", "precision", ...
+    const char* text;
+} treeform_warning;
+
+/// All that is in a file. Arrays that it points to are the file's: they stay until the file is
+/// changed or freed, the view until it is freed.
+typedef struct treeform_file_view {
+    void* owner;
+    treeform_arrays mesh;
+    const uint32_t*
+        stored_face;      ///< [F] the file's face that each triangle is of; null: its number
+    size_t stored_faces;  ///< faces in the file
+    int32_t indexed;      ///< the format numbers its vertices
+    treeform_precision stored_as;
+    const char* format;  ///< "stl-binary", "ply-ascii", ...
+    const treeform_warning* warnings;
+    size_t warning_count;
+    const treeform_rows* elements;
+    size_t element_count;
+    const treeform_named_faces* parts;
+    size_t part_count;
+    const double* texture;  ///< [texture_count][3] u, v, w
+    size_t texture_count;
+    const double* normals;  ///< [normal_count][3]
+    size_t normal_count;
+    const uint32_t* texture_of_corner;  ///< [F][3] numbers in `texture`; or null
+    const uint32_t* normal_of_corner;   ///< [F][3] numbers in `normals`; or null
+    const char* const* material_files;
+    size_t material_file_count;
+    const char* const* texture_files;
+    size_t texture_file_count;
+    const char* const* comments;
+    size_t comment_count;
+    const char* const* obj_info;
+    size_t obj_info_count;
+    int32_t is_las;
+    double las_scale[3];
+    double las_offset[3];
+} treeform_file_view;
+
+/// Looks into a file.
+TREEFORM_C_API treeform_code treeform_file_look(const treeform_file* file,
+                                                treeform_file_view** view);
+
+/// Replaces the points [count][3], which must be as many as there are: what a placement returns.
+TREEFORM_C_API treeform_code treeform_file_set_points(treeform_file* file, const double* points,
+                                                      size_t count);
+
+/// Sets a column of `element` ("vertex", "face"), one value a row, `values` [rows] of `type`. The
+/// rows of vertices and faces are those that the file has. Columns that stand for coordinates or
+/// corners are refused.
+TREEFORM_C_API treeform_code treeform_file_set_column(treeform_file* file, const char* element,
+                                                      const char* name, treeform_scalar type,
+                                                      const void* values, size_t rows);
+
+/// Sets texture coordinates `texture` [texture_count][3] and their numbers at each corner of each
+/// triangle `of_corner` [F][3], `TREEFORM_NONE` for none.
+TREEFORM_C_API treeform_code treeform_file_set_texture(treeform_file* file, const double* texture,
+                                                       size_t texture_count,
+                                                       const uint32_t* of_corner);
+
+/// Adds a name for the faces from `first_face` on; strings may be null. Names come by ascending
+/// faces.
+TREEFORM_C_API treeform_code treeform_file_add_part(treeform_file* file, const char* object,
+                                                    const char* group, const char* material,
+                                                    uint32_t first_face);
+
+/// What a line of text in a file is.
+typedef int32_t treeform_text;
+enum {
+    TREEFORM_COMMENT = 0,
+    TREEFORM_OBJ_INFO = 1,
+    TREEFORM_MATERIAL_FILE = 2,
+    TREEFORM_TEXTURE_FILE = 3
+};
+/// Adds such a line.
+TREEFORM_C_API treeform_code treeform_file_add_text(treeform_file* file, treeform_text what,
+                                                    const char* text);
+
+/// Makes each triangle a face of its own.
+TREEFORM_C_API treeform_code treeform_file_split_polygons(treeform_file* file);
+
+/// Moves the coordinates to those that a LAS file can hold; `moved` is the furthest that one went.
+TREEFORM_C_API treeform_code treeform_file_round_to_las(treeform_file* file, double* moved);
+
+/// Moves the coordinates to 32-bit floats; `moved` is the furthest that one went.
+TREEFORM_C_API treeform_code treeform_file_round_to_float32(treeform_file* file, double* moved);
+
+/// Turns the normals of the file as a matrix does.
+TREEFORM_C_API treeform_code treeform_file_turn_normals(treeform_file* file, const double* matrix);
+
+/// How to write.
+typedef struct treeform_write_options {
+    size_t size;
+    const char* format;  ///< extension without its dot; null: that of the path
+    int32_t ascii;       ///< text when the format has text and binary
+    int32_t precision;   ///< a `treeform_precision`; -1: as the coordinates were stored
+    /// The coordinates are certified: fail rather than round them. For `treeform_write_mesh`.
+    int32_t certified;
+} treeform_write_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_write_options_init(treeform_write_options* options, size_t size);
+
+/// What was written.
+typedef struct treeform_written {
+    void* owner;
+    const char* format;  ///< "stl-binary", ...
+    treeform_precision written_as;
+    double max_displacement;  ///< largest change of a coordinate by rounding
+    const treeform_warning* warnings;
+    size_t warning_count;
+} treeform_written;
+
+/// Writes a file to `path`, whole or not at all; "-" is standard output. `written` may be null.
+TREEFORM_C_API treeform_code treeform_write(const char* path, const treeform_file* file,
+                                            const treeform_write_options* options,
+                                            treeform_written** written);
+
+/// The same of a mesh without attributes. `written` may be null.
+TREEFORM_C_API treeform_code treeform_write_mesh(const char* path, const treeform_mesh* mesh,
+                                                 const treeform_write_options* options,
+                                                 treeform_written** written);
+
+/// Bytes.
+typedef struct treeform_bytes {
+    void* owner;
+    const unsigned char* bytes;
+    size_t count;
+} treeform_bytes;
+
+/// The bytes of the file, of the format that `options` name.
+TREEFORM_C_API treeform_code treeform_write_memory(const treeform_file* file,
+                                                   const treeform_write_options* options,
+                                                   treeform_bytes** bytes);
+
+/// The part of a file's mesh to work on, ready for every verb: finite faces, and the number in the
+/// file of each.
+typedef struct treeform_part {
+    void* owner;
+    treeform_arrays mesh;
+    const uint32_t*
+        triangle_of_face;          ///< [F] the file's triangle that each face is; null: its number
+    const uint32_t* face_in_file;  ///< [F] the number in the file, counting polygons
+    const uint32_t* component;     ///< [F] with `details`: the component; else null
+    uint64_t dropped;              ///< triangles with a coordinate that is not finite
+    uint64_t degenerate;           ///< with `details`: triangles that are a segment or a point
+    uint64_t joined;               ///< points merged by tolerance
+} treeform_part;
+
+/// Which part.
+typedef struct treeform_part_options {
+    size_t size;
+    treeform_vertices vertices;  ///< by coordinates: points with equal ones are joined. Default
+    double tolerance;            ///< if greater than 0, points within it are joined
+    const treeform_box* box;     ///< only faces that meet it; or null
+    int32_t details;
+} treeform_part_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_part_options_init(treeform_part_options* options, size_t size);
+
+/// The part of a file's mesh that can be used. Points that only faces left out use go, too.
+TREEFORM_C_API treeform_code treeform_usable_part(const treeform_file* file,
+                                                  const treeform_part_options* options,
+                                                  treeform_part** part);
+
+/// The whole mesh of a file: corners with equal coordinates become one vertex, triangles that are
+/// not finite are left out. Points keep their numbers, so that attributes can be carried.
+TREEFORM_C_API treeform_code treeform_as_mesh(const treeform_file* file, treeform_part** part);
+
+/// One file with the points and faces of all. `names` [count] are for warnings; or null.
+TREEFORM_C_API treeform_code treeform_join_files(const treeform_file* const* files,
+                                                 const char* const* names, size_t count,
+                                                 treeform_file** joined);
+
+/// All files in one scene, each under its name, with materials and textures.
+TREEFORM_C_API treeform_code treeform_scene(const treeform_file* const* files,
+                                            const char* const* names, size_t count,
+                                            treeform_file** scene);
+
+/// A part of a scene.
+typedef struct treeform_scene_part {
+    const char* name;
+    const treeform_file* file;     ///< with the attributes of its faces and points
+    const uint32_t* face_in_file;  ///< [F] the number of each face in the whole file
+    size_t face_count;
+} treeform_scene_part;
+
+/// The parts of a scene.
+typedef struct treeform_scene_parts {
+    void* owner;
+    const treeform_scene_part* parts;  ///< [count]
+    size_t count;
+} treeform_scene_parts;
+
+/// The parts of a file by its objects, groups or nodes, each as a file of its own. Parts that have
+/// points in common are one.
+TREEFORM_C_API treeform_code treeform_split_parts(const treeform_file* file,
+                                                  treeform_scene_parts** parts);
+
+/// Which files of a folder are meant.
+typedef int32_t treeform_file_content;
+enum { TREEFORM_MESHES = 0, TREEFORM_MESHES_AND_POINTS = 1 };
+/// `paths` [count] with each folder replaced by the files in it of such a format.
+TREEFORM_C_API treeform_code treeform_files_of(const char* const* paths, size_t count,
+                                               treeform_file_content content,
+                                               treeform_strings** files);
+
+/// Whether scenes (GLB, DAE, ...) can be read: 0 when treeform was built without assimp.
+TREEFORM_C_API int32_t treeform_reads_scenes(void);
+
+/// A robot.
+typedef struct treeform_robot treeform_robot;
+
+/// How to read a robot.
+typedef struct treeform_robot_options {
+    size_t size;
+    int32_t visual;                      ///< the meshes that are for show, not those for collisions
+    const char* const* package_folders;  ///< [package_folder_count] where packages are; or null
+    size_t package_folder_count;
+} treeform_robot_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_robot_options_init(treeform_robot_options* options, size_t size);
+
+/// Reads a URDF file.
+TREEFORM_C_API treeform_code treeform_read_urdf(const char* path,
+                                                const treeform_robot_options* options,
+                                                treeform_robot** robot);
+
+/// A mesh of a link: `place` takes its points into the link's frame.
+typedef struct treeform_robot_mesh {
+    uint32_t link;
+    const char* file;
+    double place[12];
+} treeform_robot_mesh;
+
+/// A joint.
+typedef struct treeform_robot_joint {
+    const char* name;
+    int32_t kind;  ///< 0 fixed, 1 revolute, 2 continuous, 3 prismatic
+    uint32_t parent;
+    uint32_t child;
+    double lower, upper;  ///< limits; NaN for none
+} treeform_robot_joint;
+
+/// What is in a robot; it stays until it is freed.
+typedef struct treeform_robot_view {
+    void* owner;
+    const char* name;
+    const char* const* links;  ///< [link_count]
+    size_t link_count;
+    const treeform_robot_joint* joints;  ///< [joint_count]
+    size_t joint_count;
+    const treeform_robot_mesh* meshes;  ///< [mesh_count] by links
+    size_t mesh_count;
+    const uint32_t* adjacent;  ///< [adjacent_count][2] pairs of links that need not be compared
+    size_t adjacent_count;
+} treeform_robot_view;
+
+/// Looks into a robot.
+TREEFORM_C_API treeform_code treeform_robot_look(const treeform_robot* robot,
+                                                 treeform_robot_view** view);
+
+/// `places` [link_count][12]: where each link is when `joints` [count] have these `values`, in
+/// radians or lengths. Joints without a value are at 0.
+TREEFORM_C_API treeform_code treeform_link_transforms(const treeform_robot* robot,
+                                                      const char* const* joints,
+                                                      const double* values, size_t count,
+                                                      double* places);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,245 @@
+#ifndef TREEFORM_C_INTERSECTIONS_H
+#define TREEFORM_C_INTERSECTIONS_H
+/// \file
+/// Which faces meet: of a mesh, of two, of a mesh and a box; the curves along which they meet; of a
+/// file larger than memory.
+
+#include <treeform/c/files.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// How two faces meet. Each pair has exactly one kind.
+typedef int32_t treeform_pair_kind;
+enum {
+    TREEFORM_CROSSING = 0,   ///< no shared corner; they pass through each other
+    TREEFORM_OVERLAP = 1,    ///< coplanar, with a common area
+    TREEFORM_FOLD = 2,       ///< a shared edge; coplanar, on the same side of it
+    TREEFORM_DUPLICATE = 3,  ///< the same three corners
+    TREEFORM_PIERCE = 4,     ///< one shared corner; they pass through each other
+    TREEFORM_TOUCHING = 5,   ///< contact without crossing
+    TREEFORM_DEGENERATE = 6  ///< they meet, and one of them has no area
+};
+
+/// All kinds. A set of kinds is a sum of `1u << kind`.
+#define TREEFORM_ALL_KINDS 127u
+
+/// Two faces that meet.
+typedef struct treeform_face_pair {
+    uint32_t a;
+    uint32_t b;
+    uint8_t kind;  ///< a `treeform_pair_kind`
+} treeform_face_pair;
+
+/// Pairs of faces that meet.
+typedef struct treeform_pairs {
+    void* owner;
+    const treeform_face_pair* pairs;  ///< [count] ascending by (a, b)
+    size_t count;
+    uint64_t counts[7];  ///< by kind, of all pairs, listed or not
+    uint64_t box_pairs;  ///< pairs of faces whose boxes overlap
+} treeform_pairs;
+
+/// Which pairs to look for.
+typedef struct treeform_self_intersections_options {
+    size_t size;
+    treeform_vertices vertices;         ///< default: by coordinates
+    int32_t first_only;                 ///< stop at the first pair found
+    uint32_t kinds;                     ///< default: all
+    int32_t between;                    ///< only pairs of faces of different components
+    int32_t within;                     ///< only pairs of faces of one component
+    const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
+    uint64_t limit;                     ///< list at most this many; all are counted. Default: all
+    treeform_progress progress;
+    void* progress_data;
+} treeform_self_intersections_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_self_intersections_options_init(
+    treeform_self_intersections_options* options, size_t size);
+
+/// All pairs of faces that meet in a point that is neither a shared corner nor on a shared edge.
+/// Exact on the coordinates as given.
+TREEFORM_C_API treeform_code treeform_self_intersections(
+    const treeform_mesh* mesh, const treeform_self_intersections_options* options,
+    treeform_pairs** pairs);
+
+/// Faces that meet, in one place of the mesh.
+typedef struct treeform_region {
+    const uint32_t* faces;  ///< [face_count] ascending
+    size_t face_count;
+    double min[3];
+    double max[3];
+    uint64_t pairs;
+} treeform_region;
+
+/// All regions, and the region of each pair.
+typedef struct treeform_regions {
+    void* owner;
+    const treeform_region* regions;  ///< [count] in the order of their lowest face
+    size_t count;
+    const uint32_t* region_of_pair;  ///< [pair_count]
+    size_t pair_count;
+} treeform_regions;
+
+/// Groups the faces in `pairs` [count] into regions: those that a pair or a shared corner links.
+TREEFORM_C_API treeform_code treeform_group_pairs(const treeform_mesh* mesh,
+                                                  const treeform_face_pair* pairs, size_t count,
+                                                  treeform_regions** regions);
+
+/// Which pairs to look for, and where the meshes are.
+typedef struct treeform_intersections_options {
+    size_t size;
+    const double* move_a;  ///< [12] a matrix, or null; the answer is exact for the moved corners
+    const double* move_b;
+    int32_t first_only;
+    uint32_t kinds;
+    uint64_t limit;
+    treeform_progress progress;
+    void* progress_data;
+} treeform_intersections_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_intersections_options_init(treeform_intersections_options* options,
+                                                        size_t size);
+
+/// All pairs of a face of `a` and a face of `b` that have a common point; exact. Surfaces count,
+/// not solids.
+TREEFORM_C_API treeform_code treeform_intersections(const treeform_mesh* a, const treeform_mesh* b,
+                                                    const treeform_intersections_options* options,
+                                                    treeform_pairs** pairs);
+
+/// Whether a face of `a` and a face of `b` have a common point, with each moved by a matrix (null:
+/// where it is); exact.
+TREEFORM_C_API treeform_code treeform_intersects(const treeform_mesh* a, const treeform_mesh* b,
+                                                 const double* move_a, const double* move_b,
+                                                 int32_t* meet);
+
+/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null where
+/// the mesh stays; `meet` is [count].
+TREEFORM_C_API treeform_code treeform_intersects_poses(const treeform_mesh* a,
+                                                       const treeform_mesh* b,
+                                                       const double* moves_a, const double* moves_b,
+                                                       size_t count, uint8_t* meet);
+
+/// The faces, ascending, that have a point in the closed box; exact.
+TREEFORM_C_API treeform_code treeform_faces_in_box(const treeform_mesh* mesh,
+                                                   const treeform_box* box,
+                                                   treeform_indices** faces);
+
+/// What two faces have in common, or one side of it.
+typedef struct treeform_segment {
+    double ends[2][3];  ///< equal when the faces meet in a point
+    uint32_t pair;      ///< number of the pair
+} treeform_segment;
+
+/// Segments.
+typedef struct treeform_segments {
+    void* owner;
+    const treeform_segment* segments;  ///< [count] in the order of the pairs
+    size_t count;
+} treeform_segments;
+
+/// What the two faces of each pair have in common: that there is something is exact, ends are
+/// rounded.
+TREEFORM_C_API treeform_code treeform_intersection_curves(const treeform_mesh* mesh,
+                                                          const treeform_face_pair* pairs,
+                                                          size_t count,
+                                                          treeform_segments** segments);
+
+/// A path of different points, each joined to the next.
+typedef struct treeform_path {
+    const uint32_t* points;  ///< [count] numbers in `treeform_paths::points`
+    size_t count;
+    int32_t closed;  ///< a segment leads from the last point to the first
+} treeform_path;
+
+/// Curves.
+typedef struct treeform_paths {
+    void* owner;
+    const double* points;  ///< [point_count][3]
+    size_t point_count;
+    const treeform_path* paths;  ///< [path_count]
+    size_t path_count;
+} treeform_paths;
+
+/// The segments joined into paths where their ends are equal as exact points. Faces of the pairs
+/// must have an area.
+TREEFORM_C_API treeform_code treeform_intersection_paths(const treeform_mesh* mesh,
+                                                         const treeform_face_pair* pairs,
+                                                         size_t count, treeform_paths** paths);
+
+/// Writes them as lines, OBJ or PLY, by `format` or, where it is null, the extension of `path`.
+TREEFORM_C_API treeform_code treeform_write_curves(const char* path, const treeform_mesh* mesh,
+                                                   const treeform_face_pair* pairs, size_t count,
+                                                   const char* format);
+
+/// Gives `file` the colors of its faces that meet, and the properties tf_class and tf_region.
+/// `part` is what was looked at, of this file, and `pairs` are those of its mesh.
+TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* part,
+                                                  const treeform_face_pair* pairs, size_t count);
+
+/// How to search a file that is larger than memory.
+typedef struct treeform_search_file_options {
+    size_t size;
+    int32_t vertices;         ///< a `treeform_vertices`; -1: as the format has them
+    uint32_t kinds;           ///< default: all
+    const treeform_box* box;  ///< only faces that meet it; or null
+    const char* format;       ///< null: by content
+    uint64_t memory;     ///< bytes that the process may take; 0: three quarters of the machine's
+    const char* folder;  ///< for the tiles; null: the input's name and ".search-tiles"
+    uint64_t faces_per_tile;  ///< 0: as the memory allows
+    treeform_progress progress;
+    void* progress_data;
+} treeform_search_file_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_search_file_options_init(treeform_search_file_options* options,
+                                                      size_t size);
+
+/// What was found in the file.
+typedef struct treeform_search_result {
+    void* owner;
+    treeform_arrays mesh;          ///< only the faces that meet others
+    const uint32_t* face_in_file;  ///< [F] their numbers in the file
+    const treeform_pairs* found;   ///< pairs of faces of `mesh`
+    uint64_t stored_faces;         ///< faces of the file
+    uint64_t triangles;            ///< that they are cut into
+    uint64_t searched;             ///< triangles that are finite, and meet the box
+    uint64_t points;
+    uint64_t degenerate;  ///< triangles without area
+    uint64_t dropped;     ///< triangles that are not finite
+    size_t tiles;
+    size_t finished_tiles;  ///< by an earlier run
+} treeform_search_result;
+
+/// The pairs that `treeform_self_intersections` finds in the usable part of a file (binary STL, or
+/// PLY), for files larger than memory. The folder stays when the process is killed, and the same
+/// call goes on from there.
+TREEFORM_C_API treeform_code treeform_self_intersections_of_file(
+    const char* path, const treeform_search_file_options* options, treeform_search_result** result);
+
+/// Whether the file is of a format that is searched in tiles. `format` may be null.
+TREEFORM_C_API treeform_code treeform_is_searched_in_tiles(const char* path, const char* format,
+                                                           int32_t* is);
+
+/// The same search step by step, for many processes that see one folder.
+typedef struct treeform_search treeform_search;
+/// Begins: all processes give the same input and options. Only the progress of `options` may
+/// differ.
+TREEFORM_C_API treeform_code treeform_search_create(const char* path,
+                                                    const treeform_search_file_options* options,
+                                                    treeform_search** search);
+/// Gives each tile its faces, unless they have them; `tiles` is their number. One process does it.
+TREEFORM_C_API treeform_code treeform_search_scatter(treeform_search* search, size_t* tiles);
+/// Searches a tile, unless that is done. Each process does its share.
+TREEFORM_C_API treeform_code treeform_search_tile(treeform_search* search, size_t tile);
+/// Puts together what was found, when all tiles are searched. Steps that come before their turn
+/// fail, and end the search.
+TREEFORM_C_API treeform_code treeform_search_finish(treeform_search* search,
+                                                    treeform_search_result** result);
+/// Removes the folder.
+TREEFORM_C_API treeform_code treeform_search_remove_folder(treeform_search* search);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

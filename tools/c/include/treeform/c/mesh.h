@@ -1,0 +1,137 @@
+#ifndef TREEFORM_C_MESH_H
+#define TREEFORM_C_MESH_H
+/// \file
+/// Meshes and clouds of your own arrays; meshes joined, selected from and rounded.
+
+#include <treeform/c/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A triangle mesh, or a cloud of points, and the indexes that queries have asked for. The first
+/// query that needs an index builds it, later ones use it again. Queries take it as const: they may
+/// run on any threads at once.
+typedef struct treeform_mesh treeform_mesh;
+
+/// How a mesh takes its arrays: flags to be added.
+enum {
+    TREEFORM_COPY = 1,    ///< copy the arrays; else they are borrowed
+    TREEFORM_ONE_USE = 2  ///< keep no index: for a mesh that is asked one question
+};
+
+/// A mesh of `points` [point_count][3] and `faces` [face_count][3].
+///
+/// Without `TREEFORM_COPY` both arrays are borrowed: they must stay, unchanged, as long as the mesh
+/// exists. Nothing is copied then. Coordinates may be NaN or infinite; verbs that need finite ones
+/// say which is not. Arrays without elements may be null.
+///
+/// A corner that is not less than `point_count` is `TREEFORM_INVALID`, naming the face. O(F).
+TREEFORM_C_API treeform_code treeform_mesh_create(const double* points, size_t point_count,
+                                                  const uint32_t* faces, size_t face_count,
+                                                  uint32_t flags, treeform_mesh** mesh);
+
+/// The same of 32-bit floats, which become doubles without loss: points are copied, faces are
+/// borrowed unless `flags` say otherwise.
+TREEFORM_C_API treeform_code treeform_mesh_create_float(const float* points, size_t point_count,
+                                                        const uint32_t* faces, size_t face_count,
+                                                        uint32_t flags, treeform_mesh** mesh);
+
+/// A cloud of points, to be measured, moved, welded and aligned as meshes are: each point is a face
+/// without area, and has its number. A cloud bounds no solid. Flags as for meshes.
+TREEFORM_C_API treeform_code treeform_cloud_create(const double* points, size_t point_count,
+                                                   uint32_t flags, treeform_mesh** cloud);
+
+/// The same of 32-bit floats, which are copied.
+TREEFORM_C_API treeform_code treeform_cloud_create_float(const float* points, size_t point_count,
+                                                         uint32_t flags, treeform_mesh** cloud);
+
+/// The arrays of a mesh, borrowed as long as it exists. Those of a cloud have no faces.
+TREEFORM_C_API treeform_code treeform_mesh_arrays(const treeform_mesh* mesh,
+                                                  treeform_arrays* arrays);
+
+/// Whether it is a cloud.
+TREEFORM_C_API treeform_code treeform_mesh_is_cloud(const treeform_mesh* mesh, int32_t* is_cloud);
+
+/// Number of indexes built so far.
+TREEFORM_C_API treeform_code treeform_mesh_indexes_built(const treeform_mesh* mesh,
+                                                         uint64_t* indexes);
+
+/// Several meshes side by side.
+typedef struct treeform_mesh_set {
+    void* owner;
+    const treeform_mesh* const* meshes;  ///< [count] they belong to the set
+    size_t count;
+} treeform_mesh_set;
+
+/// Meshes for functions that take several of them, such as `treeform_clash` and `treeform_slide`:
+/// with `set->meshes` these keep their indexes from call to call, with meshes of different origin
+/// they build them for each call. The arrays are those of `meshes`, which must outlive the set.
+TREEFORM_C_API treeform_code treeform_mesh_set_create(const treeform_mesh* const* meshes,
+                                                      size_t count, treeform_mesh_set** set);
+
+/// A mesh that was made of others.
+typedef struct treeform_made_mesh {
+    void* owner;
+    treeform_arrays mesh;
+    const uint32_t* index;  ///< [index_count] what the function says; else null
+    size_t index_count;
+} treeform_made_mesh;
+
+/// The mesh with points of equal coordinates joined (-0 equals +0), in the order in which they
+/// first appear; faces keep their order. `index` [V] is the new number of each point. O(V + F).
+TREEFORM_C_API treeform_code treeform_join_equal_points(const treeform_mesh* mesh,
+                                                        treeform_made_mesh** made);
+
+/// The faces of all meshes one after the other, with equal points joined. `index` [F] is the mesh
+/// that each face is of. Points that are not finite become 0 and may not be used by a face.
+TREEFORM_C_API treeform_code treeform_join_meshes(const treeform_mesh* const* meshes, size_t count,
+                                                  treeform_made_mesh** made);
+
+/// A mesh of the faces with these numbers, in this order, and of the points that they use.
+TREEFORM_C_API treeform_code treeform_select_faces(const treeform_mesh* mesh, const uint32_t* faces,
+                                                   size_t count, treeform_made_mesh** made);
+
+/// The mesh with each coordinate rounded to the nearest number of the precision; infinite beyond
+/// its range. `treeform_rounding_effects` says what that breaks.
+TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_precision precision,
+                                            treeform_made_mesh** made);
+
+/// The distance of neighboring numbers of the precision at the largest coordinate of the mesh.
+TREEFORM_C_API treeform_code treeform_coordinate_step(const treeform_mesh* mesh,
+                                                      treeform_precision precision, double* step);
+
+/// Which rounding to look at.
+typedef struct treeform_rounding_options {
+    size_t size;
+    treeform_precision before;  ///< of the points before the move; default double
+    treeform_precision after;   ///< of `placed`; default double
+    int32_t always_compare;     ///< compare faces even where coordinates are not coarser
+    treeform_progress progress;
+    void* progress_data;
+} treeform_rounding_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_rounding_options_init(treeform_rounding_options* options, size_t size);
+
+/// How far rounding moved points, and what it has broken.
+typedef struct treeform_rounding {
+    void* owner;
+    double max_displacement;  ///< largest change of a coordinate, apart from the move
+    double step;              ///< between neighboring numbers at the largest coordinate
+    int32_t noticeable;  ///< doubles became floats, or a change is over a millionth of the size
+    int32_t compared;    ///< faces were compared
+    uint64_t collapsed;  ///< faces that have lost their area
+    uint64_t meeting;    ///< pairs of faces that meet now, and did not before
+} treeform_rounding;
+
+/// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved).
+/// Exact: faces that meet now, and did not, are found by `treeform_self_intersections`.
+TREEFORM_C_API treeform_code treeform_rounding_effects(const treeform_mesh* mesh,
+                                                       const double* matrix, const double* placed,
+                                                       const treeform_rounding_options* options,
+                                                       treeform_rounding** effects);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,247 @@
+#ifndef TREEFORM_C_NEARNESS_H
+#define TREEFORM_C_NEARNESS_H
+/// \file
+/// Nearest points, distances, inside and outside, rays, relation and depth of two meshes,
+/// deviation.
+///
+/// Functions of many points or rays answer into your arrays, in the order of the queries and in
+/// parallel. An array of answers that you do not want may be null.
+
+#include <treeform/c/mesh.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The points of the surface nearest to `queries` [count][3]: `faces` [count], `distances` [count],
+/// `points` [count][3]. Beyond `radius` (infinite for none) they are `TREEFORM_NONE`, infinite,
+/// NaN. Of several faces at the same distance, the lowest.
+TREEFORM_C_API treeform_code treeform_closest_point(const treeform_mesh* mesh,
+                                                    const double* queries, size_t count,
+                                                    double radius, uint32_t* faces,
+                                                    double* distances, double* points);
+
+/// The nearest points of two meshes.
+typedef struct treeform_closest {
+    uint32_t face_a;  ///< both `TREEFORM_NONE` where there are none
+    uint32_t face_b;
+    double distance;  ///< exactly 0 if and only if the meshes meet
+    double on_a[3];
+    double on_b[3];
+} treeform_closest;
+
+/// The nearest points of the surfaces `a` and `b`, each moved by a matrix (null: where it is), not
+/// further apart than `radius`.
+TREEFORM_C_API treeform_code treeform_closest_points(const treeform_mesh* a, const treeform_mesh* b,
+                                                     const double* move_a, const double* move_b,
+                                                     double radius, treeform_closest* closest);
+
+/// The distance of the surfaces; infinite where one has no faces.
+TREEFORM_C_API treeform_code treeform_distance(const treeform_mesh* a, const treeform_mesh* b,
+                                               const double* move_a, const double* move_b,
+                                               double* distance);
+
+/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null where
+/// the mesh stays; `distances` [count] are infinite beyond `radius`.
+TREEFORM_C_API treeform_code treeform_distance_poses(const treeform_mesh* a, const treeform_mesh* b,
+                                                     const double* moves_a, const double* moves_b,
+                                                     size_t count, double radius,
+                                                     double* distances);
+
+/// Where a point is.
+typedef int32_t treeform_location;
+enum { TREEFORM_OUTSIDE = 0, TREEFORM_INSIDE = 1, TREEFORM_BOUNDARY = 2 };
+
+/// Where `points` [count][3] are with respect to a closed mesh, exactly: `where` [count] (a
+/// `treeform_location` each), `winding` [count] how often the surface winds around the point, `on`
+/// [count] the lowest face that holds a point of the boundary, else `TREEFORM_NONE`. An open mesh
+/// is `TREEFORM_INVALID`, naming an edge.
+TREEFORM_C_API treeform_code treeform_locate(const treeform_mesh* mesh, const double* points,
+                                             size_t count, uint8_t* where, int32_t* winding,
+                                             uint32_t* on);
+
+/// `inside` [count]: 1 for points inside the closed mesh or on its surface.
+TREEFORM_C_API treeform_code treeform_contains(const treeform_mesh* mesh, const double* points,
+                                               size_t count, uint8_t* inside);
+
+/// `winding` [count]: how often the surface winds around each point; 0 on the surface.
+TREEFORM_C_API treeform_code treeform_winding_number(const treeform_mesh* mesh,
+                                                     const double* points, size_t count,
+                                                     int32_t* winding);
+
+/// The same for closed curves in the plane: `points` [point_count][2], `edges` [edge_count][2] by
+/// numbers of points, the inside on their left; `queries` [count][2]. Answers as `treeform_locate`.
+TREEFORM_C_API treeform_code treeform_locate_in_curves(const double* points, size_t point_count,
+                                                       const uint32_t* edges, size_t edge_count,
+                                                       const double* queries, size_t count,
+                                                       uint8_t* where, int32_t* winding);
+
+/// A ray: the points origin + t direction for t_min <= t <= t_max.
+typedef struct treeform_ray {
+    double origin[3];
+    double direction[3];
+    double t_min;
+    double t_max;
+} treeform_ray;
+
+/// A face that a ray hits.
+typedef struct treeform_hit {
+    uint32_t face;     ///< `TREEFORM_NONE`: no hit
+    uint8_t at;        ///< 0 to 2 a corner, 3 to 5 an edge (from corner 0, 1, 2 on), 6 the interior
+    uint8_t coplanar;  ///< the ray runs in the face's plane, or the face has no area
+    double t;          ///< of the first common point
+    double t_end;      ///< of the last one; equal to t unless coplanar
+} treeform_hit;
+
+/// `hits` [count]: the face that each ray hits first, exactly; of several at one point the lowest.
+TREEFORM_C_API treeform_code treeform_raycast(const treeform_mesh* mesh, const treeform_ray* rays,
+                                              size_t count, treeform_hit* hits);
+
+/// `hit` [count]: 1 where the ray hits any face.
+TREEFORM_C_API treeform_code treeform_raycast_any(const treeform_mesh* mesh,
+                                                  const treeform_ray* rays, size_t count,
+                                                  uint8_t* hit);
+
+/// All hits of many rays: those of ray i are hits[begin[i]] ... hits[begin[i + 1] - 1].
+typedef struct treeform_hits {
+    void* owner;
+    const size_t* begin;  ///< [count + 1]
+    const treeform_hit* hits;
+    size_t count;  ///< rays
+} treeform_hits;
+
+/// All faces that each ray hits, in the exact order along the ray, then by number.
+TREEFORM_C_API treeform_code treeform_raycast_all(const treeform_mesh* mesh,
+                                                  const treeform_ray* rays, size_t count,
+                                                  treeform_hits** hits);
+
+/// How two meshes lie to each other, or one to several. The last two occur with a clearance.
+typedef int32_t treeform_standing;
+enum {
+    TREEFORM_SEPARATE = 0,
+    TREEFORM_MEETING = 1,  ///< touching: a common point, and they do not penetrate
+    TREEFORM_PENETRATING = 2,
+    TREEFORM_TOO_CLOSE = 3,
+    TREEFORM_CLEAR = 4
+};
+
+/// How two meshes lie to each other.
+typedef struct treeform_relation {
+    void* owner;
+    treeform_standing how;
+    uint32_t face_a;  ///< faces that show why; 0 when separate
+    uint32_t face_b;
+    int32_t a_inside_b;  ///< a part of `a` lies inside `b` and does not touch it
+    int32_t b_inside_a;
+    double distance;          ///< 0 if and only if they touch or penetrate
+    double surface_distance;  ///< 0 if and only if faces meet
+    uint32_t nearest_a;       ///< faces that hold the nearest points of the surfaces
+    uint32_t nearest_b;
+    double on_a[3];
+    double on_b[3];
+    double barycentric_a[3];  ///< weights of the corners of the faces that give the points
+    double barycentric_b[3];
+} treeform_relation;
+
+/// How to measure.
+typedef struct treeform_measure_options {
+    size_t size;
+    double radius;  ///< default: infinite
+    treeform_vertices vertices;
+    treeform_progress progress;
+    void* progress_data;
+} treeform_measure_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* options, size_t size);
+
+/// The relation of two meshes, their distance and nearest points; null when one has no faces, or
+/// they are separate and further apart than the radius. The relation is exact.
+TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
+                                              const treeform_measure_options* options,
+                                              treeform_relation** relation);
+
+/// Only how they lie, exactly: separate, touching or penetrating.
+TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
+                                             treeform_vertices vertices, treeform_standing* how);
+
+/// How to look for a way out.
+typedef struct treeform_depth_options {
+    size_t size;
+    uint64_t directions;  ///< tried beside those of faces that meet; default 256
+    treeform_vertices vertices;
+    treeform_progress progress;
+    void* progress_data;
+} treeform_depth_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_depth_options_init(treeform_depth_options* options, size_t size);
+
+/// The length of a short translation `move` that takes `a` out of `b`, verified exactly: an upper
+/// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
+TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
+                                                        const treeform_mesh* b,
+                                                        const treeform_depth_options* options,
+                                                        double* depth, double move[3]);
+
+/// Counts `points` [count][3] by where they are with respect to `solids` [solid_count], exactly:
+/// counts[0] inside any, counts[1] on the surface of any, counts[2] outside of all.
+TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t count,
+                                                  const treeform_mesh* const* solids,
+                                                  size_t solid_count, uint64_t counts[3]);
+
+/// How to compare.
+typedef struct treeform_deviation_options {
+    size_t size;
+    double
+        band_low;  ///< signed distances from here to `band_high` are within tolerance; NaN: no band
+    double band_high;
+    uint64_t bins;      ///< of the histogram; default 40
+    int32_t both_ways;  ///< also look from `b` to `a`; default 1
+    treeform_progress progress;
+    void* progress_data;
+} treeform_deviation_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_deviation_options_init(treeform_deviation_options* options,
+                                                    size_t size);
+
+/// How far the points of `a` are from the surface of `b`.
+typedef struct treeform_deviation_result {
+    void* owner;
+    const double* distances;  ///< [count] negative inside `b`
+    const uint32_t* faces;    ///< [count] the nearest face of `b`
+    size_t count;
+    int32_t is_signed;  ///< `b` is closed, so that distances have a sign
+    double mean;
+    double mean_absolute;
+    double rms;
+    double p50;
+    double p95;
+    double p99;
+    double max;
+    uint32_t worst;  ///< the lowest point with that distance
+    double lowest;
+    double highest;
+    double there_sampled;  ///< the largest distance over the points of `a`
+    double there_at_most;  ///< no point of the surface `a` is further away
+    double back_sampled;   ///< from `b` to `a`; NaN where not asked for
+    double back_at_most;
+    double histogram_low;
+    double histogram_high;
+    const uint64_t* histogram;  ///< [bins]
+    size_t bins;
+    uint64_t below;  ///< points below, in and above the band
+    uint64_t within;
+    uint64_t above;
+} treeform_deviation_result;
+
+/// Signed distances of the points of `a` from the surface of `fixed` [fixed_count] together; null
+/// when there are no points or no faces. The side is exact.
+TREEFORM_C_API treeform_code treeform_deviation(const treeform_mesh* a,
+                                                const treeform_mesh* const* fixed,
+                                                size_t fixed_count,
+                                                const treeform_deviation_options* options,
+                                                treeform_deviation_result** result);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,203 @@
+#ifndef TREEFORM_C_PROPERTIES_H
+#define TREEFORM_C_PROPERTIES_H
+/// \file
+/// Properties of a mesh: volume, area, bounds, whether it bounds a solid, defects, components, flat
+/// and cylindrical regions, convex hull; the signs of exact predicates.
+
+#include <treeform/c/mesh.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The volume inside a closed mesh, in cubic units; negative when it is inside out. For an open
+/// mesh, the sum of the signed volumes of the tetrahedra from the origin to its faces. O(F).
+TREEFORM_C_API treeform_code treeform_volume(const treeform_mesh* mesh, double* volume);
+
+/// The sum of the areas of all faces, in square units, rounded. O(F).
+TREEFORM_C_API treeform_code treeform_area(const treeform_mesh* mesh, double* area);
+
+/// The smallest box around all finite points; without any, min is +infinity and max -infinity.
+/// O(V).
+TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform_box* bounds);
+
+/// Whether the mesh bounds a solid, as an operand of `treeform_boolean` has to.
+TREEFORM_C_API treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* is_solid);
+
+/// The same with the reasons: the certificate is ok, or says where the surface ends. Returns
+/// `TREEFORM_OK` either way. `progress` may be null.
+TREEFORM_C_API treeform_code treeform_check_solid(const treeform_mesh* mesh,
+                                                  treeform_progress progress, void* progress_data,
+                                                  treeform_certificate** certificate);
+
+/// Counts over the faces with three different corners, by numbers of points.
+typedef struct treeform_topology {
+    void* owner;
+    uint64_t edges;
+    uint64_t boundary_edges;       ///< used by one face
+    uint64_t nonmanifold_edges;    ///< used by three or more faces
+    uint64_t misoriented_edges;    ///< used by two faces in the same direction
+    uint64_t nonmanifold_points;   ///< whose faces fall into more than one fan
+    uint64_t components_by_point;  ///< faces linked by a shared corner
+    uint64_t components_by_edge;   ///< faces linked by a shared edge
+    uint64_t points_used;
+    uint64_t faces;                  ///< with three different corners
+    uint64_t repeated_corner_faces;  ///< the others
+    uint64_t duplicate_faces;        ///< beyond the first with the same corners
+    int32_t closed;                  ///< a face, no boundary edge, no nonmanifold edge
+} treeform_topology;
+
+/// Counts edges, components and defects. Join equal points first (`treeform_join_equal_points`).
+TREEFORM_C_API treeform_code treeform_count_topology(const treeform_mesh* mesh,
+                                                     treeform_topology** topology);
+
+/// `component` [F]: the component of each face, by shared corners, numbered in the order of their
+/// lowest face; `count` is how many there are.
+TREEFORM_C_API treeform_code treeform_face_components(const treeform_mesh* mesh,
+                                                      uint32_t* component, size_t* count);
+
+/// Points and faces that algorithms refuse or treat in a special way; ascending.
+typedef struct treeform_defects {
+    void* owner;
+    const uint32_t* nonfinite_points;  ///< with a NaN or infinite coordinate
+    size_t nonfinite_point_count;
+    const uint32_t* nonfinite_faces;  ///< with such a corner
+    size_t nonfinite_face_count;
+    const uint32_t* degenerate_faces;  ///< finite, with exactly collinear corners
+    size_t degenerate_face_count;
+} treeform_defects;
+
+/// Finds them, exactly. O(V + F).
+TREEFORM_C_API treeform_code treeform_find_defects(const treeform_mesh* mesh,
+                                                   treeform_defects** defects);
+
+/// The two points of the lowest edge at which the mesh is open, by numbers of points; both
+/// `TREEFORM_NONE` when it is closed, so that winding numbers are defined.
+TREEFORM_C_API treeform_code treeform_find_open_edge(const treeform_mesh* mesh, uint32_t edge[2]);
+
+/// `which` of `tolerances` [count] is the first that closes the mesh when points within it are
+/// joined; `count` when joining equal points does so already, or none does.
+TREEFORM_C_API treeform_code treeform_closing_tolerance(const treeform_mesh* mesh,
+                                                        const double* tolerances, size_t count,
+                                                        size_t* which);
+
+/// Whether two meshes have the same faces, by coordinates, turned the same way; with `any_order`
+/// wherever they stand in their lists.
+TREEFORM_C_API treeform_code treeform_same_triangles(const treeform_mesh* a, const treeform_mesh* b,
+                                                     int32_t any_order, int32_t* same);
+
+/// What kind of region.
+typedef int32_t treeform_feature_kind;
+enum { TREEFORM_PLANE = 0, TREEFORM_AXIS = 1 };
+
+/// A plane or an axis, fitted to faces by least squares.
+typedef struct treeform_feature {
+    treeform_feature_kind kind;
+    int32_t hollow;       ///< of a cylinder: a hole
+    double origin[3];     ///< center of the faces, on the plane or the axis
+    double direction[3];  ///< of length 1: the outward normal, or along the axis
+    double radius;        ///< of the cylinder
+    double area;
+    double deviation;       ///< largest distance of a corner from the plane or cylinder
+    const uint32_t* faces;  ///< [face_count] ascending
+    size_t face_count;
+} treeform_feature;
+
+/// Features, largest area first.
+typedef struct treeform_features {
+    void* owner;
+    const treeform_feature* features;  ///< [count]
+    size_t count;
+} treeform_features;
+
+/// What counts as flat or cylindrical.
+typedef struct treeform_feature_options {
+    size_t size;
+    double tolerance;    ///< a length; NaN: 1e-4 of the diagonal
+    double plane_angle;  ///< degrees; default 1
+    double facet_angle;  ///< degrees; default 46
+    double arc;          ///< degrees; default 60
+} treeform_feature_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_feature_options_init(treeform_feature_options* options, size_t size);
+
+/// The flat or cylindrical regions of the mesh, largest first. Join equal points first.
+TREEFORM_C_API treeform_code treeform_find_features(const treeform_mesh* mesh,
+                                                    treeform_feature_kind kind,
+                                                    const treeform_feature_options* options,
+                                                    treeform_features** features);
+
+/// The region around a face; `count` is 0 where that is neither flat nor cylindrical.
+TREEFORM_C_API treeform_code treeform_feature_at_face(const treeform_mesh* mesh,
+                                                      treeform_feature_kind kind, uint32_t face,
+                                                      const treeform_feature_options* options,
+                                                      treeform_features** features);
+
+/// The region around the face nearest to a point.
+TREEFORM_C_API treeform_code treeform_feature_at_point(const treeform_mesh* mesh,
+                                                       treeform_feature_kind kind,
+                                                       const double point[3],
+                                                       const treeform_feature_options* options,
+                                                       treeform_features** features);
+
+/// The plane, or axis, of exactly these faces; `count` is 0 where they have none.
+TREEFORM_C_API treeform_code treeform_fit_feature(const treeform_mesh* mesh,
+                                                  treeform_feature_kind kind, const uint32_t* faces,
+                                                  size_t face_count, treeform_features** features);
+
+/// A flat side of a convex hull.
+typedef struct treeform_hull_side {
+    uint32_t first_face;  ///< its faces follow one another
+    uint32_t face_count;
+    double area;
+    double normal[3];  ///< outward, of length 1
+    double center[3];
+} treeform_hull_side;
+
+/// A convex hull.
+typedef struct treeform_hull {
+    void* owner;
+    int32_t dimension;      ///< 3 in space, 2 in a plane, 1 on a line, 0 one point, -1 none
+    const uint32_t* faces;  ///< [face_count][3] by numbers of points, grouped by side
+    size_t face_count;
+    const treeform_hull_side* sides;  ///< [side_count]
+    size_t side_count;
+    /// [side_count + 1] corners of side i are corners[corner_begin[i]] ... in order around it
+    const size_t* corner_begin;
+    const uint32_t* corners;
+} treeform_hull;
+
+/// The convex hull of the points of a mesh or cloud, exact on the coordinates as given. `progress`
+/// may be null.
+TREEFORM_C_API treeform_code treeform_convex_hull(const treeform_mesh* mesh,
+                                                  treeform_progress progress, void* progress_data,
+                                                  treeform_hull** hull);
+
+/// Sign of (b - a) x (c - a), exact: +1 when a, b, c turn left, 0 when collinear.
+TREEFORM_C_API treeform_code treeform_orient2d(const double a[2], const double b[2],
+                                               const double c[2], int32_t* sign);
+
+/// Sign of ((b - a) x (c - a)) . (d - a), exact: +1 when a, b, c are seen counter-clockwise from d.
+TREEFORM_C_API treeform_code treeform_orient3d(const double a[3], const double b[3],
+                                               const double c[3], const double d[3], int32_t* sign);
+
+/// Sign of |a - b| - |c - d|, exact.
+TREEFORM_C_API treeform_code treeform_compare_distance(const double a[3], const double b[3],
+                                                       const double c[3], const double d[3],
+                                                       int32_t* sign);
+
+/// What two triangles have in common.
+typedef struct treeform_triangle_contact {
+    int32_t dimension;  ///< of the common set: -1 nothing, 0 a point, 1 a segment, 2 an area
+    int32_t coplanar;
+    int32_t crossing;  ///< they pass through each other
+} treeform_triangle_contact;
+
+/// What triangles `a` and `b`, three points each, have in common; exact.
+TREEFORM_C_API treeform_code treeform_intersect_triangles(const double a[9], const double b[9],
+                                                          treeform_triangle_contact* contact);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,117 @@
+#ifndef TREEFORM_C_STREAMS_H
+#define TREEFORM_C_STREAMS_H
+/// \file
+/// Clouds larger than memory: welded from file to file, read and written block by block.
+
+#include <treeform/c/weld.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// How to weld from file to file.
+typedef struct treeform_weld_stream_options {
+    size_t size;
+    double tolerance;
+    int32_t relative;  ///< `tolerance` is a share of the diagonal of the cloud's box
+    treeform_weld_rule rule;
+    const treeform_weld_condition* same;
+    size_t same_count;
+    treeform_weld_keep keep;
+    const char* keep_by;
+    treeform_weld_order order;
+    const char* order_by;
+    int32_t as_las;            ///< round to the steps of the first file before anything is decided
+    uint64_t memory;           ///< bytes that the process may take; 0: `treeform_default_memory`
+    const char* folder;        ///< for the tiles; null: the input's name and ".tiles"
+    uint64_t points_per_tile;  ///< 0: as the memory allows
+    const char* format;        ///< of the inputs; null: by content
+    const char* removed;       ///< write the dropped points to this file; or null
+    const char* label;         ///< write all points, with their group in this property; or null
+    int32_t withhold;          ///< write all points, with the flag "withheld" of LAS
+    /// Called with the new numbers of the next input points, from the first to the last; or null.
+    void (*map)(const uint64_t* numbers, size_t count, void* data);
+    void* map_data;
+    const treeform_write_options* write;  ///< how to write the output; or null
+    treeform_progress progress;           ///< its share starts anew with each step
+    void* progress_data;
+} treeform_weld_stream_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_weld_stream_options_init(treeform_weld_stream_options* options,
+                                                      size_t size);
+
+/// What was welded.
+typedef struct treeform_weld_stream_result {
+    void* owner;
+    uint64_t points;      ///< of the inputs
+    uint64_t non_finite;  ///< all are kept
+    double tolerance;     ///< as a length
+    uint64_t kept;
+    uint64_t groups;  ///< of two points or more
+    double max_displacement;
+    uint64_t tiles;
+    uint64_t finished_tiles;  ///< by an earlier run
+    const char* format;       ///< that was written
+    uint64_t still_within;    ///< as `treeform_count_still_within`
+    int32_t still_within_known;
+} treeform_weld_stream_result;
+
+/// Welds the cloud in the files `inputs` [count] (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV)
+/// and writes `output`, whole or not at all: the same bytes as `treeform_weld_file` would lead to.
+/// The folder stays when the process is killed, and the same call goes on from there.
+TREEFORM_C_API treeform_code treeform_weld_stream(const char* const* inputs, size_t count,
+                                                  const char* output,
+                                                  const treeform_weld_stream_options* options,
+                                                  treeform_weld_stream_result** result);
+
+/// The memory limit when none is given: three quarters of the machine's, in bytes.
+TREEFORM_C_API uint64_t treeform_default_memory(void);
+
+/// About how many bytes it takes to weld `points` points with the properties of the file in memory.
+TREEFORM_C_API treeform_code treeform_memory_to_weld(const treeform_file* file, uint64_t points,
+                                                     uint64_t* bytes);
+
+/// The least memory with which they can be welded in tiles.
+TREEFORM_C_API treeform_code treeform_memory_to_stream(const treeform_file* file, uint64_t points,
+                                                       uint64_t* bytes);
+
+/// Reads points from the first to the last.
+typedef struct treeform_point_reader treeform_point_reader;
+
+/// Opens a file of points and reads its header. `format` may be null.
+TREEFORM_C_API treeform_code treeform_point_reader_create(const char* path, const char* format,
+                                                          treeform_point_reader** reader);
+
+/// The file without its points, and their number: `TREEFORM_OK` with `known` 0 where no header says
+/// it.
+TREEFORM_C_API treeform_code treeform_point_reader_header(const treeform_point_reader* reader,
+                                                          treeform_file** header, uint64_t* count,
+                                                          int32_t* known);
+
+/// The next points, at most `most`, with their properties, as a file without faces; null when none
+/// are left.
+TREEFORM_C_API treeform_code treeform_point_reader_next(treeform_point_reader* reader, size_t most,
+                                                        treeform_file** block);
+
+/// Writes points.
+typedef struct treeform_point_writer treeform_point_writer;
+
+/// Begins a file of `count` points like `header`, perhaps with columns added.
+TREEFORM_C_API treeform_code treeform_point_writer_create(const char* path,
+                                                          const treeform_file* header,
+                                                          uint64_t count,
+                                                          const treeform_write_options* options,
+                                                          treeform_point_writer** writer);
+
+/// Writes the points of a block.
+TREEFORM_C_API treeform_code treeform_point_writer_write(treeform_point_writer* writer,
+                                                         const treeform_file* block);
+
+/// Finishes the file; without this call, none stays. `written` may be null.
+TREEFORM_C_API treeform_code treeform_point_writer_commit(treeform_point_writer* writer,
+                                                          treeform_written** written);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

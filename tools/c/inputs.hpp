@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// Files as inputs of operations that carry attributes.
+
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/carry.hpp>
+
+#include <tools/c/glue.hpp>
+
+#include <deque>
+
+namespace glue {
+
+/// A file without the faces that no operation takes.
+class usable_input {
+  public:
+    explicit usable_input(const tf::mesh_file& file) : file_(file) {
+        triangle_of_face_ = tf::drop_unusable_faces(file_.mesh);
+    }
+    [[nodiscard]] tf::carry_source source() const { return {&file_, triangle_of_face_}; }
+
+  private:
+    tf::mesh_file file_;
+    std::vector<std::uint32_t> triangle_of_face_;
+};
+
+/// Inputs as `carry` takes them: with the faces that the operation saw. A file all of whose faces it
+/// saw is not copied.
+class carry_inputs {
+  public:
+    carry_inputs(const treeform_carry_source* inputs, std::size_t count);
+    [[nodiscard]] std::span<const tf::carry_source> sources() const { return sources_; }
+
+  private:
+    std::deque<tf::mesh_file> files_;
+    std::vector<tf::carry_source> sources_;
+};
+
+}  // namespace glue

@@ -1,0 +1,184 @@
+#include <treeform/mesh/point_stream.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+
+#include <tools/c/files.hpp>
+#include <tools/c/weld.hpp>
+
+namespace tf = treeform;
+
+struct treeform_point_reader {
+    void* owner;
+    std::optional<treeform::point_reader> reader;
+};
+
+struct treeform_point_writer {
+    void* owner;
+    std::optional<treeform::point_writer> writer;
+};
+
+namespace {
+
+tf::weld_stream_options options_of(const treeform_weld_stream_options& o) {
+    tf::weld_stream_options how;
+    how.tolerance = o.tolerance;
+    how.relative = o.relative != 0;
+    how.rule = glue::choice<tf::weld_rule>(o.rule, 2, "rule");
+    how.same = glue::conditions(o.same, o.same_count);
+    how.keep = glue::choice<tf::weld_keep>(o.keep, 5, "keep");
+    how.keep_by = glue::text(o.keep_by);
+    how.order = glue::choice<tf::weld_order>(o.order, 3, "order");
+    how.order_by = glue::text(o.order_by);
+    how.as_las = o.as_las != 0;
+    how.memory = o.memory;
+    how.folder = glue::text(o.folder);
+    how.points_per_tile = o.points_per_tile;
+    if (o.progress)
+        how.progress = [call = o.progress, data = o.progress_data](std::string_view, double done) {
+            return call(done, data) == 0;
+        };
+    return how;
+}
+
+void give_streamed(tf::weld_stream_result from, treeform_weld_stream_result** out) {
+    if (from.status == tf::status::cancelled) throw glue::cancelled{};
+    auto made = glue::make<treeform_weld_stream_result>();
+    const tf::weld_stream_result& kept = made->keep(std::move(from));
+    treeform_weld_stream_result& r = made->value;
+    r.points = kept.survey.points;
+    r.non_finite = kept.survey.non_finite;
+    r.tolerance = kept.survey.tolerance;
+    r.kept = kept.counts.kept;
+    r.groups = kept.counts.groups;
+    r.max_displacement = kept.counts.max_displacement;
+    r.tiles = kept.survey.tiles;
+    r.finished_tiles = kept.survey.finished_tiles;
+    r.format = kept.written.welded ? kept.written.welded->format.c_str() : "";
+    r.still_within = kept.written.still_within.value_or(0);
+    r.still_within_known = kept.written.still_within.has_value();
+    glue::give(std::move(made), out);
+}
+
+}  // namespace
+
+void treeform_weld_stream_options_init(treeform_weld_stream_options* options, size_t size) {
+    glue::init(options, size, treeform_weld_stream_options{});
+}
+
+treeform_code treeform_weld_stream(const char* const* inputs, size_t count, const char* output,
+                                   const treeform_weld_stream_options* options,
+                                   treeform_weld_stream_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        const auto o = glue::chosen(options, treeform_weld_stream_options_init);
+        tf::cloud_inputs from;
+        for (const std::string& one : glue::texts(inputs, count, "inputs"))
+            from.paths.emplace_back(one);
+        if (from.paths.empty()) throw std::invalid_argument("no inputs to weld");
+        from.format = glue::text(o.format);
+        const tf::write_options how = glue::write_options_of(o.write);
+        tf::weld_stream_outputs to;
+        to.welded = {&glue::need(output, "output"), how};
+        if (o.removed) to.removed = {o.removed, how};
+        to.label = glue::text(o.label);
+        to.withhold = o.withhold != 0;
+        if (o.map)
+            to.map = [&](std::span<const std::uint64_t> numbers) {
+                o.map(numbers.data(), numbers.size(), o.map_data);
+            };
+        give_streamed(tf::weld_stream(from, to, options_of(o)), result);
+    });
+}
+
+uint64_t treeform_default_memory(void) {
+    std::uint64_t bytes = 0;
+    const treeform_code code = glue::guard([&] { bytes = tf::default_memory(); });
+    return code == TREEFORM_OK ? bytes : 0;
+}
+
+treeform_code treeform_memory_to_weld(const treeform_file* file, uint64_t points, uint64_t* bytes) {
+    return glue::guard([&] {
+        glue::need(bytes, "bytes") = tf::memory_to_weld(glue::need(file, "file").content, points);
+    });
+}
+
+treeform_code treeform_memory_to_stream(const treeform_file* file, uint64_t points,
+                                        uint64_t* bytes) {
+    return glue::guard([&] {
+        glue::need(bytes, "bytes") = tf::memory_to_stream(glue::need(file, "file").content, points);
+    });
+}
+
+treeform_code treeform_point_reader_create(const char* path, const char* format,
+                                           treeform_point_reader** reader) {
+    return glue::guard([&] {
+        glue::start(reader);
+        auto made = glue::make<treeform_point_reader>();
+        made->value.reader.emplace(&glue::need(path, "path"), glue::text(format));
+        glue::give(std::move(made), reader);
+    });
+}
+
+treeform_code treeform_point_reader_header(const treeform_point_reader* reader,
+                                           treeform_file** header, uint64_t* count,
+                                           int32_t* known) {
+    return glue::guard([&] {
+        glue::start(header);
+        (void)glue::need(count, "count");
+        (void)glue::need(known, "known");
+        const tf::point_reader& from = *glue::need(reader, "reader").reader;
+        *count = from.count().value_or(0);
+        *known = from.count().has_value();
+        glue::give(tf::mesh_file(from.header()), header);
+    });
+}
+
+treeform_code treeform_point_reader_next(treeform_point_reader* reader, size_t most,
+                                         treeform_file** block) {
+    return glue::guard([&] {
+        glue::start(block);
+        tf::point_reader& from = *glue::need(reader, "reader").reader;
+        if (most == 0) throw std::invalid_argument("most is 0: no points would be read");
+        tf::point_block points;
+        if (!from.read(points, most)) return;
+        tf::mesh_file made;
+        made.format = from.header().format;
+        made.stored_as = from.header().stored_as;
+        made.mesh.points = std::move(points.points);
+        made.attributes.elements.push_back(std::move(points.properties));
+        glue::give(std::move(made), block);
+    });
+}
+
+treeform_code treeform_point_writer_create(const char* path, const treeform_file* header,
+                                           uint64_t count, const treeform_write_options* options,
+                                           treeform_point_writer** writer) {
+    return glue::guard([&] {
+        glue::start(writer);
+        auto made = glue::make<treeform_point_writer>();
+        made->value.writer.emplace(&glue::need(path, "path"), glue::need(header, "header").content,
+                                   count, glue::write_options_of(options));
+        glue::give(std::move(made), writer);
+    });
+}
+
+treeform_code treeform_point_writer_write(treeform_point_writer* writer,
+                                          const treeform_file* block) {
+    return glue::guard([&] {
+        tf::point_writer& to = *glue::need(writer, "writer").writer;
+        const tf::mesh_file& from = glue::need(block, "block").content;
+        tf::point_block points;
+        points.points = from.mesh.points;
+        if (const tf::element* const found = tf::find_element(from.attributes, "vertex"))
+            points.properties = *found;
+        points.properties.rows = points.points.size();
+        to.write(points);
+    });
+}
+
+treeform_code treeform_point_writer_commit(treeform_point_writer* writer,
+                                           treeform_written** written) {
+    return glue::guard([&] {
+        if (written) *written = nullptr;
+        glue::give_written(glue::need(writer, "writer").writer->commit(), written);
+    });
+}
