@@ -32,6 +32,8 @@ class held_mesh {
           view_{points_of(points_), {}},
           prepared_(tf::prepared_mesh::borrow_cloud(view_.points)) {}
 
+    [[nodiscard]] const points_array& points() const { return points_; }
+    [[nodiscard]] const faces_array& faces() const { return faces_; }
     [[nodiscard]] tf::mesh_view view() const { return view_; }
     [[nodiscard]] const tf::prepared_mesh& prepared() const { return prepared_; }
     [[nodiscard]] bool keep() const { return keep_; }

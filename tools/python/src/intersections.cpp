@@ -7,6 +7,7 @@
 #include <treeform/mesh/self_intersections.hpp>
 
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <string>
 #include <utility>

@@ -53,6 +53,8 @@ void add_meshes(py::module_& module) {
     py::class_<held_mesh>(module, "HeldMesh", "A mesh or cloud in the arrays of Python.")
         .def(py::init<points_array, faces_array, bool>())
         .def(py::init<points_array>())
+        .def_property_readonly("vertices", &held_mesh::points)
+        .def_property_readonly("faces", &held_mesh::faces)
         .def_property_readonly("is_cloud",
                                [](const held_mesh& m) { return m.prepared().is_cloud(); })
         .def_property_readonly("indexes_built",

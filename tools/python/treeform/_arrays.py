@@ -26,7 +26,7 @@ def floats(values: ArrayLike, name: str) -> Floats:
         if array.size == 0 and array.dtype.kind == "O":
             return np.zeros(array.shape)
         raise ValueError(f"{name}: numbers are needed, not {array.dtype}")
-    return np.require(array, np.float64, "CA")
+    return np.require(array, np.float64, ["C", "A"])
 
 
 def rows(values: ArrayLike, width: int, name: str) -> Floats:
@@ -83,7 +83,7 @@ def ids(values: ArrayLike, name: str) -> Ids:
         at = tuple(int(i) for i in np.argwhere(wrong)[0])
         place = at[0] if len(at) == 1 else at
         raise ValueError(f"{name}: {array[at]} at {place} is no number of an element")
-    return np.require(array, np.uint32, "CA")
+    return np.require(array, np.uint32, ["C", "A"])
 
 
 def faces(values: ArrayLike, name: str = "faces") -> Ids:

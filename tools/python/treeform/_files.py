@@ -68,7 +68,7 @@ def write(path: Path, mesh: MeshLike, format: str = "", *, ascii: bool = False,
     >>> import tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     treeform.write(folder + "/cube.ply", treeform.read("data/cube.stl"))
-    Written(format='ply-binary', precision='float32', max_displacement=0, warnings=[])
+    Written(format='ply-binary-le', precision='float32', max_displacement=0, warnings=[])
     """
     made = as_mesh(mesh)
     certified = made._certificate is not None and bool(made._certificate)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any, Iterator, Protocol, Tuple, Union
+from typing import Any, Iterator, Protocol, Tuple, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -273,9 +273,8 @@ class Mesh:
 
     def __iter__(self) -> Iterator[NDArray[Any]]:
         """`vertices, faces = mesh`"""
-        mesh = self._ready()
-        yield _read_only(mesh._vertices)
-        yield _read_only(mesh._faces)
+        yield self.vertices
+        yield self.faces
 
     def __reduce__(self) -> Any:
         mesh = self._ready()
@@ -290,7 +289,10 @@ class Mesh:
 MeshLike = Union[Mesh, HasMesh, HasFaces, HasTriangles, Tuple[ArrayLike, ArrayLike]]
 
 
-def _read_only(array: Any) -> Any:
+_Array = TypeVar("_Array", Floats, Ids)
+
+
+def _read_only(array: _Array) -> _Array:
     view = array.view()
     view.flags.writeable = False
     return view
@@ -369,7 +371,7 @@ class _Formula:
         self.sign = sign
         self.left: Mesh | _Formula = left._formula or left
         self.right: Mesh | _Formula = right._formula or right
-        self.size = 1 + sum(side.size for side in (self.left, self.right)
+        self.size: int = 1 + sum(side.size for side in (self.left, self.right)
                             if isinstance(side, _Formula))
 
     def _in_order(self) -> Iterator[Mesh | str]:
@@ -394,10 +396,11 @@ class _Formula:
         names = {id(one): f"m{i}" for i, one in enumerate(operands)}
         text = "".join(one if isinstance(one, str) else names[id(one)]
                        for one in self._in_order())
-        return boolean(text, **{names[id(one)]: one for one in operands})
+        named: Any = {names[id(one)]: one for one in operands}
+        return boolean(text, **named)
 
 
-def _operation(sign: str, left: Any, right: Any) -> Any:
+def _operation(sign: str, left: Any, right: Any) -> Mesh:
     sides = []
     for side in (left, right):
         mesh = getattr(side, "mesh", side)

@@ -13,9 +13,10 @@ def watched(progress: Progress) -> Callable[[float], Any] | None:
     """`progress` as a function."""
     if progress is None or not hasattr(progress, "update"):
         return progress
-    total = progress.total or 1
+    bar: Any = progress
+    total = bar.total or 1
 
     def update(share: float) -> None:
-        progress.update(share * total - progress.n)
+        bar.update(share * total - bar.n)
 
     return update
