@@ -52,8 +52,7 @@ py::dict as_dict(tf::part_clash&& one) {
 }
 
 py::dict clash(const held_meshes& parts, double clearance, bool volumes, bool depths,
-               std::size_t limit, const ids_array& ignored, const std::string& vertices,
-               const py::object& progress) {
+               std::size_t limit, const ids_array& ignored, const std::string& vertices) {
     tf::clash_options options{.clearance = clearance,
                               .volumes = volumes,
                               .depths = depths,
@@ -61,11 +60,10 @@ py::dict clash(const held_meshes& parts, double clearance, bool volumes, bool de
                               .ignored = rows_of<tf::part_pair>(ignored),
                               .vertices = identity_of(vertices)};
     const std::vector<tf::prepared_mesh> all = borrowed(parts);
-    tf::clash_result found =
-        run(progress, size_of(parts), [&](const tf::progress_callback& report) {
-            options.progress = report;
-            return tf::clash(all, options);
-        });
+    tf::clash_result found = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::clash(all, options);
+    });
     py::dict made;
     py::list pairs;
     for (tf::part_clash& one : found.pairs) pairs.append(as_dict(std::move(one)));
@@ -103,19 +101,17 @@ std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
 }
 
 py::dict check_poses(const held_meshes& parts, const array_of<double>& matrices, double clearance,
-                     bool first_only, const ids_array& ignored, const std::string& vertices,
-                     const py::object& progress) {
+                     bool first_only, const ids_array& ignored, const std::string& vertices) {
     tf::pose_options options{.clearance = clearance,
                              .first_only = first_only,
                              .ignored = rows_of<tf::part_pair>(ignored),
                              .vertices = identity_of(vertices)};
     const std::vector<tf::prepared_mesh> all = borrowed(parts);
     const std::vector<tf::transform<3>> poses = transforms_of(matrices);
-    const tf::pose_result found =
-        run(progress, size_of(parts) + poses.size() * 64, [&](const tf::progress_callback& report) {
-            options.progress = report;
-            return tf::check_poses(all, poses, options);
-        });
+    const tf::pose_result found = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::check_poses(all, poses, options);
+    });
     std::vector<std::uint32_t> pose;
     std::vector<tf::pose_clash> clashes;
     for (std::size_t p = 0; p < found.poses.size(); ++p)
@@ -135,48 +131,42 @@ py::dict check_poses(const held_meshes& parts, const array_of<double>& matrices,
     return made;
 }
 
-constexpr std::size_t poses_at_once = 256;
-
 /// `of(positions)` for pieces of the positions, its answers one after the other.
 template <class Answer, class Of>
-std::vector<Answer> for_positions(const py::object& progress, std::size_t work,
-                                  const std::vector<tf::mesh_positions>& positions, const Of& of) {
+std::vector<Answer> for_positions(const std::vector<tf::mesh_positions>& positions, const Of& of) {
     std::vector<Answer> all(positions.size());
-    run_job(progress, work + positions.size() * 64, [&](const tf::progress_callback& report) {
-        for (std::size_t begin = 0; begin < positions.size(); begin += poses_at_once) {
-            const std::size_t count = std::min(poses_at_once, positions.size() - begin);
-            const double share = static_cast<double>(begin) / static_cast<double>(positions.size());
-            if (report && !report(share)) return;
-            const auto answers = of(std::span(positions).subspan(begin, count));
-            for (std::size_t i = 0; i < count; ++i) all[begin + i] = answers[i];
-        }
+    run_pieces(positions.size(), [&](std::size_t begin, std::size_t end) {
+        const auto answers = of(std::span(positions).subspan(begin, end - begin));
+        for (std::size_t i = begin; i < end; ++i) all[i] = answers[i - begin];
     });
     return all;
 }
 
 py::array intersects(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
-                     const array_of<double>& move_b, const py::object& progress) {
-    return as_array<std::uint8_t>(for_positions<std::uint8_t>(
-        progress, a.size() + b.size(), positions_of(move_a, move_b), [&](const auto& positions) {
-            if (positions.size() > 1) return tf::intersects(a.prepared(), b.prepared(), positions);
-            return std::vector<bool>{with_both(a, b, [&](const auto& m, const auto& n) {
-                return tf::intersects(m, n, positions[0]);
-            })};
+                     const array_of<double>& move_b) {
+    const auto positions = positions_of(move_a, move_b);
+    if (positions.size() != 1)
+        return as_array<std::uint8_t>(for_positions<std::uint8_t>(positions, [&](auto some) {
+            return tf::intersects(a.prepared(), b.prepared(), some);
         }));
+    const bool meet = run([&](const tf::progress_callback&) {
+        return with_both(
+            a, b, [&](const auto& m, const auto& n) { return tf::intersects(m, n, positions[0]); });
+    });
+    return as_array<std::uint8_t>(std::vector<std::uint8_t>{meet});
 }
 
 py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
-                   const array_of<double>& move_b, double radius, const py::object& progress) {
-    return as_array<double>(for_positions<double>(
-        progress, a.size() + b.size(), positions_of(move_a, move_b), [&](const auto& positions) {
-            return tf::distance(a.prepared(), b.prepared(), positions, radius);
-        }));
+                   const array_of<double>& move_b, double radius) {
+    return as_array<double>(for_positions<double>(positions_of(move_a, move_b), [&](auto some) {
+        return tf::distance(a.prepared(), b.prepared(), some, radius);
+    }));
 }
 
 py::object closest_points(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
                           const array_of<double>& move_b, double radius) {
     const tf::distance_options options{transform_of(move_a), transform_of(move_b), radius};
-    const auto found = run(py::none(), a.size() + b.size(), [&](const tf::progress_callback&) {
+    const auto found = run([&](const tf::progress_callback&) {
         return with_both(
             a, b, [&](const auto& m, const auto& n) { return tf::closest_points(m, n, options); });
     });

@@ -79,13 +79,13 @@ tf::boolean_options options_of(const std::string& inside, const std::string& pre
 py::dict boolean(const held_meshes& meshes, const std::string& operation,
                  const std::string& formula, const std::vector<std::string>& names,
                  const std::string& inside, const std::string& precision, bool simplify,
-                 bool volumes, double max_displacement, const py::object& progress) {
+                 bool volumes, double max_displacement) {
     const tf::boolean_expression expression =
         expression_of(operation, formula, names, meshes.size());
     tf::boolean_options options = options_of(inside, precision, simplify, max_displacement);
     options.volumes = volumes;
     const std::vector<tf::mesh_operand> operands = operands_of(meshes);
-    return as_dict(run(progress, size_of(meshes), [&](const tf::progress_callback& report) {
+    return as_dict(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::boolean(operands, expression, options);
     }));
@@ -93,32 +93,29 @@ py::dict boolean(const held_meshes& meshes, const std::string& operation,
 
 py::dict clip(const held_meshes& meshes, std::uint32_t sheet, const std::string& operation,
               const std::string& formula, const std::vector<std::string>& names,
-              const std::string& inside, const std::string& precision, double max_displacement,
-              const py::object& progress) {
+              const std::string& inside, const std::string& precision, double max_displacement) {
     const tf::boolean_expression expression =
         expression_of(operation, formula, names, meshes.size());
     tf::boolean_options options = options_of(inside, precision, false, max_displacement);
     const std::vector<tf::mesh_view> operands = views_of(meshes);
-    return as_dict(run(progress, size_of(meshes), [&](const tf::progress_callback& report) {
+    return as_dict(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::clip(operands, sheet, expression, options);
     }));
 }
 
-py::dict split(const held_meshes& meshes, const std::string& precision, double max_displacement,
-               const py::object& progress) {
+py::dict split(const held_meshes& meshes, const std::string& precision, double max_displacement) {
     tf::boolean_options options = options_of("nonzero", precision, false, max_displacement);
     const std::vector<tf::mesh_view> operands = views_of(meshes);
-    return as_dict(run(progress, size_of(meshes), [&](const tf::progress_callback& report) {
+    return as_dict(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::split(operands, options);
     }));
 }
 
-tf::certificate check_solid(const held_mesh& mesh, const py::object& progress) {
-    return run(progress, mesh.size(), [&](const tf::progress_callback& report) {
-        return tf::check_solid(mesh.view(), report);
-    });
+tf::certificate check_solid(const held_mesh& mesh) {
+    return run(
+        [&](const tf::progress_callback& report) { return tf::check_solid(mesh.view(), report); });
 }
 
 }  // namespace

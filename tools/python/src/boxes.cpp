@@ -18,7 +18,6 @@ namespace binding {
 namespace {
 
 using id = std::int64_t;
-constexpr std::size_t piece = std::size_t{1} << 15;
 
 /// The boxes of two arrays, with a tree over them; the arrays may go.
 template <std::size_t D>
@@ -28,16 +27,15 @@ class boxes {
     using box = tf::aabb<double, D>;
 
     boxes(const array_of<double>& mins, const array_of<double>& maxs)
-        : boxes_(boxes_of(mins, maxs)),
-          tree_(run(py::none(), boxes_.size(), [this](const tf::progress_callback&) {
+        : boxes_(boxes_of(mins, maxs)), tree_(run([this](const tf::progress_callback&) {
               return tf::build(boxes_, [](const box& one) { return one; });
           })) {}
 
     [[nodiscard]] std::size_t size() const { return boxes_.size(); }
 
     /// [n][2] the pairs of boxes that overlap, ascending.
-    py::array pairs(const py::object& progress) const {
-        return as_pairs(run(progress, size(), [&](const tf::progress_callback&) {
+    py::array pairs() const {
+        return as_pairs(run([&](const tf::progress_callback&) {
             return tf::search_self_all(tree_, [&](std::uint32_t a, std::uint32_t b) {
                 return tf::overlaps(boxes_[a], boxes_[b]);
             });
@@ -45,8 +43,8 @@ class boxes {
     }
 
     /// [n][2] the pairs of a box of this and a box of the other that overlap, ascending.
-    py::array pairs_with(const boxes& other, const py::object& progress) const {
-        return as_pairs(run(progress, size() + other.size(), [&](const tf::progress_callback&) {
+    py::array pairs_with(const boxes& other) const {
+        return as_pairs(run([&](const tf::progress_callback&) {
             return tf::search_all(tree_, other.tree_, [&](std::uint32_t a, std::uint32_t b) {
                 return tf::overlaps(boxes_[a], other.boxes_[b]);
             });
@@ -54,11 +52,10 @@ class boxes {
     }
 
     /// The boxes that overlap each query: where its list begins, and numbers, ascending.
-    py::tuple query(const array_of<double>& mins, const array_of<double>& maxs,
-                    const py::object& progress) const {
+    py::tuple query(const array_of<double>& mins, const array_of<double>& maxs) const {
         const std::vector<box> all = boxes_of(mins, maxs);
         std::vector<std::vector<std::uint32_t>> found(all.size());
-        run_pieces(progress, all.size(), piece, [&](std::size_t begin, std::size_t end) {
+        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
             tf::for_chunks(end - begin, 64, [&](std::size_t from, std::size_t to, std::size_t) {
                 for (std::size_t q = begin + from; q < begin + to; ++q)
                     found[q] = tf::search_all(tree_, all[q], [&](std::uint32_t i) {
@@ -76,12 +73,11 @@ class boxes {
 
     /// [Q][k] distances and numbers of boxes, nearest first; infinite and `size()` where there are
     /// fewer.
-    py::tuple nearest(const array_of<double>& queries, std::size_t k, double radius,
-                      const py::object& progress) const {
+    py::tuple nearest(const array_of<double>& queries, std::size_t k, double radius) const {
         const auto all = rows_of<point>(queries);
         std::vector<double> distances(all.size() * k, std::numeric_limits<double>::infinity());
         std::vector<id> ids(all.size() * k, static_cast<id>(size()));
-        run_pieces(progress, all.size(), piece, [&](std::size_t begin, std::size_t end) {
+        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
             const auto some = all.subspan(begin, end - begin);
             const auto found = tf::k_nearest_batch(
                 tree_, some, k,

@@ -16,7 +16,6 @@ namespace binding {
 namespace {
 
 using id = std::int64_t;  ///< as NumPy numbers elements
-constexpr std::size_t piece = std::size_t{1} << 15;
 
 /// Points to search near, for the array that they are of.
 template <std::size_t D>
@@ -25,21 +24,19 @@ class cloud {
     using point = std::array<double, D>;
 
     explicit cloud(const array_of<double>& points)
-        : search_(run(py::none(), static_cast<std::size_t>(points.size()),
-                      [rows = rows_of<point>(points)](const tf::progress_callback&) {
-                          return tf::point_search<D>(rows);
-                      })) {}
+        : search_(run([rows = rows_of<point>(points)](const tf::progress_callback&) {
+              return tf::point_search<D>(rows);
+          })) {}
 
     [[nodiscard]] std::size_t size() const { return search_.size(); }
 
     /// [Q][k] distances and numbers of points, nearest first; infinite and `size()` where there are
     /// fewer. Nearer than `bound` if that is finite, as SciPy has it.
-    py::tuple query(const array_of<double>& queries, std::size_t k, double bound,
-                    const py::object& progress) const {
+    py::tuple query(const array_of<double>& queries, std::size_t k, double bound) const {
         const auto all = rows_of<point>(queries);
         std::vector<double> distances(all.size() * k, std::numeric_limits<double>::infinity());
         std::vector<id> ids(all.size() * k, static_cast<id>(size()));
-        run_pieces(progress, all.size(), piece, [&](std::size_t begin, std::size_t end) {
+        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
             const auto found = search_.k_nearest(all.subspan(begin, end - begin), k, bound);
             for (std::size_t q = 0; q < found.size(); ++q)
                 for (std::size_t i = 0; i < found[q].size(); ++i) {
@@ -53,12 +50,11 @@ class cloud {
 
     /// All points within `radius` of each query: where its list begins, numbers, distances; nearest
     /// first, or by number.
-    py::tuple query_ball(const array_of<double>& queries, double radius, bool by_number,
-                         const py::object& progress) const {
+    py::tuple query_ball(const array_of<double>& queries, double radius, bool by_number) const {
         const auto all = rows_of<point>(queries);
         std::vector<id> begins{0}, ids;
         std::vector<double> distances;
-        run_pieces(progress, all.size(), piece, [&](std::size_t begin, std::size_t end) {
+        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
             auto found = search_.all_within(all.subspan(begin, end - begin), radius);
             for (std::size_t q = 0; q < found.size(); ++q) {
                 const auto first =
@@ -80,11 +76,10 @@ class cloud {
     }
 
     /// [n][2] the pairs of points within `radius`, ascending. `points` are those of the cloud.
-    py::array query_pairs(const array_of<double>& points, double radius,
-                          const py::object& progress) const {
+    py::array query_pairs(const array_of<double>& points, double radius) const {
         const auto all = rows_of<point>(points);
         std::vector<std::array<id, 2>> pairs;
-        run_pieces(progress, all.size(), piece, [&](std::size_t begin, std::size_t end) {
+        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
             const auto found = search_.all_within(all.subspan(begin, end - begin), radius);
             for (std::size_t q = 0; q < found.size(); ++q) {
                 const auto first = pairs.size();

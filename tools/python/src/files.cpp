@@ -20,9 +20,8 @@
 namespace binding {
 namespace {
 
-py::tuple read(const std::filesystem::path& path, const std::string& format, bool join,
-               const py::object& progress) {
-    tf::mesh_file file = run(progress, long_work, [&](const tf::progress_callback&) {
+py::tuple read(const std::filesystem::path& path, const std::string& format, bool join) {
+    tf::mesh_file file = run([&](const tf::progress_callback&) {
         tf::mesh_file read = tf::read(path, format);
         if (join && !read.indexed) {
             read.mesh = tf::join_equal_points(read.mesh);
@@ -61,11 +60,10 @@ tf::write_result write_to(const std::filesystem::path& path, const held_mesh& me
 
 py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const file_data* data,
                bool certified, const std::string& format, bool ascii,
-               const std::optional<std::string>& precision, bool round,
-               const py::object& progress) {
+               const std::optional<std::string>& precision, bool round) {
     tf::write_options options{.format = format, .ascii = ascii, .round = round};
     if (precision) options.precision = precision_of(*precision);
-    const tf::write_result written = run(progress, long_work, [&](const tf::progress_callback&) {
+    const tf::write_result written = run([&](const tf::progress_callback&) {
         return write_to(path, mesh, data, certified, options);
     });
     py::dict made;

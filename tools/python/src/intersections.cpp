@@ -53,13 +53,12 @@ std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::
 }
 
 py::dict self_intersections(const held_mesh& mesh, const std::vector<std::string>& kinds,
-                            const std::string& vertices, bool first_only, std::size_t limit,
-                            const py::object& progress) {
+                            const std::string& vertices, bool first_only, std::size_t limit) {
     tf::self_intersection_options options{.vertices = identity_of(vertices),
                                           .first_only = first_only,
                                           .kinds = kinds_of(kinds),
                                           .limit = limit};
-    return found(run(progress, mesh.size(), [&](const tf::progress_callback& report) {
+    return found(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return mesh.with([&](const auto& m) { return tf::self_intersections(m, options); });
     }));
@@ -69,18 +68,16 @@ py::dict self_intersections_of_file(const std::filesystem::path& path,
                                     const std::vector<std::string>& kinds,
                                     const std::optional<std::string>& vertices,
                                     const std::string& format, std::uint64_t memory,
-                                    const std::filesystem::path& folder,
-                                    const py::object& progress) {
+                                    const std::filesystem::path& folder) {
     tf::stream_search_options options{
         .kinds = kinds_of(kinds), .format = format, .memory = memory, .folder = folder};
     if (vertices) options.vertices = identity_of(*vertices);
-    tf::stream_search_result result =
-        run(progress, long_work, [&](const tf::progress_callback& report) {
-            options.progress = [&](std::string_view step, double share) {
-                return !report || report(step == "scatter" ? share / 2 : 0.5 + share / 2);
-            };
-            return tf::self_intersections_of_file(path, options);
-        });
+    tf::stream_search_result result = run([&](const tf::progress_callback& report) {
+        options.progress = [&](std::string_view step, double share) {
+            return !report || report(step == "scatter" ? share / 2 : 0.5 + share / 2);
+        };
+        return tf::self_intersections_of_file(path, options);
+    });
     py::dict made = found(result.found);
     std::vector<std::uint32_t> numbers(result.part.mesh.faces.size());
     for (std::size_t f = 0; f < numbers.size(); ++f)
@@ -98,8 +95,7 @@ py::tuple group_pairs(const held_mesh& mesh, const ids_array& pairs,
                       const array_of<std::uint8_t>& kinds) {
     const std::vector<tf::face_pair> all = pairs_of(pairs, kinds);
     tf::intersection_regions groups =
-        run(py::none(), mesh.size() + all.size(),
-            [&](const tf::progress_callback&) { return tf::group_pairs(mesh.view(), all); });
+        run([&](const tf::progress_callback&) { return tf::group_pairs(mesh.view(), all); });
     py::list regions;
     for (tf::intersection_region& one : groups.regions)
         regions.append(py::make_tuple(as_array(std::move(one.faces)), as_array(one.min),
@@ -111,8 +107,7 @@ py::tuple intersection_paths(const held_mesh& mesh, const ids_array& pairs,
                              const array_of<std::uint8_t>& kinds) {
     const std::vector<tf::face_pair> all = pairs_of(pairs, kinds);
     tf::curve_network net =
-        run(py::none(), mesh.size() + all.size(),
-            [&](const tf::progress_callback&) { return tf::intersection_paths(mesh.view(), all); });
+        run([&](const tf::progress_callback&) { return tf::intersection_paths(mesh.view(), all); });
     py::list paths;
     for (tf::curve_path& one : net.paths)
         paths.append(py::make_tuple(as_array(std::move(one.points)), one.closed));
@@ -127,13 +122,13 @@ py::tuple intersection_paths(const held_mesh& mesh, const ids_array& pairs,
 py::dict mesh_intersections(const held_mesh& a, const held_mesh& b,
                             const std::vector<std::string>& kinds, bool first_only,
                             std::size_t limit, const array_of<double>& move_a,
-                            const array_of<double>& move_b, const py::object& progress) {
+                            const array_of<double>& move_b) {
     tf::mesh_intersection_options options{.move_a = transform_of(move_a),
                                           .move_b = transform_of(move_b),
                                           .first_only = first_only,
                                           .kinds = kinds_of(kinds),
                                           .limit = limit};
-    return found(run(progress, a.size() + b.size(), [&](const tf::progress_callback& report) {
+    return found(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return with_both(a, b, [&](const auto& m, const auto& n) {
             return tf::mesh_intersections(m, n, options);
@@ -143,7 +138,7 @@ py::dict mesh_intersections(const held_mesh& a, const held_mesh& b,
 
 py::array faces_in_box(const held_mesh& mesh, const array_of<double>& min,
                        const array_of<double>& max) {
-    return as_array(run(py::none(), mesh.size(), [&](const tf::progress_callback&) {
+    return as_array(run([&](const tf::progress_callback&) {
         return tf::faces_in_box(mesh.view(), point_of(min), point_of(max));
     }));
 }

@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -18,34 +17,41 @@ namespace binding {
 
 namespace py = pybind11;
 
-/// `run` for a body that returns nothing.
-void run_job(const py::object& progress, std::size_t elements,
-             const std::function<void(const treeform::progress_callback&)>& body);
+/// Makes the function or method `name` of `scope` a job. It then also takes `progress`: None, or a
+/// function that is called with the share of the work that is done.
+///
+/// A job runs on a helper thread, unless its arguments are few elements and it is not `long_work`:
+/// handing it over would take longer. It is asked to stop when `progress` returns False or raises, or
+/// when a signal's handler raises, as that of Ctrl-C does. The caller then gets what was raised: at
+/// once, even where the job takes some time to notice.
+void make_job(const py::object& scope, const char* name, bool long_work = false);
 
-/// Elements of what may take long, however little there is.
-inline constexpr std::size_t long_work = std::numeric_limits<std::size_t>::max();
+/// The job that runs on this thread: `progress_callback` for it; empty where there is none.
+treeform::progress_callback report_of_job();
+
+/// Does `body` without the interpreter's lock.
+void without_lock(const std::function<void()>& body);
 
 /// What `body(progress_callback)` returns. It runs without the interpreter's lock and must not touch
-/// Python. `elements` says how much there is to do: what is little runs on the calling thread, as
-/// handing it over would take longer.
-///
-/// `progress` is None, or is called with the share of the work that is done. The job is asked to stop
-/// when that returns False or raises, or when a signal's handler raises, as that of Ctrl-C does.
-///
-/// \throws what the handler or `progress` has raised, `cancelled` where it returned False, what
-///         `body` throws
+/// Python.
 template <class Body>
-auto run(const py::object& progress, std::size_t elements, Body&& body) {
+auto run(Body&& body) {
     using result = std::invoke_result_t<Body&, const treeform::progress_callback&>;
     std::optional<result> made;
-    run_job(progress, elements,
-            [&](const treeform::progress_callback& report) { made.emplace(body(report)); });
+    without_lock([&] { made.emplace(body(report_of_job())); });
     return std::move(*made);
 }
 
-/// The same in pieces of `piece` elements, for work that cannot be asked to stop: `body(begin, end)`.
-void run_pieces(const py::object& progress, std::size_t count, std::size_t piece,
-                const std::function<void(std::size_t, std::size_t)>& body);
+/// `body(begin, end)` for pieces of `count` elements, without the interpreter's lock, for work that
+/// cannot be asked to stop. Pieces are as large as takes some hundredths of a second; answers must
+/// not depend on that.
+void run_pieces(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
+
+/// For jobs: makes objects that take long to make, as `build(type, arguments...)`.
+py::object build(const py::object& type, const py::args& arguments);
+
+/// Whether a job goes on that nobody waits for.
+bool is_busy();
 
 /// `progress` has returned False.
 class cancelled {};

@@ -27,8 +27,7 @@ std::array<double, 3> numbers(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
 py::object lay_flat(const held_mesh& mesh, const std::string& choose,
                     const array_of<double>& toward, bool keep_spin, double tolerance, double bed,
-                    double overhang_angle, const std::string& precision,
-                    const py::object& progress) {
+                    double overhang_angle, const std::string& precision) {
     tf::lay_flat_options options{.choose = choice<tf::lay_choice>("choose", choice_words, choose),
                                  .toward = point_of(toward),
                                  .keep_spin = keep_spin,
@@ -36,11 +35,10 @@ py::object lay_flat(const held_mesh& mesh, const std::string& choose,
                                  .bed = bed,
                                  .overhang_angle = overhang_angle,
                                  .precision = precision_of(precision)};
-    std::optional<tf::laid_flat> laid =
-        run(progress, mesh.size(), [&](const tf::progress_callback& report) {
-            options.progress = report;
-            return tf::lay_flat(mesh.prepared(), options);
-        });
+    std::optional<tf::laid_flat> laid = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::lay_flat(mesh.prepared(), options);
+    });
     if (!laid) return py::none();
     py::dict made;
     made["message"] = laid->message();
@@ -63,8 +61,7 @@ py::object lay_flat(const held_mesh& mesh, const std::string& choose,
 py::dict align(const held_mesh& moving, const held_mesh& fixed, const std::string& method,
                double overlap, const std::string& weights, double max_distance, bool scale,
                unsigned max_iterations, double tolerance, unsigned starts, std::size_t samples,
-               const array_of<double>& start, const std::string& precision,
-               const py::object& progress) {
+               const array_of<double>& start, const std::string& precision) {
     tf::align_options options{
         .method = choice<tf::align_method>("method", method_words, method),
         .overlap = overlap,
@@ -77,11 +74,10 @@ py::dict align(const held_mesh& moving, const held_mesh& fixed, const std::strin
         .samples = samples,
         .start = transform_of(start),
         .precision = precision_of(precision)};
-    tf::align_result found =
-        run(progress, moving.size() + fixed.size(), [&](const tf::progress_callback& report) {
-            options.progress = report;
-            return tf::align(moving.prepared(), fixed.prepared(), options);
-        });
+    tf::align_result found = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::align(moving.prepared(), fixed.prepared(), options);
+    });
     py::dict made;
     made["message"] = found.message();
     made["matrix"] = as_array(found.matrix);
@@ -103,8 +99,7 @@ py::dict align(const held_mesh& moving, const held_mesh& fixed, const std::strin
 py::dict pack(const held_meshes& parts, const array_of<double>& size,
               const array_of<double>& corner, double spacing, const std::string& turns, bool stack,
               unsigned plates, const array_of<double>& plate_step, std::uint64_t seed,
-              unsigned tries, double seconds, const std::string& precision,
-              const py::object& progress) {
+              unsigned tries, double seconds, const std::string& precision) {
     tf::pack_options options{.size = point_of(size),
                              .corner = point_of(corner),
                              .spacing = spacing,
@@ -117,7 +112,7 @@ py::dict pack(const held_meshes& parts, const array_of<double>& size,
                              .seconds = seconds,
                              .precision = precision_of(precision)};
     const std::vector<tf::prepared_mesh> all = borrowed(parts);
-    tf::packing packed = run(progress, long_work, [&](const tf::progress_callback& report) {
+    tf::packing packed = run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::pack(all, options);
     });

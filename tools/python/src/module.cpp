@@ -65,6 +65,69 @@ void add_meshes(py::module_& module) {
         .def("exit", &threads::exit);
     module.def("thread_count", &tf::thread_count);
     module.def("version", &tf::version_string);
+    module.def("is_busy", &is_busy);
+}
+
+/// All functions of the module but those that only look something up, and what trees are asked.
+void make_jobs(py::module_& module) {
+    module.def("build", &build);
+    for (const char* name :
+         {"read", "write", "self_intersections_of_file", "weld_stream", "wrap", "pack"})
+        make_job(module, name, true);
+    for (const char* name : {"self_intersections",
+                             "group_pairs",
+                             "intersection_paths",
+                             "mesh_intersections",
+                             "faces_in_box",
+                             "boolean",
+                             "clip",
+                             "split",
+                             "check_solid",
+                             "bounds",
+                             "signed_volume",
+                             "find_defects",
+                             "count_topology",
+                             "face_components",
+                             "find_features",
+                             "find_solid_defects",
+                             "resolve",
+                             "repair",
+                             "convex_hull",
+                             "find_rounding_defects",
+                             "join_equal_points",
+                             "weld_mesh",
+                             "weld_cloud",
+                             "count_nearly_equal",
+                             "slide",
+                             "drop",
+                             "mate",
+                             "separate",
+                             "turn",
+                             "mate_features",
+                             "measure",
+                             "penetration_depth",
+                             "time_of_impact",
+                             "lay_flat",
+                             "align",
+                             "closest_point",
+                             "locate",
+                             "raycast",
+                             "raycast_all",
+                             "raycast_any",
+                             "deviation",
+                             "clash",
+                             "check_poses",
+                             "intersects",
+                             "distance",
+                             "closest_points",
+                             "build"})
+        make_job(module, name);
+    for (const char* type : {"Cloud2", "Cloud3"})
+        for (const char* name : {"query", "query_ball", "query_pairs"})
+            make_job(module.attr(type), name);
+    for (const char* type : {"Boxes2", "Boxes3"})
+        for (const char* name : {"pairs", "pairs_with", "query", "nearest"})
+            make_job(module.attr(type), name);
 }
 
 }  // namespace
@@ -88,4 +151,5 @@ PYBIND11_MODULE(_core, module) {
     add_assembly(module);
     add_clouds(module);
     add_boxes(module);
+    make_jobs(module);
 }

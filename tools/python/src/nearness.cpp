@@ -21,22 +21,13 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-/// Queries that are answered before the next look at whether to stop: some hundredths of a second.
-constexpr std::size_t piece = std::size_t{1} << 15;
 
-/// `f(begin, end)` for pieces of `count` queries of `mesh`; an index is built before.
-template <class F>
-void for_pieces(const py::object& progress, std::size_t count, const F& f) {
-    run_pieces(progress, count, piece, f);
-}
-
-py::tuple closest_point(const held_mesh& mesh, const points_array& queries, double radius,
-                        const py::object& progress) {
+py::tuple closest_point(const held_mesh& mesh, const points_array& queries, double radius) {
     const auto all = points_of(queries);
     std::vector<tf::point3> points(all.size(), {nan, nan, nan});
     std::vector<double> distances(all.size(), infinity);
     std::vector<std::uint32_t> faces(all.size(), none);
-    for_pieces(progress, all.size(), [&](std::size_t begin, std::size_t end) {
+    run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
         const auto found =
             tf::closest_point(mesh.prepared(), all.subspan(begin, end - begin), radius);
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -50,11 +41,11 @@ py::tuple closest_point(const held_mesh& mesh, const points_array& queries, doub
                           as_array(std::move(faces)));
 }
 
-py::tuple locate(const held_mesh& mesh, const points_array& queries, const py::object& progress) {
+py::tuple locate(const held_mesh& mesh, const points_array& queries) {
     const auto all = points_of(queries);
     std::vector<std::uint8_t> where(all.size());
     std::vector<std::int32_t> winding(all.size());
-    for_pieces(progress, all.size(), [&](std::size_t begin, std::size_t end) {
+    run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
         const auto found = tf::locate(mesh.prepared(), all.subspan(begin, end - begin));
         for (std::size_t i = 0; i < found.size(); ++i) {
             where[begin + i] = static_cast<std::uint8_t>(found[i].where);
@@ -79,13 +70,12 @@ std::vector<tf::ray3> rays_of(tf::points_view origins, tf::points_view direction
 }
 
 py::tuple raycast(const held_mesh& mesh, const points_array& origins,
-                  const points_array& directions, double t_min, double t_max,
-                  const py::object& progress) {
+                  const points_array& directions, double t_min, double t_max) {
     const auto from = points_of(origins), along = points_of(directions);
     std::vector<double> t(from.size(), infinity);
     std::vector<std::uint32_t> faces(from.size(), none);
     std::vector<std::uint8_t> at(from.size(), static_cast<std::uint8_t>(tf::feature::interior));
-    for_pieces(progress, from.size(), [&](std::size_t begin, std::size_t end) {
+    run_pieces(from.size(), [&](std::size_t begin, std::size_t end) {
         const auto hits =
             tf::raycast(mesh.prepared(), rays_of(from, along, t_min, t_max, begin, end));
         for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -100,12 +90,11 @@ py::tuple raycast(const held_mesh& mesh, const points_array& origins,
 }
 
 py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
-                      const points_array& directions, double t_min, double t_max,
-                      const py::object& progress) {
+                      const points_array& directions, double t_min, double t_max) {
     const auto from = points_of(origins), along = points_of(directions);
     std::vector<std::uint32_t> ray_of_hit, faces;
     std::vector<double> t;
-    for_pieces(progress, from.size(), [&](std::size_t begin, std::size_t end) {
+    run_pieces(from.size(), [&](std::size_t begin, std::size_t end) {
         const tf::mesh_hits found =
             tf::raycast_all(mesh.prepared(), rays_of(from, along, t_min, t_max, begin, end));
         for (std::size_t i = 0; i + 1 < found.begin.size(); ++i)
@@ -120,11 +109,10 @@ py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
 }
 
 py::array raycast_any(const held_mesh& mesh, const points_array& origins,
-                      const points_array& directions, double t_min, double t_max,
-                      const py::object& progress) {
+                      const points_array& directions, double t_min, double t_max) {
     const auto from = points_of(origins), along = points_of(directions);
     std::vector<std::uint8_t> any(from.size());
-    for_pieces(progress, from.size(), [&](std::size_t begin, std::size_t end) {
+    run_pieces(from.size(), [&](std::size_t begin, std::size_t end) {
         const auto hit =
             tf::raycast_any(mesh.prepared(), rays_of(from, along, t_min, t_max, begin, end));
         std::copy(hit.begin(), hit.end(), any.begin() + static_cast<std::ptrdiff_t>(begin));
@@ -137,14 +125,12 @@ py::array raycast_any(const held_mesh& mesh, const points_array& origins,
 py::tuple of(const tf::directed_distance& d) { return py::make_tuple(d.sampled, d.at_most); }
 
 py::object deviation(const held_mesh& a, const held_mesh& b,
-                     std::optional<std::array<double, 2>> band, std::size_t bins, bool both_ways,
-                     const py::object& progress) {
+                     std::optional<std::array<double, 2>> band, std::size_t bins, bool both_ways) {
     tf::deviation_options options{.band = band, .bins = bins, .both_ways = both_ways};
-    std::optional<tf::deviation_result> found =
-        run(progress, a.size() + b.size(), [&](const tf::progress_callback& report) {
-            options.progress = report;
-            return tf::deviation(a.prepared(), b.prepared(), options);
-        });
+    std::optional<tf::deviation_result> found = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::deviation(a.prepared(), b.prepared(), options);
+    });
     if (!found) return py::none();
     py::dict made;
     made["distances"] = as_array<double>(std::move(found->distances));

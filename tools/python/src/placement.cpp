@@ -89,9 +89,8 @@ auto with_fixed(const held_meshes& fixed, const F& f) {
 
 /// `verb(moving, fixed, options)` as a job.
 template <class Options, class Verb>
-auto place(const held_mesh& moving, const held_meshes& fixed, Options options,
-           const py::object& progress, const Verb& verb) {
-    return run(progress, moving.size() + size_of(fixed), [&](const tf::progress_callback& report) {
+auto place(const held_mesh& moving, const held_meshes& fixed, Options options, const Verb& verb) {
+    return run([&](const tf::progress_callback& report) {
         options.progress = report;
         return with_fixed(fixed,
                           [&](const auto& all) { return verb(moving.prepared(), all, options); });
@@ -100,13 +99,13 @@ auto place(const held_mesh& moving, const held_meshes& fixed, Options options,
 
 py::dict slide(const held_mesh& moving, const held_meshes& fixed, const array_of<double>& direction,
                double clearance, std::optional<double> max_travel, std::optional<double> bed,
-               const std::string& precision, const py::object& progress) {
+               const std::string& precision) {
     const tf::slide_options options{.clearance = clearance,
                                     .max_travel = max_travel,
                                     .precision = precision_of(precision),
                                     .bed = bed};
     const tf::point3 along = point_of(direction);
-    return as_dict(place(moving, fixed, options, progress,
+    return as_dict(place(moving, fixed, options,
                          [&](const auto& m, const auto& all, const tf::slide_options& o) {
                              return tf::slide(m, all, along, o);
                          }));
@@ -114,41 +113,38 @@ py::dict slide(const held_mesh& moving, const held_meshes& fixed, const array_of
 
 py::dict drop(const held_mesh& moving, const held_meshes& fixed, double clearance,
               std::optional<double> max_travel, std::optional<double> bed,
-              const array_of<double>& direction, const std::string& precision,
-              const py::object& progress) {
+              const array_of<double>& direction, const std::string& precision) {
     tf::drop_options options{.clearance = clearance,
                              .max_travel = max_travel,
                              .precision = precision_of(precision),
                              .bed = bed,
                              .direction = point_of(direction)};
     if (fixed.empty())
-        return as_dict(run(progress, moving.size(), [&](const tf::progress_callback& report) {
+        return as_dict(run([&](const tf::progress_callback& report) {
             options.progress = report;
             return tf::drop(moving.prepared(), options);
         }));
-    return as_dict(place(moving, fixed, options, progress,
+    return as_dict(place(moving, fixed, options,
                          [](const auto& m, const auto& all, const tf::drop_options& o) {
                              return tf::drop(m, all, o);
                          }));
 }
 
 py::dict mate(const held_mesh& moving, const held_meshes& fixed, double clearance,
-              std::optional<double> max_travel, const std::string& precision,
-              const py::object& progress) {
+              std::optional<double> max_travel, const std::string& precision) {
     const tf::mate_options options{
         .clearance = clearance, .max_travel = max_travel, .precision = precision_of(precision)};
-    return as_dict(place(moving, fixed, options, progress,
+    return as_dict(place(moving, fixed, options,
                          [](const auto& m, const auto& all, const tf::mate_options& o) {
                              return tf::mate(m, all, o);
                          }));
 }
 
 py::dict separate(const held_mesh& moving, const held_meshes& fixed, double clearance,
-                  std::optional<double> max_travel, const std::string& precision,
-                  const py::object& progress) {
+                  std::optional<double> max_travel, const std::string& precision) {
     const tf::separate_options options{
         .clearance = clearance, .max_travel = max_travel, .precision = precision_of(precision)};
-    return as_dict(place(moving, fixed, options, progress,
+    return as_dict(place(moving, fixed, options,
                          [](const auto& m, const auto& all, const tf::separate_options& o) {
                              return tf::separate(m, all, o);
                          }));
@@ -156,14 +152,13 @@ py::dict separate(const held_mesh& moving, const held_meshes& fixed, double clea
 
 py::dict turn(const held_mesh& moving, const held_meshes& fixed, const array_of<double>& axis,
               const array_of<double>& origin, double clearance, double max_angle,
-              std::optional<double> tolerance, const std::string& precision,
-              const py::object& progress) {
+              std::optional<double> tolerance, const std::string& precision) {
     const tf::turn_options options{.clearance = clearance,
                                    .max_angle = max_angle,
                                    .tolerance = tolerance,
                                    .precision = precision_of(precision)};
     const tf::turn_axis about{point_of(origin), point_of(axis)};
-    tf::turn_result turned = place(moving, fixed, options, progress,
+    tf::turn_result turned = place(moving, fixed, options,
                                    [&](const auto& m, const auto& all, const tf::turn_options& o) {
                                        return tf::turn(m, all, about, o);
                                    });
@@ -188,17 +183,16 @@ py::dict mate_features(const held_mesh& moving, const held_meshes& fixed, const 
                        const array_of<double>& origin, const array_of<double>& direction,
                        const array_of<double>& fixed_origin,
                        const array_of<double>& fixed_direction, double clearance, bool flip,
-                       const std::string& precision, const py::object& progress) {
+                       const std::string& precision) {
     tf::feature_mate_options options{
         .clearance = clearance, .flip = flip, .precision = precision_of(precision)};
     const tf::mesh_feature a = feature_of(kind, origin, direction);
     const tf::mesh_feature b = feature_of(kind, fixed_origin, fixed_direction);
     const std::vector<tf::prepared_mesh> all = borrowed(fixed);
-    tf::feature_mating mated =
-        run(progress, moving.size() + size_of(fixed), [&](const tf::progress_callback& report) {
-            options.progress = report;
-            return tf::mate_features(moving.prepared(), all, a, b, options);
-        });
+    tf::feature_mating mated = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::mate_features(moving.prepared(), all, a, b, options);
+    });
     py::dict made = as_dict(std::move(mated.at));
     made["angle"] = mated.turn_angle;
     made["offset"] = mated.offset;
@@ -208,19 +202,18 @@ py::dict mate_features(const held_mesh& moving, const held_meshes& fixed, const 
 // ---- measures ----
 
 py::object measure(const held_mesh& a, const held_mesh& b, double radius,
-                   const std::string& vertices, const py::object& progress) {
+                   const std::string& vertices) {
     tf::measure_options options{.radius = radius, .vertices = identity_of(vertices)};
-    const auto found = run(progress, a.size() + b.size(), [&](const tf::progress_callback& report) {
+    const auto found = run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::measure(a.prepared(), b.prepared(), options);
     });
     return found ? py::object(as_dict(*found)) : py::none();
 }
 
-py::object penetration_depth(const held_mesh& a, const held_mesh& b, std::size_t directions,
-                             const py::object& progress) {
+py::object penetration_depth(const held_mesh& a, const held_mesh& b, std::size_t directions) {
     tf::depth_options options{.directions = directions};
-    const auto found = run(progress, a.size() + b.size(), [&](const tf::progress_callback& report) {
+    const auto found = run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::penetration_depth(a.prepared(), b.prepared(), options);
     });
@@ -229,16 +222,15 @@ py::object penetration_depth(const held_mesh& a, const held_mesh& b, std::size_t
 
 py::tuple time_of_impact(const held_mesh& a, const held_mesh& b, const array_of<double>& motion,
                          const array_of<double>& move_a, const array_of<double>& move_b,
-                         double latest, const py::object& progress) {
+                         double latest) {
     constexpr words<3> ends{"free", "contact", "at_start"};
     tf::impact_options options{
         .move_a = transform_of(move_a), .move_b = transform_of(move_b), .latest = latest};
     const tf::point3 along = point_of(motion);
-    const tf::impact met =
-        run(progress, a.size() + b.size(), [&](const tf::progress_callback& report) {
-            options.progress = report;
-            return tf::time_of_impact(a.prepared(), b.prepared(), along, options);
-        });
+    const tf::impact met = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::time_of_impact(a.prepared(), b.prepared(), along, options);
+    });
     return py::make_tuple(
         word_of(ends, met.end), met.time,
         column(met.contacts,

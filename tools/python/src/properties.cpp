@@ -18,8 +18,7 @@ namespace {
 /// `f(mesh)` of the view, off the interpreter's lock.
 template <class F>
 auto of_view(const held_mesh& mesh, const F& f) {
-    return run(py::none(), mesh.size(),
-               [&](const tf::progress_callback&) { return f(mesh.view()); });
+    return run([&](const tf::progress_callback&) { return f(mesh.view()); });
 }
 
 py::object bounds(const held_mesh& mesh) {
@@ -94,11 +93,10 @@ py::list find_features(const held_mesh& mesh, const std::string& kind,
     return made;
 }
 
-py::dict find_solid_defects(const held_mesh& mesh, const py::object& progress) {
-    const tf::solid_defects found =
-        run(progress, mesh.size(), [&](const tf::progress_callback& report) {
-            return tf::find_solid_defects(mesh.view(), report);
-        });
+py::dict find_solid_defects(const held_mesh& mesh) {
+    const tf::solid_defects found = run([&](const tf::progress_callback& report) {
+        return tf::find_solid_defects(mesh.view(), report);
+    });
     py::dict made;
     made["tetrahedra"] = found.tetrahedra;
     made["degenerate"] = found.degenerate;

@@ -37,18 +37,17 @@ py::dict made_of(Result&& result) {
 
 py::dict resolve(const held_mesh& mesh, const std::string& mode, const std::string& inside,
                  const std::string& precision, double max_displacement, bool touching,
-                 double max_loss, const py::object& progress) {
+                 double max_loss) {
     tf::resolve_options options{.inside = choice<tf::fill_rule>("inside", fill_rule_words, inside),
                                 .precision = precision_of(precision),
                                 .max_displacement = max_displacement,
                                 .touching = touching,
                                 .max_loss = max_loss};
     const auto how = choice<tf::resolve_mode>("mode", mode_words, mode);
-    tf::resolve_result result =
-        run(progress, mesh.size(), [&](const tf::progress_callback& report) {
-            options.progress = report;
-            return tf::resolve_self_intersections(mesh.view(), how, options);
-        });
+    tf::resolve_result result = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::resolve_self_intersections(mesh.view(), how, options);
+    });
     py::dict statistics;
     statistics["removed"] = result.statistics.removed;
     statistics["covered"] = result.statistics.covered;
@@ -112,7 +111,7 @@ void set_steps(tf::repair_options& options, const std::vector<std::string>& step
 py::dict repair(const held_mesh& mesh, const std::vector<std::string>& steps,
                 std::optional<double> gap, std::optional<std::uint64_t> largest_hole, double strays,
                 const std::string& inside, double max_loss, bool sheet,
-                const std::string& precision, double max_displacement, const py::object& progress) {
+                const std::string& precision, double max_displacement) {
     tf::repair_options options{.gap = gap,
                                .strays = strays,
                                .inside = choice<tf::repair_rule>("inside", rule_words, inside),
@@ -122,7 +121,7 @@ py::dict repair(const held_mesh& mesh, const std::vector<std::string>& steps,
                                .max_displacement = max_displacement};
     set_steps(options, steps);
     if (largest_hole) options.largest_hole = *largest_hole;
-    tf::repair_result result = run(progress, mesh.size(), [&](const tf::progress_callback& report) {
+    tf::repair_result result = run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::repair(mesh.view(), options);
     });
@@ -133,9 +132,9 @@ py::dict repair(const held_mesh& mesh, const std::vector<std::string>& steps,
 }
 
 py::dict wrap(const held_mesh& mesh, double size, std::optional<double> offset,
-              const std::string& precision, const py::object& progress) {
+              const std::string& precision) {
     tf::wrap_options options{.offset = offset, .precision = precision_of(precision)};
-    tf::wrap_result result = run(progress, long_work, [&](const tf::progress_callback& report) {
+    tf::wrap_result result = run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::wrap(mesh.view(), size, options);
     });
@@ -151,11 +150,10 @@ py::dict wrap(const held_mesh& mesh, double size, std::optional<double> offset,
     return made;
 }
 
-py::dict convex_hull(const points_array& points, const py::object& progress) {
+py::dict convex_hull(const points_array& points) {
     const tf::points_view all = points_of(points);
     tf::convex_hull_result hull =
-        run(progress, all.size(),
-            [&](const tf::progress_callback& report) { return tf::convex_hull(all, report); });
+        run([&](const tf::progress_callback& report) { return tf::convex_hull(all, report); });
     py::dict made;
     made["dimension"] = hull.dimension;
     made["first_face"] = column(hull.sides, [](const tf::hull_side& s) { return s.first_face; });
@@ -171,20 +169,17 @@ py::array rounded(const points_array& points, const std::string& precision) {
     return as_array(tf::rounded(points_of(points), precision_of(precision)));
 }
 
-py::tuple find_rounding_defects(const held_mesh& mesh, const points_array& placed,
-                                const py::object& progress) {
+py::tuple find_rounding_defects(const held_mesh& mesh, const points_array& placed) {
     const tf::points_view to = points_of(placed);
-    const tf::rounding_defects found =
-        run(progress, mesh.size(), [&](const tf::progress_callback& report) {
-            return tf::find_rounding_defects(mesh.view(), to, report);
-        });
+    const tf::rounding_defects found = run([&](const tf::progress_callback& report) {
+        return tf::find_rounding_defects(mesh.view(), to, report);
+    });
     return py::make_tuple(found.collapsed, found.meeting);
 }
 
 py::tuple join_equal_points(const held_mesh& mesh) {
-    tf::mesh joined = run(py::none(), mesh.size(), [&](const tf::progress_callback&) {
-        return tf::join_equal_points(mesh.view());
-    });
+    tf::mesh joined =
+        run([&](const tf::progress_callback&) { return tf::join_equal_points(mesh.view()); });
     return py::make_tuple(as_array(std::move(joined.points)), as_array(std::move(joined.faces)));
 }
 

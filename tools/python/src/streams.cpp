@@ -49,7 +49,7 @@ py::dict weld_stream(const std::vector<std::filesystem::path>& inputs,
                      const std::string& rule, const conditions& same, const std::string& keep,
                      const std::string& keep_by, const std::string& order,
                      const std::string& order_by, std::uint64_t memory, const std::string& folder,
-                     std::uint64_t points_per_tile, const py::object& progress) {
+                     std::uint64_t points_per_tile) {
     tf::weld_stream_options options{
         .tolerance = tolerance,
         .relative = relative,
@@ -66,7 +66,7 @@ py::dict weld_stream(const std::vector<std::filesystem::path>& inputs,
     outputs.welded = {output, {}};
     if (!removed.empty()) outputs.removed = {removed, {}};
     outputs.label = label;
-    return as_dict(run(progress, long_work, [&](const tf::progress_callback& report) {
+    return as_dict(run([&](const tf::progress_callback& report) {
         options.progress = [&](std::string_view step, double share) {
             return !report || report(whole_share(step, share));
         };

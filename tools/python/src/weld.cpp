@@ -73,11 +73,10 @@ struct weld_settings {
     ids_array label;
 };
 
-py::dict weld_mesh(const held_mesh& mesh, const file_data* data, const weld_settings& settings,
-                   const py::object& progress) {
+py::dict weld_mesh(const held_mesh& mesh, const file_data* data, const weld_settings& settings) {
     tf::weld_options options = settings.options;
     options.label = rows_of<std::uint32_t>(settings.label);
-    tf::weld_result result = run(progress, mesh.size(), [&](const tf::progress_callback& report) {
+    tf::weld_result result = run([&](const tf::progress_callback& report) {
         options.progress = report;
         if (data != nullptr) return tf::weld(mesh.view(), data->file.attributes, options);
         return mesh.with([&](const auto& m) { return tf::weld(m, options); });
@@ -90,16 +89,15 @@ py::dict weld_mesh(const held_mesh& mesh, const file_data* data, const weld_sett
 }
 
 py::dict weld_cloud(const points_array& points, const file_data* data,
-                    const weld_settings& settings, const py::object& progress) {
+                    const weld_settings& settings) {
     const tf::points_view all = points_of(points);
     tf::weld_options options = settings.options;
     options.label = rows_of<std::uint32_t>(settings.label);
-    tf::cloud_weld_result result =
-        run(progress, all.size(), [&](const tf::progress_callback& report) {
-            options.progress = report;
-            return data == nullptr ? tf::weld(all, options)
-                                   : tf::weld(all, data->file.attributes, options);
-        });
+    tf::cloud_weld_result result = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return data == nullptr ? tf::weld(all, options)
+                               : tf::weld(all, data->file.attributes, options);
+    });
     py::dict made = common(result, data);
     made["points"] = as_array(std::move(result.points));
     return made;
@@ -107,8 +105,7 @@ py::dict weld_cloud(const points_array& points, const file_data* data,
 
 std::uint64_t count_nearly_equal(const points_array& points, double distance) {
     const tf::points_view all = points_of(points);
-    return run(py::none(), all.size(),
-               [&](const tf::progress_callback&) { return tf::count_nearly_equal(all, distance); });
+    return run([&](const tf::progress_callback&) { return tf::count_nearly_equal(all, distance); });
 }
 
 }  // namespace

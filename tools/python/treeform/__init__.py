@@ -10,7 +10,7 @@ given; what operations return has been checked in the numbers returned.
 78
 """
 
-from . import _core
+from . import _core, _exit
 from ._arrays import NONE
 from ._assembly import (STANDINGS, ClashResult, NearestPoints, PartClash, PoseClashes, check_poses,
                         clash, closest_points, distance, intersects)

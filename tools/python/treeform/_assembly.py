@@ -56,7 +56,7 @@ def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     array([ True, False])
     """
     found = _core.intersects(held(a), held(b), _poses(move_a, "move_a"), _poses(move_b, "move_b"),
-                             watched(progress)).view(np.bool_)
+                             progress=watched(progress)).view(np.bool_)
     return bool(found[0]) if _one(move_a, move_b) else found
 
 
@@ -73,7 +73,7 @@ def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     0.5
     """
     found = _core.distance(held(a), held(b), _poses(move_a, "move_a"), _poses(move_b, "move_b"),
-                           radius, watched(progress))
+                           radius, progress=watched(progress))
     return float(found[0]) if _one(move_a, move_b) else found
 
 
@@ -173,7 +173,7 @@ def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *
     [(0, 1, 'penetrating', 0.125)]
     """
     made = _core.clash([held_body(part) for part in parts], clearance, volumes, depths, limit,
-                       _pairs(ignored), vertices, watched(progress))
+                       _pairs(ignored), vertices, progress=watched(progress))
     made["pairs"] = [PartClash(**one) for one in made["pairs"]]
     return ClashResult(**made)
 
@@ -232,4 +232,4 @@ def check_poses(parts: Iterable[Union[MeshLike, ArrayLike]], poses: ArrayLike,
         raise ValueError(f"poses: the shape is {array.shape}, not (n, {len(bodies)}, 4, 4)")
     return PoseClashes(**_core.check_poses(bodies, _poses(array.reshape(-1, 4, 4), "poses"),
                                            clearance, first_only, _pairs(ignored), vertices,
-                                           watched(progress)))
+                                           progress=watched(progress)))

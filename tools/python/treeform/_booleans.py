@@ -65,7 +65,7 @@ def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: st
              volumes: bool, max_displacement: float, check: bool,
              progress: Progress) -> BooleanResult:
     return _result(_core.boolean(_operands(meshes), operation, "", [], inside, precision, simplify,
-                                 volumes, max_displacement, watched(progress)), check)
+                                 volumes, max_displacement, progress=watched(progress)), check)
 
 
 def union(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
@@ -157,7 +157,7 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     names = list(meshes)
     held_meshes = [held(mesh) for mesh in meshes.values()]
     return _result(_core.boolean(held_meshes, "", expression, names, inside, precision, simplify,
-                                 volumes, max_displacement, watched(progress)), check)
+                                 volumes, max_displacement, progress=watched(progress)), check)
 
 
 def clip(sheet: MeshLike, *solids: MeshLike, keep: str = "outside", inside: str = "nonzero",
@@ -180,7 +180,7 @@ def clip(sheet: MeshLike, *solids: MeshLike, keep: str = "outside", inside: str 
         raise ValueError(f"keep: {keep!r} is neither 'outside' nor 'inside'")
     operation = "difference" if keep == "outside" else "intersection"
     return _result(_core.clip([held(sheet), *map(held, solids)], 0, operation, "", [], inside,
-                              precision, max_displacement, watched(progress)), check)
+                              precision, max_displacement, progress=watched(progress)), check)
 
 
 def split(*meshes: MeshLike, precision: str = "float64", max_displacement: float = np.inf,
@@ -193,7 +193,7 @@ def split(*meshes: MeshLike, precision: str = "float64", max_displacement: float
     >>> treeform.split(a, (a.vertices + 0.5, a.faces)).certificate
     Certificate(ok)
     """
-    return _result(_core.split(_operands(meshes), precision, max_displacement, watched(progress)),
+    return _result(_core.split(_operands(meshes), precision, max_displacement, progress=watched(progress)),
                    check)
 
 
@@ -207,4 +207,4 @@ def check_solid(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
     >>> treeform.check_solid(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])).open_count
     3
     """
-    return _core.check_solid(held(mesh), watched(progress))
+    return _core.check_solid(held(mesh), progress=watched(progress))

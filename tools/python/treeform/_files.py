@@ -32,7 +32,7 @@ def read(path: Path, format: str = "", *, join: bool = True, progress: Progress 
     >>> treeform.read("data/cube.stl")
     Mesh(8 vertices, 12 faces)
     """
-    points, faces, data = _core.read(os.fspath(path), format, join, watched(progress))
+    points, faces, data = _core.read(os.fspath(path), format, join, progress=watched(progress))
     return Mesh._of(points, faces, None, Attributes(data))
 
 
@@ -74,4 +74,4 @@ def write(path: Path, mesh: MeshLike, format: str = "", *, ascii: bool = False,
     certified = made._certificate is not None and bool(made._certificate)
     data = None if made._attributes is None else made._attributes._data
     return Written(**_core.write(os.fspath(path), made._held, data, certified, format, ascii,
-                                 precision, round, watched(progress)))
+                                 precision, round, progress=watched(progress)))

@@ -70,7 +70,7 @@ def self_intersections(mesh: MeshLike, *, kinds: Iterable[str] | None = None,
     """
     return FacePairs(**_core.self_intersections(
         held(mesh), _ALL if kinds is None else list(kinds), vertices, first_only,
-        _NO_LIMIT if limit is None else limit, watched(progress)))
+        _NO_LIMIT if limit is None else limit, progress=watched(progress)))
 
 
 def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None = None,
@@ -92,7 +92,7 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None 
     return FacePairs(**_core.mesh_intersections(
         held(a), held(b), _ALL if kinds is None else list(kinds), first_only,
         _NO_LIMIT if limit is None else limit, _arrays.matrix(move_a, "move_a"),
-        _arrays.matrix(move_b, "move_b"), watched(progress)))
+        _arrays.matrix(move_b, "move_b"), progress=watched(progress)))
 
 
 @dataclass(frozen=True, repr=False)
@@ -133,7 +133,7 @@ def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None
     """
     made = _core.self_intersections_of_file(
         os.fspath(path), _ALL if kinds is None else list(kinds), vertices, format, memory,
-        os.fspath(folder), watched(progress))
+        os.fspath(folder), progress=watched(progress))
     mesh = Mesh._of(made.pop("points"), made.pop("faces"))
     return FilePairs(mesh=mesh, **made)
 

@@ -216,7 +216,7 @@ class Mesh:
         """Why it bounds a solid or not."""
         mesh = self._ready()
         if mesh._solid is None:
-            mesh._solid = _core.check_solid(mesh._held, None)
+            mesh._solid = _core.check_solid(mesh._held)
         return mesh._solid
 
     @property

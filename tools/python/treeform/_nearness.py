@@ -50,7 +50,7 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
     ([[0.5, 0.25, 1.0]], [2.0])
     """
     return ClosestPoints(*_core.closest_point(held(mesh), _arrays.points(points, "points"), radius,
-                                              watched(progress)))
+                                              progress=watched(progress)))
 
 
 _OUTSIDE, _INSIDE, _BOUNDARY = 0, 1, 2
@@ -66,7 +66,7 @@ def contains(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) ->
     >>> treeform.contains(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [1, 1, 1], [2, 0, 0]])
     array([ True,  True, False])
     """
-    where, _ = _core.locate(held(mesh), _arrays.points(points, "points"), watched(progress))
+    where, _ = _core.locate(held(mesh), _arrays.points(points, "points"), progress=watched(progress))
     return np.asarray(where != _OUTSIDE)
 
 
@@ -78,7 +78,7 @@ def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> N
     >>> treeform.locate(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [1, 1, 1], [2, 0, 0]])
     array([ 1,  0, -1], dtype=int8)
     """
-    where, _ = _core.locate(held(mesh), _arrays.points(points, "points"), watched(progress))
+    where, _ = _core.locate(held(mesh), _arrays.points(points, "points"), progress=watched(progress))
     return np.array([-1, 1, 0], np.int8)[where]
 
 
@@ -91,7 +91,7 @@ def winding_number(mesh: MeshLike, points: ArrayLike, *,
     >>> treeform.winding_number(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [2, 0, 0]])
     array([1, 0], dtype=int32)
     """
-    _, winding = _core.locate(held(mesh), _arrays.points(points, "points"), watched(progress))
+    _, winding = _core.locate(held(mesh), _arrays.points(points, "points"), progress=watched(progress))
     return winding
 
 
@@ -110,7 +110,7 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
     cloud = _arrays.points(points, "points")
     if len(cloud) == 0:
         return np.empty(0)
-    made = _core.deviation(_core.HeldMesh(cloud), held(mesh), None, 0, False, watched(progress))
+    made = _core.deviation(_core.HeldMesh(cloud), held(mesh), None, 0, False, progress=watched(progress))
     if made is None:
         return np.full(len(cloud), -np.inf)
     if not made["is_signed"]:
@@ -154,7 +154,7 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
     ([2.0], [6])
     """
     return RayHits(*_core.raycast(held(mesh), *_rays(origins, directions), t_min, t_max,
-                                  watched(progress)))
+                                  progress=watched(progress)))
 
 
 class AllRayHits(NamedTuple):
@@ -183,7 +183,7 @@ def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     [[0.5, 0.25, 1.0], [0.5, 0.25, 0.0]]
     """
     start, along = _rays(origins, directions)
-    t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max, watched(progress))
+    t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max, progress=watched(progress))
     return AllRayHits(start[ray] + t[:, None] * along[ray], ray, face)
 
 
@@ -197,7 +197,7 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     array([ True, False])
     """
     return _core.raycast_any(held(mesh), *_rays(origins, directions), t_min, t_max,
-                             watched(progress)).view(np.bool_)
+                             progress=watched(progress)).view(np.bool_)
 
 
 @dataclass(frozen=True, repr=False)
@@ -257,7 +257,7 @@ def deviation(a: Union[MeshLike, ArrayLike], b: Union[MeshLike, ArrayLike], *,
     >>> map.distances.tolist(), map.band_counts, map.is_signed
     ([-0.25, 2.0], (0, 1, 1), True)
     """
-    made = _core.deviation(held_body(a), held_body(b), band, bins, both_ways, watched(progress))
+    made = _core.deviation(held_body(a), held_body(b), band, bins, both_ways, progress=watched(progress))
     if made is None:
         raise ValueError("deviation: a has no points, or b no faces")
     return Deviation(**made)

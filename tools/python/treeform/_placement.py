@@ -149,7 +149,7 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     """
     body = held_body(moving)
     return _moved(body, _core.slide(body, _bodies(onto), _arrays.vector(direction, "direction"),
-                                    clearance, max_travel, bed, precision, watched(progress)))
+                                    clearance, max_travel, bed, precision, progress=watched(progress)))
 
 
 def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0,
@@ -168,7 +168,7 @@ def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0,
     body = held_body(moving)
     return _moved(body, _core.drop(body, _bodies(onto), clearance, max_travel, bed,
                                    _arrays.vector(direction, "direction"), precision,
-                                   watched(progress)))
+                                   progress=watched(progress)))
 
 
 def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float | None = None,
@@ -182,7 +182,7 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
     """
     body = held_body(moving)
     return _moved(body, _core.mate(body, _bodies(onto), clearance, max_travel, precision,
-                                   watched(progress)))
+                                   progress=watched(progress)))
 
 
 def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: float | None = None,
@@ -198,7 +198,7 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     """
     body = held_body(moving)
     return _moved(body, _core.separate(body, _bodies(fixed), clearance, max_travel, precision,
-                                       watched(progress)))
+                                       progress=watched(progress)))
 
 
 def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.0, 0.0), *,
@@ -219,7 +219,7 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     body = held_body(moving)
     return _moved(body, _core.turn(body, _bodies(fixed), _arrays.vector(axis, "axis"),
                                    _arrays.vector(origin, "origin"), clearance, max_angle,
-                                   tolerance, precision, watched(progress)))
+                                   tolerance, precision, progress=watched(progress)))
 
 
 def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature, *,
@@ -241,7 +241,7 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     body = held_body(moving)
     return _moved(body, _core.mate_features(
         body, _bodies(onto), of_moving.kind, of_moving.origin, of_moving.direction,
-        of_fixed.origin, of_fixed.direction, clearance, flip, precision, watched(progress)))
+        of_fixed.origin, of_fixed.direction, clearance, flip, precision, progress=watched(progress)))
 
 
 @dataclass(frozen=True, repr=False)
@@ -301,7 +301,7 @@ def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.
     """
     body = held(mesh)
     made = _core.lay_flat(body, choose, _arrays.vector(toward, "toward"), keep_spin, tolerance, bed,
-                          overhang_angle, precision, watched(progress))
+                          overhang_angle, precision, progress=watched(progress))
     if made is None:
         raise ValueError("lay_flat: no side: fewer than three points, or all on a line")
     made["mesh"] = Mesh._of(made.pop("points"), body.faces, made["certificate"])
@@ -377,7 +377,7 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
     body = held_body(moving)
     made = _core.align(body, held_body(onto), method, overlap, weights, max_distance, scale,
                        max_iterations, tolerance, starts, samples, _arrays.matrix(start, "start"),
-                       precision, watched(progress))
+                       precision, progress=watched(progress))
     made["mesh"] = Mesh._of(made.pop("points"), body.faces)
     return Alignment(**made)
 
@@ -437,7 +437,7 @@ def pack(parts: Iterable[MeshLike], size: ArrayLike, *, corner: ArrayLike = (0.0
     bodies = [held(part) for part in parts]
     made = _core.pack(bodies, _arrays.vector(extent, "size"), _arrays.vector(corner, "corner"),
                       spacing, turns, stack, plates, _arrays.vector(plate_step, "plate_step"), seed,
-                      tries, seconds, precision, watched(progress))
+                      tries, seconds, precision, progress=watched(progress))
     made["parts"] = [
         PackedPart(placed, plate, matrix, Mesh._of(points, body.faces))
         for (placed, plate, matrix, points), body in zip(made["parts"], bodies)]
@@ -456,7 +456,7 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     >>> how.relation, how.distance, how.on_a[2], how.on_b[2]
     ('separate', 2.0, 1.0, 3.0)
     """
-    made = _core.measure(held_body(a), held_body(b), radius, vertices, watched(progress))
+    made = _core.measure(held_body(a), held_body(b), radius, vertices, progress=watched(progress))
     return None if made is None else Measure(**made)
 
 
@@ -482,7 +482,7 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256,
     >>> treeform.penetration_depth(cube, (cube.vertices + [0.75, 0, 0], cube.faces)).depth
     0.25
     """
-    found = _core.penetration_depth(held(a), held(b), directions, watched(progress))
+    found = _core.penetration_depth(held(a), held(b), directions, progress=watched(progress))
     return None if found is None else Depth(*found)
 
 
@@ -516,4 +516,4 @@ def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *,
     return Impact(*_core.time_of_impact(held(a), held(b), _arrays.vector(motion, "motion"),
                                         _arrays.matrix(move_a, "move_a"),
                                         _arrays.matrix(move_b, "move_b"), latest,
-                                        watched(progress)))
+                                        progress=watched(progress)))

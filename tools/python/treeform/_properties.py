@@ -51,7 +51,7 @@ def find_solid_defects(mesh: MeshLike, *, progress: Progress = None) -> SolidDef
     >>> treeform.find_solid_defects(treeform.read("data/two_spheres.stl")).meeting_pairs
     78
     """
-    return SolidDefects(**_core.find_solid_defects(held(mesh), watched(progress)))
+    return SolidDefects(**_core.find_solid_defects(held(mesh), progress=watched(progress)))
 
 
 @dataclass(frozen=True, repr=False)

@@ -101,7 +101,7 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     """
     return ResolveResult(**_mesh_of(
         _core.resolve(held(mesh), mode, inside, precision, max_displacement, touching, max_loss,
-                      watched(progress)), check))
+                      progress=watched(progress)), check))
 
 
 _STEPS = ("join", "orient", "fill", "resolve", "detach")
@@ -135,7 +135,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = _STEPS, gap: float | None =
     """
     return RepairResult(**_mesh_of(
         _core.repair(held(mesh), list(steps), gap, largest_hole, strays, inside, max_loss, sheet,
-                     precision, max_displacement, watched(progress)), check, "sheet"))
+                     precision, max_displacement, progress=watched(progress)), check, "sheet"))
 
 
 def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision: str = "float64",
@@ -153,7 +153,7 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     (True, True)
     """
     return WrapResult(**_mesh_of(
-        _core.wrap(held(mesh), size, offset, precision, watched(progress)), check))
+        _core.wrap(held(mesh), size, offset, precision, progress=watched(progress)), check))
 
 
 @dataclass(frozen=True, repr=False)
@@ -181,7 +181,7 @@ def convex_hull(points: ArrayLike, *, progress: Progress = None) -> ConvexHull:
     >>> hull.dimension, len(hull.faces), hull.areas.tolist()
     (3, 12, [1.0, 1.0, 1.0, 1.0, 1.0, 1.0])
     """
-    return ConvexHull(**_core.convex_hull(_arrays.points(points, "points"), watched(progress)))
+    return ConvexHull(**_core.convex_hull(_arrays.points(points, "points"), progress=watched(progress)))
 
 
 def rounded(points: ArrayLike, precision: str = "float32") -> Floats:
@@ -206,7 +206,7 @@ def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
     (0, 0)
     """
     return _core.find_rounding_defects(held(mesh), _arrays.points(placed, "placed"),
-                                       watched(progress))
+                                       progress=watched(progress))
 
 
 def join_equal_points(mesh: MeshLike) -> Mesh:

@@ -55,7 +55,7 @@ class PointTree:
     def __init__(self, data: ArrayLike) -> None:
         self.data = _table(data, "data")
         make = _core.Cloud3 if self.data.shape[1] == 3 else _core.Cloud2
-        self._cloud = make(self.data)
+        self._cloud: _core._Cloud = _core.build(make, self.data)
 
     @property
     def n(self) -> int:
@@ -109,7 +109,7 @@ class PointTree:
             raise ValueError("k: less than 1")
         if not distance_upper_bound >= 0:
             raise ValueError(f"distance_upper_bound: {distance_upper_bound} is negative or NaN")
-        d, i = self._cloud.query(queries, int(count), distance_upper_bound, watched(progress))
+        d, i = self._cloud.query(queries, int(count), distance_upper_bound, progress=watched(progress))
         if wanted is not None:
             d = d.reshape(-1, count)[:, wanted - 1]
             i = i.reshape(-1, count)[:, wanted - 1]
@@ -136,7 +136,7 @@ class PointTree:
         if p != 2:
             raise ValueError(f"p: {p} is not 2, the only one there is")
         queries, shape = self._queries(x)
-        begin, ids, _ = self._cloud.query_ball(queries, r, True, watched(progress))
+        begin, ids, _ = self._cloud.query_ball(queries, r, True, progress=watched(progress))
         if return_length:
             length = np.diff(begin).reshape(shape)
             return length if shape else int(length)
@@ -156,7 +156,7 @@ class PointTree:
         [0, 1]
         """
         queries, _ = self._queries(x)
-        return Neighbors(*self._cloud.query_ball(queries, r, False, watched(progress)))
+        return Neighbors(*self._cloud.query_ball(queries, r, False, progress=watched(progress)))
 
     def query_pairs(self, r: float, p: float = 2.0, eps: float = 0.0, output_type: str = "set", *,
                     progress: Progress = None) -> Any:
@@ -171,7 +171,7 @@ class PointTree:
             raise ValueError(f"p: {p} is not 2, the only one there is")
         if output_type not in ("set", "ndarray"):
             raise ValueError(f"output_type: {output_type!r} is neither 'set' nor 'ndarray'")
-        pairs = self._cloud.query_pairs(self.data, r, watched(progress))
+        pairs = self._cloud.query_pairs(self.data, r, progress=watched(progress))
         return pairs if output_type == "ndarray" else set(map(tuple, pairs.tolist()))
 
     def __repr__(self) -> str:
@@ -196,7 +196,7 @@ class BoxTree:
             raise ValueError(f"maxs: the shape is {high.shape}, that of mins {low.shape}")
         self._dimensions = int(low.shape[1])
         make = _core.Boxes3 if self._dimensions == 3 else _core.Boxes2
-        self._boxes = make(low, high)
+        self._boxes: _core.Boxes2 = _core.build(make, low, high)
 
     def __len__(self) -> int:
         return len(self._boxes)
@@ -211,10 +211,10 @@ class BoxTree:
         [[0, 1]]
         """
         if other is None:
-            return self._boxes.pairs(watched(progress))
+            return self._boxes.pairs(progress=watched(progress))
         if other._dimensions != self._dimensions:
             raise ValueError("other: a tree of other dimensions")
-        return self._boxes.pairs_with(other._boxes, watched(progress))
+        return self._boxes.pairs_with(other._boxes, progress=watched(progress))
 
     def query(self, min: ArrayLike, max: ArrayLike, *, progress: Progress = None) -> Any:
         """The boxes that overlap the one from `min` (m,) to `max`: (n,) ascending. For many boxes
@@ -232,7 +232,7 @@ class BoxTree:
         if low.shape != high.shape or low.ndim != 2 or low.shape[1] != self._dimensions:
             raise ValueError(f"min, max: the shapes are {low.shape} and {high.shape}, "
                              f"not (n, {self._dimensions})")
-        begin, ids = self._boxes.query(low, high, watched(progress))
+        begin, ids = self._boxes.query(low, high, progress=watched(progress))
         return ids if one else (begin, ids)
 
     def nearest(self, x: ArrayLike, k: int = 1, *, radius: float = np.inf,
@@ -251,7 +251,7 @@ class BoxTree:
             raise ValueError("k: less than 1")
         shape = array.shape[:-1]
         d, i = self._boxes.nearest(np.ascontiguousarray(array.reshape(-1, self._dimensions)), k,
-                                   radius, watched(progress))
+                                   radius, progress=watched(progress))
         if k != 1:
             shape = shape + (k,)
         return (d.reshape(shape), i.reshape(shape)) if shape else (float(d[0]), int(i[0]))

@@ -86,15 +86,15 @@ def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
         none if label is None else _arrays.ids(label, "label"))
     if _arrays.is_points(mesh_or_points):
         made = _core.weld_cloud(_arrays.points(mesh_or_points, "points"),  # type: ignore[arg-type]
-                                None, settings, watched(progress))
+                                None, settings, progress=watched(progress))
         made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
     else:
         mesh = as_mesh(mesh_or_points)
         data = None if mesh._attributes is None else mesh._attributes._data
         if len(mesh._faces):
-            made = _core.weld_mesh(mesh._held, data, settings, watched(progress))
+            made = _core.weld_mesh(mesh._held, data, settings, progress=watched(progress))
         else:
-            made = _core.weld_cloud(mesh._vertices, data, settings, watched(progress))
+            made = _core.weld_cloud(mesh._vertices, data, settings, progress=watched(progress))
             made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
     extra = made.pop("data")
     welded = Mesh._of(made.pop("points"), made.pop("faces"), None,
@@ -168,4 +168,4 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     return WeldStreamResult(**_core.weld_stream(
         [os.fspath(path) for path in paths], os.fspath(out), os.fspath(removed), label, tolerance,
         relative, rule, list((same or {}).items()), keep, keep_by, order, order_by, memory,
-        os.fspath(folder), points_per_tile, watched(progress)))
+        os.fspath(folder), points_per_tile, progress=watched(progress)))
