@@ -1,0 +1,168 @@
+"""What is taken for a mesh or for points, without a copy where it fits; what is refused, and how."""
+
+import numpy as np
+import pytest
+
+import treeform as tf
+from support import CUBE, SHEET, same_mesh
+
+POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], np.uint32)
+
+
+def test_what_fits_is_not_copied():
+    mesh = tf.Mesh(POINTS, FACES)
+    assert np.shares_memory(mesh.vertices, POINTS)
+    assert np.shares_memory(mesh.faces, FACES)
+
+
+def test_results_own_their_memory_and_can_be_written_to():
+    pairs = tf.self_intersections(tf.read("data/two_spheres.stl")).pairs
+    assert pairs.flags.writeable and pairs.flags.c_contiguous and pairs.dtype == np.uint32
+    copy = pairs.copy()
+    del copy
+    pairs[:] = 0
+
+
+def test_arrays_of_a_mesh_cannot_be_written_to():
+    with pytest.raises(ValueError, match="read-only"):
+        CUBE.vertices[0] = 1
+
+
+@pytest.mark.parametrize("points", [
+    POINTS.astype(np.float32), POINTS.astype(int), POINTS.astype(np.int8), POINTS.astype(">f8"),
+    POINTS.astype(np.float16), POINTS.tolist(), np.asfortranarray(POINTS),
+    np.repeat(POINTS, 2, axis=0)[::2], np.hstack([POINTS, POINTS])[:, :3]])
+@pytest.mark.parametrize("faces", [
+    FACES.astype(np.int64), FACES.astype(np.int32), FACES.astype(np.uint8), FACES.tolist(),
+    FACES.astype(">i4"), np.asfortranarray(FACES), np.hstack([FACES, FACES])[:, :3]])
+def test_other_numbers_are_converted(points, faces):
+    mesh = tf.Mesh(points, faces)
+    assert same_mesh(mesh, tf.Mesh(POINTS, FACES))
+    assert mesh.volume == pytest.approx(1 / 6)
+
+
+def test_memory_that_is_read_only_or_not_aligned_is_taken():
+    points = POINTS.copy()
+    points.flags.writeable = False
+    assert tf.Mesh(points, FACES).is_solid
+    bytes_of = np.zeros(POINTS.nbytes + 1, np.uint8)
+    crooked = bytes_of[1:].view(float).reshape(POINTS.shape)
+    crooked[:] = POINTS
+    assert not crooked.flags.aligned
+    assert tf.Mesh(crooked, FACES).is_solid
+
+
+class Trimesh:
+    """As trimesh.Trimesh: int64 faces."""
+    vertices, faces = POINTS, FACES.astype(np.int64)
+
+
+class Open3d:
+    """As open3d.geometry.TriangleMesh: vectors that NumPy takes."""
+    vertices, triangles = POINTS.tolist(), FACES.astype(np.int32).tolist()
+
+
+class Pyvista:
+    """As pyvista.PolyData: [3, a, b, c, 3, ...]."""
+    points = POINTS.astype(np.float32)
+    faces = np.hstack([np.full((4, 1), 3), FACES]).ravel()
+
+
+class Meshio:
+    """As meshio.Mesh."""
+    points, cells_dict = POINTS, {"triangle": FACES.astype(np.int64)}
+
+
+@pytest.mark.parametrize("mesh", [Trimesh(), Open3d(), Pyvista(), Meshio(), (POINTS, FACES),
+                                  [POINTS.tolist(), FACES.tolist()], tf.Mesh(POINTS, FACES)])
+def test_meshes_of_others_are_taken(mesh):
+    assert tf.check_solid(mesh)
+    assert tf.union(mesh).mesh.volume == pytest.approx(1 / 6)
+    assert len(tf.self_intersections(mesh)) == 0
+
+
+def test_real_meshes_of_open3d():
+    o3d = pytest.importorskip("open3d")
+    mesh = o3d.geometry.TriangleMesh.create_sphere()
+    assert tf.check_solid(mesh)
+    cloud = mesh.sample_points_uniformly(100)
+    assert len(tf.deviation(cloud, mesh).distances) == 100
+
+
+@pytest.mark.parametrize("vertices, faces, message", [
+    (POINTS[:, :2], FACES, r"vertices: the shape is \(4, 2\), not \(n, 3\)"),
+    (POINTS.ravel(), FACES, r"vertices: the shape is \(12,\)"),
+    (POINTS.astype(complex), FACES, "vertices: numbers are needed, not complex128"),
+    (POINTS.astype(str), FACES, "vertices: numbers are needed"),
+    (POINTS, FACES.astype(float), "faces: whole numbers are needed, not float64"),
+    (POINTS, FACES[:, :2], r"faces: the shape is \(4, 2\), not \(n, 3\)"),
+    (POINTS, [[0, 1, -1]], r"faces: -1 at \(0, 2\)"),
+    (POINTS, [[0, 2**40, 1]], r"faces: 1099511627776 at \(0, 1\)"),
+    (POINTS, [4, 0, 1, 2, 3], "faces: 5 numbers in a row"),
+    (POINTS, [3, 0, 1, 2, 4, 0, 1, 2], "faces: face 1 has 4 corners"),
+    (POINTS, FACES.astype(bool), "faces: whole numbers are needed, not bool"),
+])
+def test_what_is_no_mesh_is_named(vertices, faces, message):
+    with pytest.raises(ValueError, match=message):
+        tf.Mesh(vertices, faces)
+
+
+@pytest.mark.parametrize("verb", [
+    tf.self_intersections, tf.check_solid, tf.union, tf.repair, tf.resolve_self_intersections,
+    tf.drop, lambda m: tf.closest_point(m, POINTS),
+    lambda m: tf.raycast(m, POINTS, POINTS + 1), lambda m: tf.contains(m, POINTS),
+    lambda m: tf.distance(m, CUBE), lambda m: tf.intersects(m, CUBE), lambda m: tf.clash([m, CUBE]),
+    lambda m: tf.measure(m, CUBE), lambda m: tf.slide(m, CUBE, [0, 0, 1]), lambda m: tf.wrap(m, 1),
+    lambda m: tf.deviation(CUBE, m), lambda m: tf.align(CUBE, m), lambda m: tf.lay_flat(m),
+    lambda m: tf.mesh_intersections(m, CUBE), lambda m: tf.pack([m], [9, 9]),
+    lambda m: tf.find_features(m)])
+@pytest.mark.parametrize("vertices, faces", [
+    (POINTS, [[0, 1, 2], [0, 1, 7]]),
+    (np.where(POINTS == 1, np.nan, POINTS), FACES),
+    (np.where(POINTS == 1, np.inf, POINTS), FACES)])
+def test_bad_elements_are_named(verb, vertices, faces):
+    with pytest.raises(ValueError, match=r"\d"):
+        verb((vertices, faces))
+
+
+@pytest.mark.parametrize("verb", [
+    lambda m: len(tf.self_intersections(m)), lambda m: len(tf.union(m).mesh.faces),
+    lambda m: tf.count_topology(m).edges, lambda m: tf.Mesh(*m).volume,
+    lambda m: len(tf.clash([m, m]).pairs), lambda m: len(tf.face_components(m)),
+    lambda m: len(tf.closest_point(m, np.empty((0, 3))).distance),
+    lambda m: len(tf.weld(m).mesh.faces)])
+def test_empty_meshes_are_taken(verb):
+    assert verb((np.empty((0, 3)), np.empty((0, 3), np.uint32))) == 0
+    assert verb(([], [])) == 0
+
+
+@pytest.mark.parametrize("mesh", [3, None, "mesh", object(), (POINTS,), (POINTS, FACES, FACES)])
+def test_what_is_nothing_of_the_kind_is_refused(mesh):
+    with pytest.raises(ValueError, match="mesh"):
+        tf.self_intersections(mesh)
+
+
+def test_points_that_are_not_finite_are_named():
+    bad = POINTS.copy()
+    bad[2, 1] = np.nan
+    for verb in (lambda: tf.closest_point(CUBE, bad), lambda: tf.contains(CUBE, bad),
+                 lambda: tf.PointTree(bad), lambda: tf.raycast(CUBE, bad, POINTS + 1),
+                 lambda: tf.convex_hull(bad), lambda: tf.deviation(bad, CUBE)):
+        with pytest.raises(ValueError, match="2"):
+            verb()
+
+
+def test_words_that_are_none_are_refused_with_those_there_are():
+    with pytest.raises(ValueError, match="outer"):
+        tf.resolve_self_intersections(CUBE, "inner")
+    with pytest.raises(ValueError, match="float32, float64"):
+        tf.union(CUBE, precision="half")
+    with pytest.raises(ValueError, match="crossing"):
+        tf.self_intersections(CUBE, kinds=["crossed"])
+
+
+def test_a_matrix_that_is_none_is_refused():
+    for wrong in (np.eye(3), np.full((4, 4), 1.0), np.eye(4)[:2]):
+        with pytest.raises(ValueError, match="move_b"):
+            tf.intersects(CUBE, SHEET, move_b=wrong)

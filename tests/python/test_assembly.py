@@ -1,0 +1,107 @@
+"""Two bodies and many; in many poses."""
+
+import numpy as np
+import pytest
+
+import treeform as tf
+from support import CUBE, SHEET, SPHERES, box, moved, sphere
+
+
+def matrices(offsets):
+    made = np.tile(np.eye(4), (len(offsets), 1, 1))
+    made[:, :3, 3] = offsets
+    return made
+
+
+def test_two_bodies():
+    away = moved(CUBE, 3, 0, 0)
+    assert tf.distance(CUBE, away) == 2 and not tf.intersects(CUBE, away)
+    assert tf.distance(CUBE, away, radius=1) == np.inf
+    near = tf.closest_points(CUBE, away)
+    assert near.distance == 2 and near.on_a[0] == 1 and near.on_b[0] == 3
+    assert tf.closest_points(CUBE, away, radius=1) is None
+    assert tf.closest_points(CUBE, ([], [])) is None
+    how = tf.measure(CUBE, box([0.25] * 3, [0.75] * 3))
+    assert how.relation == "penetrating" and how.b_inside_a and how.distance == 0
+    assert how.surface_distance == 0.25
+    assert tf.measure(CUBE, away, radius=1) is None
+    assert tf.measure(np.array([[0.5, 0.5, 0.5]]), CUBE).relation == "penetrating"
+    depth, move = tf.penetration_depth(CUBE, moved(CUBE, 0.75, 0, 0))
+    assert depth == 0.25 and move.tolist() == [-0.25, 0, 0]
+    assert tf.penetration_depth(CUBE, away) is None
+
+
+def test_the_first_contact_is_exact():
+    met = tf.time_of_impact(CUBE, moved(CUBE, 3, 0, 0), [2, 0, 0])
+    assert met.end == "contact" and met.time == 1 and len(met.faces) == len(met.points) > 0
+    assert tf.time_of_impact(CUBE, moved(CUBE, 3, 0, 0), [-1, 0, 0]).end == "free"
+    assert tf.time_of_impact(CUBE, moved(CUBE, 1, 0, 0), [1, 0, 0]).end == "at_start"
+
+
+def test_many_positions_are_as_one_by_one():
+    offsets = np.random.default_rng(1).random((600, 3)) * 4 - 2
+    moves = matrices(offsets)
+    ball = sphere(2)
+    hit, far = tf.intersects(ball, ball, move_b=moves), tf.distance(ball, ball, move_b=moves)
+    assert hit.shape == far.shape == (600,) and hit.dtype == bool
+    assert np.array_equal(hit, far == 0)
+    for i in range(0, 600, 60):
+        assert tf.intersects(ball, ball, move_b=moves[i]) == hit[i]
+        assert tf.distance(ball, ball, move_b=moves[i]) == far[i]
+        other = tf.Mesh(ball.vertices + offsets[i], ball.faces)
+        assert tf.intersects(ball, other) == hit[i]
+    with pytest.raises(ValueError, match="3 positions of a, 2 of b"):
+        tf.intersects(ball, ball, move_a=moves[:3], move_b=moves[:2])
+
+
+def test_parts_of_an_assembly():
+    parts = [CUBE, moved(CUBE, 0.5, 0.5, 0.5), moved(CUBE, 1, 0, 0), moved(CUBE, 5, 0, 0),
+             box([5.25, 0.25, 0.25], [5.75, 0.75, 0.75])]
+    found = tf.clash(parts)
+    assert {(one.a, one.b): one.how for one in found.pairs} == {
+        (0, 1): "penetrating", (0, 2): "touching", (1, 2): "penetrating", (3, 4): "penetrating"}
+    first = found.pairs[0]
+    assert first.volume == 0.125 and first.depth == 0.5 and len(first.regions) == 1
+    assert found.pairs[-1].b_inside_a and found.clashes == 3
+    assert found.counts["penetrating"] == 3 and found.counts["touching"] == 1
+    near = tf.clash([CUBE, moved(CUBE, 1.5, 0, 0)], 1.0)
+    assert near.pairs[0].how == "closer_than_clearance" and near.pairs[0].distance == 0.5
+    assert near.pairs[0].nearest.shape == (2, 3)
+    assert [(one.a, one.b) for one in tf.clash(parts, ignored=[(1, 0), (3, 4)]).pairs] == [
+        (0, 2), (1, 2)]
+    with pytest.raises(ValueError, match="-1"):
+        tf.clash(parts, ignored=[(0, -1)])
+    with pytest.raises(ValueError, match="clearance"):
+        tf.clash(parts, -1.0)
+
+
+def test_poses_are_as_one_by_one():
+    rng = np.random.default_rng(2)
+    parts = [sphere(2), CUBE, box([0, 0, 0], [2, 0.5, 0.5])]
+    poses = matrices(rng.random((120, 3)) * 3).reshape(40, 3, 4, 4)
+    found = tf.check_poses(parts, poses, 0.1)
+    there = {(p, a, b): tf.STANDINGS[h] for p, (a, b), h
+             in zip(found.pose.tolist(), found.parts.tolist(), found.how)}
+    bad = np.zeros(40, bool)
+    for p in range(0, 40):
+        placed = [tf.Mesh(part.vertices + m[:3, 3], part.faces) for part, m in zip(parts, poses[p])]
+        for one in tf.clash(placed, 0.1).pairs:
+            assert there.pop((p, one.a, one.b)) == one.how
+            bad[p] |= one.how != "touching"
+    assert not there
+    assert np.array_equal(found.in_collision(40), bad) and found.clashing == bad.sum()
+    first = tf.check_poses(parts, poses, 0.1, first_only=True)
+    assert len(first.pose) == len(set(first.pose.tolist()))
+    with pytest.raises(ValueError, match="poses"):
+        tf.check_poses(parts, poses[:, :2])
+    single = tf.check_poses([CUBE, CUBE], matrices([[0.5, 0, 0], [4, 0, 0]]))
+    assert single.pose.tolist() == [0]
+
+
+def test_rings_in_each_other_do_not_clash():
+    thin = tf.difference(box([0, 0, 0], [4, 4, 1]), box([1, 1, -1], [3, 3, 2]))
+    other = tf.Mesh(thin.vertices[:, [2, 1, 0]] + [1.5, 1.5, -1.5], thin.faces[:, ::-1])
+    assert tf.check_solid(thin) and tf.check_solid(other)
+    found = tf.clash([thin, other])
+    assert found.pairs == [] and found.boxes_apart == 0 and found.counts["separate"] == 1
+    assert not tf.intersects(SHEET, moved(SPHERES, 50, 0, 0))

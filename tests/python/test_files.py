@@ -1,0 +1,119 @@
+"""Reading and writing: numbers of the file, attributes, what must not be rounded."""
+
+import os
+
+import numpy as np
+import pytest
+
+import treeform as tf
+from support import CUBE, MODELS, model, needs_models, same_mesh, truth
+
+FORMATS = ["stl", "obj", "ply", "off", "3mf", "glb"]
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_what_is_written_is_read(tmp_path, format):
+    path = tmp_path / f"cube.{format}"
+    written = tf.write(path, CUBE)
+    assert written.max_displacement == 0
+    again = tf.read(path)
+    assert tf.check_solid(again) and again.volume == CUBE.volume
+    assert len(again.vertices) == 8 and len(again.faces) == 12
+
+
+def test_doubles_survive(tmp_path):
+    points = np.random.default_rng(1).standard_normal((300, 3)) * 10.0 ** np.arange(-150, 150)[:, None]
+    mesh = tf.Mesh(points, np.arange(300).reshape(-1, 3))
+    for name in ("m.ply", "m.obj", "m.off", "m.3mf"):
+        tf.write(tmp_path / name, mesh, precision="float64")
+        assert same_mesh(tf.read(tmp_path / name, join=False), mesh), name
+
+
+def test_corners_of_an_stl_are_joined_and_faces_keep_their_numbers(tmp_path):
+    tf.write(tmp_path / "m.stl", CUBE)
+    joined, soup = tf.read(tmp_path / "m.stl"), tf.read(tmp_path / "m.stl", join=False)
+    assert len(soup.vertices) == 36
+    assert np.array_equal(joined.vertices[joined.faces], soup.vertices[soup.faces])
+
+
+def test_attributes_travel(tmp_path):
+    extra = tf.Attributes()
+    quality = np.arange(8, dtype=np.float32)
+    extra.set_vertex("quality", quality)
+    extra.set_face("label", np.arange(12, dtype=np.int32))
+    assert list(extra.vertex) == ["quality"]
+    mesh = tf.Mesh(CUBE.vertices, CUBE.faces, extra)
+    tf.write(tmp_path / "m.ply", mesh)
+    again = tf.read(tmp_path / "m.ply")
+    assert np.array_equal(again.attributes.vertex["quality"], quality)
+    assert again.attributes.vertex["quality"].dtype == np.float32
+    assert np.array_equal(again.attributes.face["label"], np.arange(12))
+    assert again.attributes.format == "ply-binary-le"
+    with pytest.raises(ValueError, match="label: 3 values for 12 rows"):
+        extra.set_face("label", [1, 2, 3])
+
+
+def test_names_of_parts_and_polygons_travel(tmp_path):
+    (tmp_path / "m.obj").write_text("o first\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+    mesh = tf.read(tmp_path / "m.obj")
+    assert len(mesh.faces) == 2
+    assert mesh.attributes.stored_face.tolist() == [0, 0]
+    assert mesh.attributes.parts[0][0] == "first"
+    tf.write(tmp_path / "again.obj", mesh)
+    text = (tmp_path / "again.obj").read_text()
+    assert "o first" in text and "f 1 2 3 4" in text
+
+
+def test_certified_coordinates_are_not_rounded_unless_told(tmp_path):
+    third = tf.Mesh(CUBE.vertices / 3 + 0.9, CUBE.faces)
+    made = tf.union(CUBE, third)
+    with pytest.raises(tf.FileError, match="round"):
+        tf.write(tmp_path / "m.stl", made)
+    with pytest.raises(tf.FileError, match="round"):
+        tf.write(tmp_path / "m.stl", CUBE | third)
+    assert not (tmp_path / "m.stl").exists()
+    assert tf.write(tmp_path / "m.stl", made, round=True).max_displacement > 0
+    single = tf.union(CUBE, third, precision="float32")
+    assert tf.write(tmp_path / "m.stl", single).max_displacement == 0
+    tf.write(tmp_path / "m.ply", made)
+    assert same_mesh(tf.read(tmp_path / "m.ply"), made.mesh)
+
+
+def test_what_cannot_be_read_is_an_os_error_that_names_it(tmp_path):
+    with pytest.raises(OSError, match="no_such.stl"):
+        tf.read(tmp_path / "no_such.stl")
+    (tmp_path / "bad.obj").write_text("v 0 0 0\nf 0 1 2\n")
+    with pytest.raises(tf.FileError, match="bad.obj:2"):
+        tf.read(tmp_path / "bad.obj")
+    with pytest.raises(tf.FileError, match="nowhere"):
+        tf.write(tmp_path / "nowhere" / "m.ply", CUBE)
+    with pytest.raises(tf.FileError):
+        tf.write(tmp_path / "m.nothing", CUBE)
+    assert os.listdir(tmp_path) == ["bad.obj"]
+
+
+def test_a_cloud_has_no_faces(tmp_path):
+    points = np.random.default_rng(2).random((50, 3))
+    tf.write(tmp_path / "c.xyz", (points, []))
+    cloud = tf.read(tmp_path / "c.xyz")
+    assert np.array_equal(cloud.vertices, points) and cloud.faces.shape == (0, 3)
+
+
+@needs_models
+def test_every_file_has_its_triangles():
+    for row in truth():
+        mesh = tf.read(model(row["file"]))
+        assert len(mesh.faces) == int(row["triangles"]), row["file"]
+
+
+@needs_models
+def test_hostile_files_are_read_or_refused():
+    folder = os.path.join(MODELS, "hostile")
+    refused = 0
+    for name in sorted(os.listdir(folder)):
+        try:
+            tf.read(os.path.join(folder, name))
+        except tf.FileError as error:
+            refused += 1
+            assert name in str(error)
+    assert refused > 20

@@ -1,0 +1,199 @@
+"""Long work: threads, progress, Ctrl-C, memory."""
+
+import os
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import treeform as tf
+from support import CUBE, SANITIZED, SPHERES, moved, same_mesh, sphere
+
+tqdm = pytest.importorskip("tqdm")
+
+# Union of many spheres: seconds of work.
+CROWD = [sphere(4, center=c) for c in np.random.default_rng(1).random((40, 3)) * 4]
+
+
+def test_two_threads_run_two_booleans_at_once():
+    """Each waits, in its progress, until the other has begun."""
+    begun = [threading.Event(), threading.Event()]
+    both = []
+
+    def work(i):
+        def progress(share):
+            begun[i].set()
+            if begun[1 - i].wait(30):
+                both.append(i)
+        made[i] = tf.union(*CROWD[:6], progress=progress).mesh
+
+    made = [None, None]
+    workers = [threading.Thread(target=work, args=(i,)) for i in (0, 1)]
+    for one in workers:
+        one.start()
+    for one in workers:
+        one.join()
+    assert set(both) == {0, 1}
+    assert same_mesh(*made)
+
+
+def test_other_threads_run_meanwhile():
+    ticks, done = [], threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.001)
+
+    other = threading.Thread(target=tick)
+    other.start()
+    tf.union(*CROWD[:8])
+    done.set()
+    other.join()
+    assert len(ticks) > 3
+
+
+def test_one_mesh_may_be_asked_by_many_threads():
+    ball = sphere(4)
+    points = np.random.default_rng(2).random((20_000, 3))
+    answers = [None] * 6
+
+    def ask(i):
+        answers[i] = tf.closest_point(ball, points).distance
+
+    workers = [threading.Thread(target=ask, args=(i,)) for i in range(6)]
+    for one in workers:
+        one.start()
+    for one in workers:
+        one.join()
+    assert all(np.array_equal(answers[0], one) for one in answers)
+
+
+def test_progress_is_told_and_goes_up():
+    told = []
+    tf.union(*CROWD[:8], progress=told.append)
+    assert told[-1] == 1 and told == sorted(told)
+    assert all(0 <= share <= 1 for share in told)
+
+
+def test_a_bar_of_tqdm_will_do():
+    with open(os.devnull, "w") as nowhere, tqdm.tqdm(total=1, file=nowhere) as bar:
+        tf.resolve_self_intersections(SPHERES, progress=bar)
+        assert bar.n == pytest.approx(1)
+
+
+def test_progress_may_stop_the_work():
+    with pytest.raises(tf.Cancelled):
+        tf.union(*CROWD, progress=lambda share: False)
+    with pytest.raises(tf.Cancelled):
+        tf.PointTree(np.zeros((5, 3))).query([0, 0, 0], progress=lambda share: False)
+    assert tf.union(CUBE).mesh.volume == 1
+
+
+def test_what_progress_raises_comes_through():
+    def progress(share):
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        tf.union(*CROWD, progress=progress)
+    with pytest.raises(KeyError, match="mine"):
+        tf.closest_point(sphere(4), np.zeros((10, 3)), progress=progress)
+
+
+@pytest.mark.parametrize("verb", [
+    "tf.union(*crowd)", "tf.self_intersections(soup)", "tf.wrap(crowd[0], 0.002)",
+    "tf.repair(soup, max_loss=1, check=False)", "tf.weld(cloud, 0.05, rule='chain')",
+    "tf.PointTree(cloud).query_pairs(0.05, output_type='ndarray')",
+    "tf.closest_point(crowd[0], far)"])
+def test_ctrl_c_stops_the_work(verb):
+    """The work would take many seconds; the process sends itself the signal soon after it has begun.
+    A job that does not notice is left alone, and the next one runs beside it."""
+    program = f"""
+import os, signal, sys, threading
+import numpy as np
+import treeform as tf
+sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
+from support import sphere
+ball = sphere(5)
+crowd = [(ball.vertices + c, ball.faces) for c in np.random.default_rng(1).random((400, 3)) * 2]
+soup = (np.random.default_rng(2).random((60_000, 3)), np.arange(60_000).reshape(-1, 3))
+cloud = np.random.default_rng(3).random((1_000_000, 3))
+far = np.random.default_rng(4).random((3_000_000, 3)) * 50
+threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+try:
+    {verb}
+except KeyboardInterrupt:
+    print("stopped", tf.union(ball).certificate, flush=True)
+else:
+    print("finished", flush=True)
+os._exit(0)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                          timeout=300)
+    assert done.stdout.split()[:1] == ["stopped"], done.stdout + done.stderr
+
+
+def test_a_process_ends_after_ctrl_c():
+    program = """
+import os, signal, threading
+import numpy as np
+import treeform as tf
+soup = (np.random.default_rng(2).random((3_000, 3)), np.arange(3_000).reshape(-1, 3))
+threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+tf.repair(soup, max_loss=1, check=False, progress=lambda share: None)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                          timeout=300)
+    assert done.returncode == -signal.SIGINT and "KeyboardInterrupt" in done.stderr, done.stderr
+
+
+def test_a_fork_works_on():
+    tf.union(*CROWD[:4])  # there are helper threads now
+    child = os.fork()
+    if child == 0:
+        try:
+            os._exit(0 if tf.union(*CROWD[:4]).certificate else 1)
+        except BaseException:
+            os._exit(2)
+    deadline = time.monotonic() + 120
+    while time.monotonic() < deadline:
+        pid, status = os.waitpid(child, os.WNOHANG)
+        if pid:
+            assert os.waitstatus_to_exitcode(status) == 0
+            return
+        time.sleep(0.05)
+    os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+    pytest.fail("the child hangs")
+
+
+def resident():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * resource.getpagesize()
+
+
+@pytest.mark.skipif(SANITIZED, reason="a sanitizer keeps memory")
+def test_memory_does_not_grow():
+    a, b = sphere(3), moved(sphere(3), 0.5, 0.1, 0.2)
+
+    def many(count):
+        for _ in range(count):
+            (a.vertices, a.faces)
+            tf.union((a.vertices, a.faces), (b.vertices, b.faces))
+
+    many(100)
+    before = resident()
+    many(1000)
+    assert resident() - before < 16 << 20
+
+
+def test_threads_may_be_limited():
+    most = tf.thread_count()
+    with tf.threads(1):
+        assert tf.thread_count() == 1
+    assert tf.thread_count() == most

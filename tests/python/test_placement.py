@@ -1,0 +1,144 @@
+"""Where meshes go: the coordinates of the tool, and that they do not penetrate."""
+
+import numpy as np
+import pytest
+
+import treeform as tf
+from support import CUBE, SHEET, SPHERES, box, moved, run_tool, sphere
+
+
+def same_as_tool(folder, made, *arguments):
+    run_tool("tf-place", *arguments, "-o", folder / "tool.off", "--precision", "double")
+    tf.write(folder / "own.off", made.mesh)
+    return (folder / "tool.off").read_bytes() == (folder / "own.off").read_bytes()
+
+
+def test_coordinates_are_those_of_the_tool(tmp_path):
+    ball = moved(tf.read("data/sphere.ply"), 0.3, 0.2, 6)
+    tf.write(tmp_path / "ball.off", ball)
+    path, fixed = tmp_path / "ball.off", ("--fixed", "data/cube.stl")
+    assert same_as_tool(tmp_path, tf.drop(ball), "drop", path)
+    assert same_as_tool(tmp_path, tf.drop(ball, CUBE), "drop", path, *fixed)
+    assert same_as_tool(tmp_path, tf.slide(ball, CUBE, [0, 0, -1]), "slide", path, *fixed, "-d",
+                        "0,0,-1")
+    assert same_as_tool(tmp_path, tf.slide(ball, CUBE, [0, 0, -1], 0.03), "slide", path, *fixed,
+                        "-d", "0,0,-1", "--clearance", "0.03")
+    assert same_as_tool(tmp_path, tf.mate(ball, CUBE), "mate", path, *fixed)
+    tf.write(tmp_path / "cube.off", CUBE)
+    assert same_as_tool(tmp_path, tf.lay_flat(CUBE), "lay", tmp_path / "cube.off", "-t", "0")
+
+
+def test_slide():
+    ball = moved(sphere(3), 0.5, 0.5, 9)
+    made = tf.slide(ball, CUBE, [0, 0, -5])
+    assert made and made.end == "contact" and made.at_place == "touching"
+    assert made.direction.tolist() == [0, 0, -1] and made.travel == pytest.approx(7)
+    assert tf.measure(made, CUBE).relation == "touching"
+    assert np.allclose(made.vertices, ball.vertices + made.matrix[:3, 3])
+    assert made.contacts.points.shape == (made.contact_count, 3)
+    assert made.nearest[0] == 0 and made.nearest[1].distance == 0
+    gap = tf.slide(ball, CUBE, [0, 0, -1], 0.25)
+    assert gap.at_place == "clear" and tf.distance(gap, CUBE) == pytest.approx(0.25)
+    none = tf.slide(ball, CUBE, [0, 0, 1])
+    assert not none and none.end == "nothing_met" and none.message
+    assert np.array_equal(none.vertices, ball.vertices)
+    nearest_of = tf.slide(ball, [box([0, 0, 3], [1, 1, 4]), CUBE], [0, 0, -1])
+    assert nearest_of.travel == pytest.approx(4) and nearest_of.nearest[0] == 0
+    with pytest.raises(ValueError, match="direction"):
+        tf.slide(ball, CUBE, [0, 0, 0])
+
+
+def test_drop():
+    low = tf.drop(moved(SPHERES, 0, 0, 7))
+    assert low.end == "bed" and low.mesh.bounds[0, 2] == 0
+    single = tf.drop(moved(SPHERES, 0, 0, 7), bed=0.1, precision="float32")
+    assert single.mesh.bounds[0, 2] == np.nextafter(np.float32(0.1), np.float32(1)) or \
+        single.mesh.bounds[0, 2] == np.float32(0.1)
+    up = tf.drop(moved(CUBE, 0, 0, -3))
+    assert up.mesh.bounds[0, 2] == 0
+
+
+def test_clouds_are_moved_too():
+    points = np.random.default_rng(1).random((100, 3)) + [0, 0, 5]
+    made = tf.drop(points)
+    assert made.vertices[:, 2].min() == 0 and len(made.faces) == 0
+
+
+def test_mate_separate_turn():
+    other = moved(CUBE, 0.2, 3, 0.1)
+    assert tf.mate(other, CUBE).travel == 2
+    assert tf.mate(other, CUBE, clearance=0.5).at_place == "clear"
+    inside = moved(CUBE, 0.9, 0.1, 0)
+    apart = tf.separate(inside, CUBE)
+    assert apart.end == "moved_apart" and apart.travel == pytest.approx(0.1)
+    assert tf.measure(apart, CUBE).relation != "penetrating"
+    door = tf.turn(box([0, 0, 0], [4, 0.25, 1]), box([-5, 2, 0], [5, 3, 1]), [0, 0, 1])
+    assert door and 20 < door.angle < 40 and door.at_place in ("separate", "touching")
+    assert tf.distance(door, box([-5, 2, 0], [5, 3, 1])) <= 2 * door.tolerance
+    free = tf.turn(CUBE, moved(CUBE, 9, 9, 9), [0, 0, 1])
+    assert not free and free.end == "nothing_met"
+
+
+def test_features():
+    sides = tf.find_features(CUBE)
+    assert len(sides) == 6 and all(side.area == 1 and len(side.faces) == 2 for side in sides)
+    other = moved(CUBE, 5, 0, 0)
+    made = tf.mate_features(other, CUBE, tf.find_features(other)[0], sides[0])
+    assert made and made.at_place == "touching" and made.angle in (0, 90, 180)
+    angles = np.linspace(0, 2 * np.pi, 33)[:-1]
+    ring = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    tube = np.vstack([np.column_stack([ring, np.zeros(32)]), np.column_stack([ring, np.ones(32)])])
+    walls = [[i, (i + 1) % 32, 32 + i] for i in range(32)]
+    walls += [[(i + 1) % 32, 32 + (i + 1) % 32, 32 + i] for i in range(32)]
+    axis, = tf.find_features((tube, walls), "axis", tolerance=1e-3)
+    assert axis.radius == pytest.approx(1, abs=1e-2) and abs(axis.direction[2]) == pytest.approx(1)
+    with pytest.raises(ValueError, match="of_fixed"):
+        tf.mate_features(other, CUBE, sides[0], axis)
+
+
+def test_lay_flat():
+    turned = tf.Mesh(CUBE.vertices @ np.linalg.qr(np.arange(9).reshape(3, 3) + np.eye(3))[0],
+                     CUBE.faces)
+    laid = tf.lay_flat(turned, tolerance=1e-9)
+    assert laid.mesh.bounds[0, 2] == 0 and len(laid.on_bed) == 4
+    assert len(laid.areas) == 6 and laid.areas[laid.chosen] == pytest.approx(1)
+    assert laid.tip_angles[laid.chosen] == pytest.approx(45)
+    assert laid.mass == "solid" and laid.certificate
+    assert np.allclose(laid.center_of_mass, turned.vertices.mean(axis=0))
+    up = tf.lay_flat(CUBE, choose="nearest_normal", toward=[0, 0, 1])
+    assert up.normals[up.chosen].tolist() == [0, 0, 1]
+    with pytest.raises(ValueError, match="no side"):
+        tf.lay_flat(([[0, 0, 0]], []))
+
+
+def test_align():
+    ball = tf.resolve_self_intersections(SPHERES).mesh
+    angle = 0.05
+    matrix = np.eye(4)
+    matrix[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    matrix[:3, 3] = [0.05, -0.03, 0.02]
+    scan = ball.vertices @ matrix[:3, :3].T + matrix[:3, 3]
+    for moving in (scan, tf.Mesh(scan, ball.faces)):
+        found = tf.align(moving, ball)
+        assert np.allclose(found.matrix[:3, 3] + found.matrix[:3, :3] @ matrix[:3, 3], 0, atol=1e-4)
+        assert found.rms < 1e-6 < found.rms_at_start
+        assert np.allclose(found.vertices, ball.vertices, atol=1e-4)
+    started = tf.align(scan, ball, start=np.linalg.inv(matrix))
+    assert started.rms < 1e-12
+    with pytest.raises(ValueError, match="overlap"):
+        tf.align(scan, ball, overlap=2.0)
+
+
+def test_pack():
+    parts = [box([0, 0, 0], [1 + i % 3, 1, 1]) for i in range(6)]
+    packed = tf.pack(parts, [8, 8], spacing=0.25)
+    assert packed and packed.plates_used == 1 and len(packed.parts) == 6
+    for i, one in enumerate(packed.parts):
+        assert one.placed and one.mesh.bounds[0, 2] == 0
+        assert (one.mesh.bounds[0, :2] >= 0).all() and (one.mesh.bounds[1, :2] <= 8).all()
+        for other in packed.parts[:i]:
+            assert tf.distance(one.mesh, other.mesh) >= 0.25 - 1e-12
+    full = tf.pack([box([0, 0, 0], [3, 3, 1])] * 3, [7, 3.5, 5])
+    assert not full and len(full.not_placed) == 2
+    again = tf.pack(parts, [8, 8], spacing=0.25)
+    assert all(np.array_equal(a.matrix, b.matrix) for a, b in zip(packed.parts, again.parts))

@@ -1,0 +1,110 @@
+"""Welding: the bytes of the tool, the definition by brute force, files larger than memory."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings, strategies as st
+
+import treeform as tf
+from support import CUBE, model, moved, needs_models, run_tool, sphere
+
+
+def test_bytes_are_those_of_the_tool(tmp_path):
+    run_tool("tf-weld", "data/sphere.ply", "-t", "0.15", "-o", tmp_path / "tool.ply")
+    tf.write(tmp_path / "own.ply", tf.weld(tf.read("data/sphere.ply"), 0.15))
+    assert (tmp_path / "tool.ply").read_bytes() == (tmp_path / "own.ply").read_bytes()
+
+
+@needs_models
+@pytest.mark.parametrize("rule", ["first", "chain"])
+def test_bytes_of_clouds_are_those_of_the_tool(tmp_path, rule):
+    path = model("cloud/terrain_samp11_38k.ply")
+    run_tool("tf-weld", path, "-t", "1", "--rule", rule, "-o", tmp_path / "tool.ply")
+    tf.write(tmp_path / "own.ply", tf.weld(tf.read(path), 1.0, rule=rule))
+    assert (tmp_path / "tool.ply").read_bytes() == (tmp_path / "own.ply").read_bytes()
+
+
+def first_rule(points, tolerance):
+    """The definition: a point is dropped when an earlier kept one is within the tolerance."""
+    kept, index = [], np.empty(len(points), int)
+    for i, p in enumerate(points):
+        near = [(np.sum((p - points[j]) ** 2), n) for n, j in enumerate(kept)
+                if np.sum((p - points[j]) ** 2) <= tolerance**2]
+        if near:
+            index[i] = min(near)[1]
+        else:
+            index[i] = len(kept)
+            kept.append(i)
+    return kept, index
+
+
+@settings(max_examples=60)
+@given(st.integers(0, 10**6), st.integers(0, 60), st.sampled_from([0.0, 1.0, 2.0, 2.5]))
+def test_a_cloud_is_welded_as_defined(seed, count, tolerance):
+    points = np.random.default_rng(seed).integers(0, 8, (count, 3)).astype(float)
+    made = tf.weld(points, tolerance)
+    kept, index = first_rule(points, tolerance)
+    assert np.array_equal(made.points, points[kept].reshape(-1, 3))
+    assert np.array_equal(made.index, index)
+    assert np.array_equal(made.source, kept)
+    assert len(tf.weld(made.points, tolerance).points) == len(kept)
+
+
+def test_the_forms_that_points_come_in():
+    points = [[0, 0, 0], [0, 0, 0.5], [0, 0, 1]]
+    for cloud in (points, np.array(points), tuple(map(tuple, points)), (points, [])):
+        assert len(tf.weld(cloud, 0.6).points) == 2
+    assert len(tf.weld(points, 0.6, rule="chain").points) == 1
+    assert tf.weld(points, 1.0, keep="mean").points.tolist() == [[0, 0, 0.5]]
+
+
+def test_meshes_and_their_attributes():
+    repeated = tf.read("data/cube.stl", join=False)
+    made = tf.weld(repeated)
+    assert len(made.vertices) == 8 and len(made.faces) == 12 and made.mesh.is_solid
+    extra = tf.Attributes()
+    extra.set_vertex("quality", np.arange(36.0))
+    made = tf.weld(tf.Mesh(repeated.vertices, repeated.faces, extra), 0.0)
+    assert np.array_equal(made.mesh.attributes.vertex["quality"], made.source)
+    apart = tf.weld(tf.Mesh(repeated.vertices, repeated.faces, extra), 0.0, same={"quality": 0.5})
+    assert len(apart.vertices) == 36
+    kept = tf.weld(tf.Mesh(repeated.vertices, repeated.faces, extra), 0.0, keep="highest",
+                   keep_by="quality")
+    assert (kept.mesh.attributes.vertex["quality"] > made.source).any()
+
+
+def test_labels_and_other_options():
+    points = np.zeros((4, 3))
+    assert len(tf.weld(points, 1.0, label=[0, 0, 1, 2]).points) == 3
+    with pytest.raises(ValueError, match="label"):
+        tf.weld(points, 1.0, label=[0, 0])
+    with pytest.raises(ValueError, match="tolerance"):
+        tf.weld(points, -1.0)
+    with pytest.raises(ValueError, match="quality"):
+        tf.weld(points, 1.0, keep="lowest", keep_by="quality")
+    touching = tf.Mesh(np.vstack([CUBE.vertices, moved(CUBE, 1, 1, 0).vertices]),
+                       np.vstack([CUBE.faces, CUBE.faces + 8]))
+    assert len(tf.weld(touching).vertices) == 14
+    assert len(tf.weld(touching, keep_manifold=True).vertices) == 16
+    ball = sphere(2)
+    thin = tf.weld(ball, 0.3)
+    assert thin.statistics["collapsed"] + len(thin.faces) == len(ball.faces)
+    assert np.array_equal(thin.index[ball.faces[thin.face_source]], thin.faces)
+
+
+def test_how_many_are_nearly_equal():
+    assert tf.count_nearly_equal([[0, 0, 0], [0, 0, 0], [0, 0, 1e-6], [5, 5, 5]], 1e-5) == 1
+
+
+def test_a_file_in_tiles_is_that_of_the_whole(tmp_path):
+    points = np.random.default_rng(3).random((20_000, 3)) * 10
+    tf.write(tmp_path / "a.ply", (points[:12_000], []))
+    tf.write(tmp_path / "b.ply", (points[12_000:], []))
+    done = tf.weld_stream([tmp_path / "a.ply", tmp_path / "b.ply"], tmp_path / "thin.ply", 0.2,
+                          removed=tmp_path / "gone.ply", points_per_tile=2000)
+    whole = tf.weld(points, 0.2)
+    assert done.points == 20_000 and done.kept == len(whole.points) and done.tiles > 5
+    assert np.array_equal(tf.read(tmp_path / "thin.ply").vertices, whole.points)
+    assert len(tf.read(tmp_path / "gone.ply").vertices) == 20_000 - done.kept
+    assert len(list(tmp_path.iterdir())) == 4
+    with pytest.raises(tf.FileError, match="no_such"):
+        tf.weld_stream(tmp_path / "no_such.ply", tmp_path / "x.ply", 1.0)

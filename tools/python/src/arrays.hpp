@@ -1,0 +1,94 @@
+#pragma once
+/// \file
+/// NumPy arrays as the spans that treeform takes, and vectors as NumPy arrays. Nothing is copied.
+
+#include <treeform/mesh/mesh.hpp>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace binding {
+
+namespace py = pybind11;
+namespace tf = treeform;
+
+/// What the Python side hands over: it has made the array contiguous, aligned and of this type.
+template <class T>
+using array_of = py::array_t<T, py::array::c_style>;
+using points_array = array_of<double>;        ///< [V][3]
+using faces_array = array_of<std::uint32_t>;  ///< [F][3]
+using ids_array = array_of<std::uint32_t>;    ///< [N]
+
+/// The rows of `array`, each a Row of equal numbers T.
+template <class Row, class T>
+std::span<const Row> rows_of(const array_of<T>& array) {
+    constexpr auto width = static_cast<py::ssize_t>(sizeof(Row) / sizeof(T));
+    const bool fits = width == 1 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == width;
+    if (!fits || reinterpret_cast<std::uintptr_t>(array.data()) % alignof(T) != 0)
+        throw std::invalid_argument("treeform: an array of another shape, or not aligned");
+    return {reinterpret_cast<const Row*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+}
+
+inline tf::points_view points_of(const points_array& array) { return rows_of<tf::point3>(array); }
+
+/// The memory of `values` as an array of numbers T, a row for each; it lives as long as the array.
+template <class T, class Row>
+py::array_t<T> as_array(std::vector<Row>&& values) {
+    static_assert(sizeof(Row) % sizeof(T) == 0);
+    constexpr auto width = static_cast<py::ssize_t>(sizeof(Row) / sizeof(T));
+    auto owned = std::make_unique<std::vector<Row>>(std::move(values));
+    std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(owned->size())};
+    if (width != 1) shape.push_back(width);
+    const T* const data = reinterpret_cast<const T*>(owned->data());
+    const py::capsule owner(owned.get(),
+                            [](void* rows) { delete static_cast<std::vector<Row>*>(rows); });
+    owned.release();
+    return py::array_t<T>(std::move(shape), data, owner);
+}
+
+inline py::array_t<double> as_array(std::vector<tf::point3>&& points) {
+    return as_array<double>(std::move(points));
+}
+inline py::array_t<std::uint32_t> as_array(std::vector<tf::face>&& faces) {
+    return as_array<std::uint32_t>(std::move(faces));
+}
+inline py::array_t<std::uint32_t> as_array(std::vector<std::uint32_t>&& ids) {
+    return as_array<std::uint32_t>(std::move(ids));
+}
+
+/// An array of `of(row)` for each row; `of` gives a number or an array of equal numbers.
+template <class Rows, class Of>
+auto column(const Rows& rows, const Of& of) {
+    using value = std::remove_cvref_t<decltype(of(*std::begin(rows)))>;
+    std::vector<value> values;
+    values.reserve(std::size(rows));
+    for (const auto& row : rows) values.push_back(of(row));
+    if constexpr (std::is_arithmetic_v<value>)
+        return as_array<value>(std::move(values));
+    else
+        return as_array<std::remove_cvref_t<decltype(value{}[0])>>(std::move(values));
+}
+
+/// Three numbers as an array.
+inline py::array_t<double> as_array(const tf::point3& p) {
+    py::array_t<double> made(3);
+    for (py::ssize_t k = 0; k < 3; ++k) made.mutable_at(k) = p[static_cast<std::size_t>(k)];
+    return made;
+}
+
+/// Where a mesh has no element: None in place of the number.
+inline py::object or_none(bool there, std::uint64_t number) {
+    return there ? py::object(py::int_(number)) : py::none();
+}
+
+}  // namespace binding

@@ -1,0 +1,24 @@
+#pragma once
+/// \file
+/// What each source adds to the module.
+
+#include <pybind11/pybind11.h>
+
+namespace binding {
+
+void add_assembly(pybind11::module_& module);
+void add_booleans(pybind11::module_& module);
+void add_boxes(pybind11::module_& module);
+void add_certificates(pybind11::module_& module);
+void add_clouds(pybind11::module_& module);
+void add_files(pybind11::module_& module);
+void add_intersections(pybind11::module_& module);
+void add_layouts(pybind11::module_& module);
+void add_nearness(pybind11::module_& module);
+void add_placement(pybind11::module_& module);
+void add_properties(pybind11::module_& module);
+void add_repair(pybind11::module_& module);
+void add_streams(pybind11::module_& module);
+void add_weld(pybind11::module_& module);
+
+}  // namespace binding

@@ -1,0 +1,130 @@
+#include "bindings.hpp"
+#include "held_mesh.hpp"
+#include "job.hpp"
+#include "words.hpp"
+#include <treeform/mesh/boolean.hpp>
+
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace binding {
+namespace {
+
+std::vector<tf::mesh_operand> operands_of(const held_meshes& meshes) {
+    std::vector<tf::mesh_operand> all;
+    for (const held_mesh* one : meshes)
+        one->keep() ? all.emplace_back(one->prepared()) : all.emplace_back(one->view());
+    return all;
+}
+
+/// What is made of so many operands: by name, or by a formula in letters or names.
+tf::boolean_expression expression_of(const std::string& operation, const std::string& formula,
+                                     const std::vector<std::string>& names, std::size_t count) {
+    if (operation == "union") return tf::boolean_expression::union_of(count);
+    if (operation == "intersection") return tf::boolean_expression::intersection_of(count);
+    if (operation == "difference") return tf::boolean_expression::difference_of(count);
+    if (operation == "xor") return tf::boolean_expression::xor_of(count);
+    return names.empty() ? tf::boolean_expression(formula, count)
+                         : tf::boolean_expression(formula, names);
+}
+
+py::array_t<std::uint32_t> sources(const std::vector<tf::operand_element>& elements) {
+    return column(elements, [](const tf::operand_element& element) {
+        return std::array<std::uint32_t, 2>{element.operand, element.index};
+    });
+}
+
+py::dict statistics_of(const tf::boolean_result& result) {
+    const tf::boolean_statistics& s = result.statistics;
+    py::dict made;
+    made["pairs"] = s.pairs;
+    made["cut_faces"] = s.cut_faces;
+    made["degenerate"] = s.degenerate;
+    made["skipped_faces"] = s.skipped_faces;
+    made["covered"] = s.covered;
+    made["exact_faces"] = s.exact_faces;
+    made["split_vertices"] = s.split_vertices;
+    made["rounding_steps"] = s.rounding_steps;
+    made["vanished_components"] = result.vanished_components;
+    return made;
+}
+
+py::dict as_dict(tf::boolean_result&& result) {
+    py::dict made;
+    made["face_source"] = sources(result.face_source);
+    made["vertex_source"] = sources(result.vertex_source);
+    made["volumes"] = py::none();
+    if (const auto& v = result.volumes)
+        made["volumes"] = py::make_tuple(v->first, v->second, v->either, v->both);
+    made["statistics"] = statistics_of(result);
+    made["points"] = as_array(std::move(result.mesh.points));
+    made["faces"] = as_array(std::move(result.mesh.faces));
+    made["certificate"] = std::move(result.certificate);
+    return made;
+}
+
+tf::boolean_options options_of(const std::string& inside, const std::string& precision,
+                               bool simplify, double max_displacement) {
+    return {.inside = choice<tf::fill_rule>("inside", fill_rule_words, inside),
+            .precision = precision_of(precision),
+            .max_displacement = max_displacement,
+            .simplify = simplify};
+}
+
+py::dict boolean(const held_meshes& meshes, const std::string& operation,
+                 const std::string& formula, const std::vector<std::string>& names,
+                 const std::string& inside, const std::string& precision, bool simplify,
+                 bool volumes, double max_displacement) {
+    const tf::boolean_expression expression =
+        expression_of(operation, formula, names, meshes.size());
+    tf::boolean_options options = options_of(inside, precision, simplify, max_displacement);
+    options.volumes = volumes;
+    const std::vector<tf::mesh_operand> operands = operands_of(meshes);
+    return as_dict(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::boolean(operands, expression, options);
+    }));
+}
+
+py::dict clip(const held_meshes& meshes, std::uint32_t sheet, const std::string& operation,
+              const std::string& formula, const std::vector<std::string>& names,
+              const std::string& inside, const std::string& precision, double max_displacement) {
+    const tf::boolean_expression expression =
+        expression_of(operation, formula, names, meshes.size());
+    tf::boolean_options options = options_of(inside, precision, false, max_displacement);
+    const std::vector<tf::mesh_view> operands = views_of(meshes);
+    return as_dict(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::clip(operands, sheet, expression, options);
+    }));
+}
+
+py::dict split(const held_meshes& meshes, const std::string& precision, double max_displacement) {
+    tf::boolean_options options = options_of("nonzero", precision, false, max_displacement);
+    const std::vector<tf::mesh_view> operands = views_of(meshes);
+    return as_dict(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::split(operands, options);
+    }));
+}
+
+tf::certificate check_solid(const held_mesh& mesh) {
+    return run(
+        [&](const tf::progress_callback& report) { return tf::check_solid(mesh.view(), report); });
+}
+
+}  // namespace
+
+void add_booleans(py::module_& module) {
+    module.def("boolean", &boolean);
+    module.def("clip", &clip);
+    module.def("split", &split);
+    module.def("check_solid", &check_solid);
+}
+
+}  // namespace binding

@@ -1,0 +1,183 @@
+#include "bindings.hpp"
+#include "file_data.hpp"
+#include "held_mesh.hpp"
+#include "job.hpp"
+#include "words.hpp"
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/write.hpp>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace binding {
+namespace {
+
+py::tuple read(const std::filesystem::path& path, const std::string& format, bool join) {
+    tf::mesh_file file = run([&](const tf::progress_callback&) {
+        tf::mesh_file read = tf::read(path, format);
+        if (join && !read.indexed) {
+            read.mesh = tf::join_equal_points(read.mesh);
+            read.indexed = true;
+        }
+        return read;
+    });
+    py::array points = as_array(std::move(file.mesh.points));
+    py::array faces = as_array(std::move(file.mesh.faces));
+    file.mesh = {};
+    return py::make_tuple(points, faces, file_data{std::move(file)});
+}
+
+/// A mesh with its certificate, as `tf::write` takes what must not be rounded.
+struct certified_mesh {
+    tf::mesh mesh;
+    tf::certificate certificate{};
+    [[nodiscard]] const tf::mesh& value() const { return mesh; }
+};
+
+tf::write_result write_to(const std::filesystem::path& path, const held_mesh& mesh,
+                          const file_data* data, bool certified, const tf::write_options& options) {
+    const auto [points, faces] = mesh.view();
+    tf::mesh copy{{points.begin(), points.end()}, {faces.begin(), faces.end()}};
+    certified = certified && !options.round && !tf::fits_single(points);
+    if (data == nullptr && certified)
+        return tf::write(path, certified_mesh{std::move(copy)}, options);
+    if (data == nullptr) return tf::write(path, std::move(copy), options);
+    tf::mesh_file file = data->file;
+    file.mesh = std::move(copy);
+    if (file.stored_face.empty()) file.stored_faces = file.mesh.faces.size();
+    tf::write_options as = options;
+    if (certified && !as.precision) as.precision = tf::precision::float64;
+    return tf::write(path, file, as);
+}
+
+py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const file_data* data,
+               bool certified, const std::string& format, bool ascii,
+               const std::optional<std::string>& precision, bool round) {
+    tf::write_options options{.format = format, .ascii = ascii, .round = round};
+    if (precision) options.precision = precision_of(*precision);
+    const tf::write_result written = run([&](const tf::progress_callback&) {
+        return write_to(path, mesh, data, certified, options);
+    });
+    py::dict made;
+    made["format"] = written.format;
+    made["precision"] = word_of(precision_words, written.written_as);
+    made["max_displacement"] = written.max_displacement;
+    py::list warnings;
+    for (const tf::io_warning& one : written.warnings) warnings.append(one.text);
+    made["warnings"] = warnings;
+    return made;
+}
+
+// ---- columns ----
+
+py::object column_values(const tf::column& c) {
+    return tf::with_type(c.type, [&]<class T>(T) -> py::object {
+        std::vector<T> values(tf::value_count(c));
+        if (!values.empty()) std::memcpy(values.data(), c.values.data(), c.values.size());
+        py::array numbers = as_array<T>(std::move(values));
+        if (!c.list_length) return numbers;
+        std::vector<std::uint64_t> begin = c.list_begin;
+        return py::make_tuple(as_array<std::uint64_t>(std::move(begin)), numbers);
+    });
+}
+
+py::dict columns(const file_data& data, const std::string& element) {
+    py::dict all;
+    if (const tf::element* rows = tf::find_element(data.file.attributes, element))
+        for (const tf::column& c : rows->columns)
+            if (c.role == tf::column_role::data) all[py::str(c.name)] = column_values(c);
+    return all;
+}
+
+void set_column(file_data& data, const std::string& element, const std::string& name,
+                const py::array& values) {
+    if (values.ndim() != 1)
+        throw std::invalid_argument(name +
+                                    ": one value for each row, in an array of one dimension");
+    const auto rows = static_cast<std::size_t>(values.size());
+    tf::element& to = tf::obtain_element(data.file.attributes, element, rows);
+    if (to.rows != rows)
+        throw std::invalid_argument(name + ": " + std::to_string(rows) + " values for " +
+                                    std::to_string(to.rows) + " rows");
+    const auto add = [&]<class T>(T) {
+        const auto typed = array_of<T>::ensure(values);
+        tf::set_column(to, tf::make_column<T>(name, {typed.data(), rows}));
+    };
+    for (int type = 0; type < 10; ++type) {
+        const auto scalar = static_cast<tf::scalar_type>(type);
+        const bool fits = tf::with_type(
+            scalar, [&]<class T>(T) { return py::dtype::of<T>().is(values.dtype()); });
+        if (fits) return tf::with_type(scalar, add);
+    }
+    throw std::invalid_argument(name + ": numbers of 8 to 64 bits, or floats of 32 or 64");
+}
+
+py::list parts(const file_data& data) {
+    py::list all;
+    for (const tf::part& one : data.file.attributes.parts)
+        all.append(py::make_tuple(one.object, one.group, one.material, one.first_face));
+    return all;
+}
+
+py::list warnings(const file_data& data) {
+    py::list all;
+    for (const tf::io_warning& one : data.file.warnings)
+        all.append(py::make_tuple(one.code, one.text));
+    return all;
+}
+
+py::dict corners(const file_data& data) {
+    tf::corner_values copy = data.file.attributes.corners;
+    py::dict all;
+    all["texture"] = as_array<double>(std::move(copy.texture));
+    all["texture_of_corner"] = as_array(std::move(copy.texture_of_corner));
+    all["normals"] = as_array(std::move(copy.normals));
+    all["normal_of_corner"] = as_array(std::move(copy.normal_of_corner));
+    return all;
+}
+
+py::object stored_face(const file_data& data) {
+    if (data.file.stored_face.empty()) return py::none();
+    std::vector<std::uint32_t> copy = data.file.stored_face;
+    return as_array(std::move(copy));
+}
+
+}  // namespace
+
+void add_files(py::module_& module) {
+    py::class_<file_data>(module, "FileData", "All that a file has besides points and faces.")
+        .def(py::init<>())
+        .def(py::init<const file_data&>())
+        .def_property_readonly("format", [](const file_data& d) { return d.file.format; })
+        .def_property_readonly(
+            "precision",
+            [](const file_data& d) { return word_of(precision_words, d.file.stored_as); })
+        .def_property_readonly("warnings", &warnings)
+        .def_property_readonly("parts", &parts)
+        .def_property_readonly("corners", &corners)
+        .def_property_readonly("stored_face", &stored_face)
+        .def_property_readonly("comments",
+                               [](const file_data& d) { return d.file.attributes.comments; })
+        .def_property_readonly("is_las", [](const file_data& d) { return d.file.las.has_value(); })
+        .def_property_readonly("elements",
+                               [](const file_data& d) {
+                                   std::vector<std::string> names;
+                                   for (const tf::element& one : d.file.attributes.elements)
+                                       names.push_back(one.name);
+                                   return names;
+                               })
+        .def("columns", &columns)
+        .def("set_column", &set_column);
+    module.def("read", &read);
+    module.def("write", &write);
+}
+
+}  // namespace binding

@@ -1,0 +1,279 @@
+#include "job.hpp"
+
+#include "held_mesh.hpp"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace binding {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds between_looks{15};
+constexpr milliseconds to_notice{50};  ///< after that, nobody waits for a job that is to stop
+constexpr std::size_t little = 4096;
+
+/// A call, and what becomes of it. Python's objects in it are touched with the interpreter's lock.
+struct job {
+    py::object function;
+    py::object arguments;
+    py::object result;
+    std::exception_ptr failure;
+
+    std::atomic<double> share{0.0};
+    std::atomic<bool> stop{false};
+
+    std::mutex mutex;
+    std::condition_variable ended_now;
+    bool ended = false;
+    bool alone = false;  ///< nobody waits for it
+
+    /// Where nobody has taken the result.
+    ~job() {
+        if (!function && !result && !failure) return;
+        const py::gil_scoped_acquire lock;
+        function = arguments = result = py::object();
+        failure = nullptr;
+    }
+
+    [[nodiscard]] bool has_ended_within(milliseconds time) {
+        std::unique_lock lock(mutex);
+        return ended_now.wait_for(lock, time, [this] { return ended; });
+    }
+};
+
+thread_local job* current = nullptr;
+std::atomic<int> jobs_alone{0};
+
+class helper;
+
+/// The helpers that have nothing to do.
+class helpers {
+  public:
+    helper& take();
+    void give_back(helper& one) {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(&one);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<helper*> idle_;
+};
+
+/// Those of this process: a fork has none of the threads of its parent.
+std::atomic<helpers*> all_helpers = [] {
+    pthread_atfork(nullptr, nullptr, [] {
+        all_helpers = new helpers;
+        jobs_alone = 0;
+    });
+    return new helpers;
+}();
+
+/// A thread that waits for jobs. It is never joined: at the end of the process it sleeps.
+class helper {
+  public:
+    helper() {
+        std::thread([this] { serve(); }).detach();
+    }
+
+    void start(const std::shared_ptr<job>& next) {
+        {
+            const std::lock_guard lock(mutex_);
+            next_ = next;
+        }
+        wake_.notify_one();
+    }
+
+  private:
+    [[noreturn]] void serve() {
+        PyThreadState* const here = first_state();
+        while (true) {
+            std::shared_ptr<job> mine;
+            {
+                std::unique_lock lock(mutex_);
+                wake_.wait(lock, [this] { return next_ != nullptr; });
+                mine = std::move(next_);
+            }
+            current = mine.get();
+            PyEval_RestoreThread(here);
+            call(*mine);
+            PyEval_SaveThread();
+            current = nullptr;
+            all_helpers.load()->give_back(*this);
+            const std::lock_guard lock(mine->mutex);
+            mine->ended = true;
+            if (mine->alone) --jobs_alone;
+            mine->ended_now.notify_one();
+        }
+    }
+
+    static PyThreadState* first_state() {
+        PyGILState_Ensure();
+        return PyEval_SaveThread();
+    }
+
+    /// A job that is to stop may have no one to take its result: it goes now, with the lock.
+    static void call(job& mine) {
+        try {
+            mine.result = mine.function(*py::reinterpret_borrow<py::args>(mine.arguments));
+        } catch (...) {
+            mine.failure = std::current_exception();
+        }
+        mine.function = mine.arguments = py::object();
+        if (!mine.stop) return;
+        mine.result = py::object();
+        mine.failure = nullptr;
+    }
+
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::shared_ptr<job> next_;
+};
+
+helper& helpers::take() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return *new helper;
+    helper& one = *idle_.back();
+    idle_.pop_back();
+    return one;
+}
+
+/// What the thread that called does while the job runs.
+class watch {
+  public:
+    watch(std::shared_ptr<job> mine, const py::object& progress)
+        : job_(std::move(mine)), progress_(progress) {}
+
+    py::object result() {
+        while (!has_ended_within(between_looks)) {
+            look(job_->share);
+            if (why_) leave();
+        }
+        if (!job_->failure) look(1.0);
+        if (why_) std::rethrow_exception(why_);
+        if (job_->failure) std::rethrow_exception(std::exchange(job_->failure, nullptr));
+        return std::move(job_->result);
+    }
+
+  private:
+    bool has_ended_within(milliseconds time) {
+        const py::gil_scoped_release others_run;
+        return job_->has_ended_within(time);
+    }
+
+    /// Looks for signals and says how far it is.
+    void look(double share) {
+        try {
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+            if (progress_.is_none() || share <= reported_) return;
+            reported_ = share;
+            if (progress_(share).is(py::bool_(false))) throw cancelled();
+        } catch (...) {
+            why_ = std::current_exception();
+            job_->stop = true;
+        }
+    }
+
+    /// Waits a little for a job that is to stop; then it ends alone.
+    [[noreturn]] void leave() {
+        if (!has_ended_within(to_notice)) {
+            const std::lock_guard lock(job_->mutex);
+            job_->alone = !job_->ended;
+            if (job_->alone) ++jobs_alone;
+        }
+        std::rethrow_exception(why_);
+    }
+
+    std::shared_ptr<job> job_;
+    const py::object& progress_;
+    double reported_ = -1.0;
+    std::exception_ptr why_;
+};
+
+/// How much there is to do: numbers in arrays, elements of meshes.
+std::size_t elements_of(py::handle argument) {
+    if (py::isinstance<py::array>(argument))
+        return static_cast<std::size_t>(py::reinterpret_borrow<py::array>(argument).size());
+    if (py::isinstance<held_mesh>(argument)) return argument.cast<const held_mesh&>().size();
+    std::size_t sum = 0;
+    if (py::isinstance<py::list>(argument) || py::isinstance<py::tuple>(argument))
+        for (const py::handle one : argument) sum += elements_of(one);
+    return sum;
+}
+
+py::object call(const py::object& function, const py::args& arguments, const py::object& progress,
+                bool long_work) {
+    if (progress.is_none() && !long_work && elements_of(arguments) < little)
+        return function(*arguments);
+    const auto mine = std::make_shared<job>();
+    mine->function = function;
+    mine->arguments = arguments;
+    all_helpers.load()->take().start(mine);
+    return watch(mine, progress).result();
+}
+
+}  // namespace
+
+void make_job(const py::object& scope, const char* name, bool long_work) {
+    const py::object function = scope.attr(name);
+    const auto job_of = [=](const py::args& arguments, const py::kwargs& named) {
+        const py::object progress =
+            named.contains("progress") ? py::object(named["progress"]) : py::none();
+        return call(function, arguments, progress, long_work);
+    };
+    if (py::isinstance<py::module_>(scope))
+        scope.attr(name) = py::cpp_function(job_of, py::name(name), py::scope(scope));
+    else
+        scope.attr(name) = py::cpp_function(job_of, py::name(name), py::is_method(scope));
+}
+
+treeform::progress_callback report_of_job() {
+    if (current == nullptr) return {};
+    return [mine = current](double done) {
+        mine->share = done;
+        return !mine->stop;
+    };
+}
+
+void without_lock(const std::function<void()>& body) {
+    const py::gil_scoped_release others_run;
+    body();
+}
+
+void run_pieces(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
+    without_lock([&] {
+        const treeform::progress_callback report = report_of_job();
+        std::size_t piece = 128;
+        for (std::size_t begin = 0; begin < count;) {
+            const double share = static_cast<double>(begin) / static_cast<double>(count);
+            if (report && !report(share)) return;
+            const auto started = steady_clock::now();
+            const std::size_t end = std::min(count, begin + piece);
+            body(begin, end);
+            const auto taken = steady_clock::now() - started;
+            if (taken < milliseconds(10)) piece *= 2;
+            if (taken > milliseconds(40)) piece = std::max<std::size_t>(1, piece / 2);
+            begin = end;
+        }
+    });
+}
+
+py::object build(const py::object& type, const py::args& arguments) { return type(*arguments); }
+
+bool is_busy() { return jobs_alone > 0; }
+
+}  // namespace binding

@@ -1,0 +1,59 @@
+#pragma once
+/// \file
+/// Runs what takes long on a helper thread, while the thread that called it lets Python's other
+/// threads run, looks for signals (Ctrl-C) and reports progress.
+
+#include <treeform/tree/parallel.hpp>
+
+#include <pybind11/pybind11.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+namespace binding {
+
+namespace py = pybind11;
+
+/// Makes the function or method `name` of `scope` a job. It then also takes `progress`: None, or a
+/// function that is called with the share of the work that is done.
+///
+/// A job runs on a helper thread, unless its arguments are few elements and it is not `long_work`:
+/// handing it over would take longer. It is asked to stop when `progress` returns False or raises, or
+/// when a signal's handler raises, as that of Ctrl-C does. The caller then gets what was raised: at
+/// once, even where the job takes some time to notice.
+void make_job(const py::object& scope, const char* name, bool long_work = false);
+
+/// The job that runs on this thread: `progress_callback` for it; empty where there is none.
+treeform::progress_callback report_of_job();
+
+/// Does `body` without the interpreter's lock.
+void without_lock(const std::function<void()>& body);
+
+/// What `body(progress_callback)` returns. It runs without the interpreter's lock and must not touch
+/// Python.
+template <class Body>
+auto run(Body&& body) {
+    using result = std::invoke_result_t<Body&, const treeform::progress_callback&>;
+    std::optional<result> made;
+    without_lock([&] { made.emplace(body(report_of_job())); });
+    return std::move(*made);
+}
+
+/// `body(begin, end)` for pieces of `count` elements, without the interpreter's lock, for work that
+/// cannot be asked to stop. Pieces are as large as takes some hundredths of a second; answers must
+/// not depend on that.
+void run_pieces(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
+
+/// For jobs: makes objects that take long to make, as `build(type, arguments...)`.
+py::object build(const py::object& type, const py::args& arguments);
+
+/// Whether a job goes on that nobody waits for.
+bool is_busy();
+
+/// `progress` has returned False.
+class cancelled {};
+
+}  // namespace binding

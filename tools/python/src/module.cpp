@@ -1,0 +1,155 @@
+#include "bindings.hpp"
+#include "held_mesh.hpp"
+#include "job.hpp"
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+#include <treeform/tree/parallel.hpp>
+#include <treeform/tree/version.hpp>
+
+#include <exception>
+#include <memory>
+#include <string>
+#include <system_error>
+
+namespace binding {
+namespace {
+
+/// Raises the exception of that name of the package.
+void raise(const char* name, const char* text) {
+    const py::object type = py::module_::import("treeform._errors").attr(name);
+    PyErr_SetString(type.ptr(), text);
+}
+
+/// What pybind11 does not know; it makes ValueError of std::invalid_argument, MemoryError of
+/// std::bad_alloc.
+void translate(std::exception_ptr thrown) {
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const cancelled&) {
+        raise("Cancelled", "progress has returned False");
+    } catch (const tf::io_error& error) {
+        raise("FileError", error.what());
+    } catch (const tf::stream_error& error) {
+        raise("FileError", error.what());
+    } catch (const std::system_error& error) {
+        if (error.code() != std::errc::resource_unavailable_try_again) throw;
+        PyErr_SetString(PyExc_MemoryError, "no memory for a thread");
+    }
+}
+
+/// As long as it is entered, loops use at most so many threads.
+class threads {
+  public:
+    explicit threads(unsigned most) : most_(most) {}
+    void enter() { scope_ = std::make_unique<tf::thread_scope>(most_); }
+    void exit() { scope_.reset(); }
+
+  private:
+    unsigned most_;
+    std::unique_ptr<tf::thread_scope> scope_;
+};
+
+void add_meshes(py::module_& module) {
+    py::class_<held_mesh>(module, "HeldMesh", "A mesh or cloud in the arrays of Python.")
+        .def(py::init<points_array, faces_array, bool>())
+        .def(py::init<points_array>())
+        .def_property_readonly("vertices", &held_mesh::points)
+        .def_property_readonly("faces", &held_mesh::faces)
+        .def_property_readonly("is_cloud",
+                               [](const held_mesh& m) { return m.prepared().is_cloud(); })
+        .def_property_readonly("indexes_built",
+                               [](const held_mesh& m) { return m.prepared().indexes_built(); });
+    py::class_<threads>(module, "Threads")
+        .def(py::init<unsigned>())
+        .def("enter", &threads::enter)
+        .def("exit", &threads::exit);
+    module.def("thread_count", &tf::thread_count);
+    module.def("version", &tf::version_string);
+    module.def("is_busy", &is_busy);
+}
+
+/// All functions of the module but those that only look something up, and what trees are asked.
+void make_jobs(py::module_& module) {
+    module.def("build", &build);
+    for (const char* name :
+         {"read", "write", "self_intersections_of_file", "weld_stream", "wrap", "pack"})
+        make_job(module, name, true);
+    for (const char* name : {"self_intersections",
+                             "group_pairs",
+                             "intersection_paths",
+                             "mesh_intersections",
+                             "faces_in_box",
+                             "boolean",
+                             "clip",
+                             "split",
+                             "check_solid",
+                             "bounds",
+                             "signed_volume",
+                             "find_defects",
+                             "count_topology",
+                             "face_components",
+                             "find_features",
+                             "find_solid_defects",
+                             "resolve",
+                             "repair",
+                             "convex_hull",
+                             "find_rounding_defects",
+                             "join_equal_points",
+                             "weld_mesh",
+                             "weld_cloud",
+                             "count_nearly_equal",
+                             "slide",
+                             "drop",
+                             "mate",
+                             "separate",
+                             "turn",
+                             "mate_features",
+                             "measure",
+                             "penetration_depth",
+                             "time_of_impact",
+                             "lay_flat",
+                             "align",
+                             "closest_point",
+                             "locate",
+                             "raycast",
+                             "raycast_all",
+                             "raycast_any",
+                             "deviation",
+                             "clash",
+                             "check_poses",
+                             "intersects",
+                             "distance",
+                             "closest_points",
+                             "build"})
+        make_job(module, name);
+    for (const char* type : {"Cloud2", "Cloud3"})
+        for (const char* name : {"query", "query_ball", "query_pairs"})
+            make_job(module.attr(type), name);
+    for (const char* type : {"Boxes2", "Boxes3"})
+        for (const char* name : {"pairs", "pairs_with", "query", "nearest"})
+            make_job(module.attr(type), name);
+}
+
+}  // namespace
+}  // namespace binding
+
+PYBIND11_MODULE(_core, module) {
+    using namespace binding;
+    py::register_exception_translator(translate);
+    add_meshes(module);
+    add_certificates(module);
+    add_files(module);
+    add_intersections(module);
+    add_booleans(module);
+    add_properties(module);
+    add_repair(module);
+    add_weld(module);
+    add_streams(module);
+    add_placement(module);
+    add_layouts(module);
+    add_nearness(module);
+    add_assembly(module);
+    add_clouds(module);
+    add_boxes(module);
+    make_jobs(module);
+}

@@ -1,0 +1,170 @@
+#include "bindings.hpp"
+#include "held_mesh.hpp"
+#include "job.hpp"
+#include "words.hpp"
+#include <treeform/mesh/deviation.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/raycast.hpp>
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace binding {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+py::tuple closest_point(const held_mesh& mesh, const points_array& queries, double radius) {
+    const auto all = points_of(queries);
+    std::vector<tf::point3> points(all.size(), {nan, nan, nan});
+    std::vector<double> distances(all.size(), infinity);
+    std::vector<std::uint32_t> faces(all.size(), none);
+    run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+        const auto found =
+            tf::closest_point(mesh.prepared(), all.subspan(begin, end - begin), radius);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (!found[i]) continue;
+            points[begin + i] = found[i]->point;
+            distances[begin + i] = found[i]->distance;
+            faces[begin + i] = found[i]->face;
+        }
+    });
+    return py::make_tuple(as_array(std::move(points)), as_array<double>(std::move(distances)),
+                          as_array(std::move(faces)));
+}
+
+py::tuple locate(const held_mesh& mesh, const points_array& queries) {
+    const auto all = points_of(queries);
+    std::vector<std::uint8_t> where(all.size());
+    std::vector<std::int32_t> winding(all.size());
+    run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+        const auto found = tf::locate(mesh.prepared(), all.subspan(begin, end - begin));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            where[begin + i] = static_cast<std::uint8_t>(found[i].where);
+            winding[begin + i] = found[i].winding;
+        }
+    });
+    return py::make_tuple(as_array<std::uint8_t>(std::move(where)),
+                          as_array<std::int32_t>(std::move(winding)));
+}
+
+// ---- rays ----
+
+/// The rays [begin, end) of two arrays.
+std::vector<tf::ray3> rays_of(tf::points_view origins, tf::points_view directions, double t_min,
+                              double t_max, std::size_t begin, std::size_t end) {
+    std::vector<tf::ray3> rays(end - begin);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const tf::point3 &o = origins[begin + i], &d = directions[begin + i];
+        rays[i] = {{o.x, o.y, o.z}, {d.x, d.y, d.z}, t_min, t_max};
+    }
+    return rays;
+}
+
+py::tuple raycast(const held_mesh& mesh, const points_array& origins,
+                  const points_array& directions, double t_min, double t_max) {
+    const auto from = points_of(origins), along = points_of(directions);
+    std::vector<double> t(from.size(), infinity);
+    std::vector<std::uint32_t> faces(from.size(), none);
+    std::vector<std::uint8_t> at(from.size(), static_cast<std::uint8_t>(tf::feature::interior));
+    run_pieces(from.size(), [&](std::size_t begin, std::size_t end) {
+        const auto hits =
+            tf::raycast(mesh.prepared(), rays_of(from, along, t_min, t_max, begin, end));
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            if (!hits[i]) continue;
+            t[begin + i] = hits[i]->t;
+            faces[begin + i] = hits[i]->face;
+            at[begin + i] = static_cast<std::uint8_t>(hits[i]->at);
+        }
+    });
+    return py::make_tuple(as_array<double>(std::move(t)), as_array(std::move(faces)),
+                          as_array<std::uint8_t>(std::move(at)));
+}
+
+py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
+                      const points_array& directions, double t_min, double t_max) {
+    const auto from = points_of(origins), along = points_of(directions);
+    std::vector<std::uint32_t> ray_of_hit, faces;
+    std::vector<double> t;
+    run_pieces(from.size(), [&](std::size_t begin, std::size_t end) {
+        const tf::mesh_hits found =
+            tf::raycast_all(mesh.prepared(), rays_of(from, along, t_min, t_max, begin, end));
+        for (std::size_t i = 0; i + 1 < found.begin.size(); ++i)
+            for (std::size_t h = found.begin[i]; h < found.begin[i + 1]; ++h) {
+                ray_of_hit.push_back(static_cast<std::uint32_t>(begin + i));
+                faces.push_back(found.hits[h].face);
+                t.push_back(found.hits[h].t);
+            }
+    });
+    return py::make_tuple(as_array<double>(std::move(t)), as_array(std::move(ray_of_hit)),
+                          as_array(std::move(faces)));
+}
+
+py::array raycast_any(const held_mesh& mesh, const points_array& origins,
+                      const points_array& directions, double t_min, double t_max) {
+    const auto from = points_of(origins), along = points_of(directions);
+    std::vector<std::uint8_t> any(from.size());
+    run_pieces(from.size(), [&](std::size_t begin, std::size_t end) {
+        const auto hit =
+            tf::raycast_any(mesh.prepared(), rays_of(from, along, t_min, t_max, begin, end));
+        std::copy(hit.begin(), hit.end(), any.begin() + static_cast<std::ptrdiff_t>(begin));
+    });
+    return as_array<std::uint8_t>(std::move(any));
+}
+
+// ---- deviation ----
+
+py::tuple of(const tf::directed_distance& d) { return py::make_tuple(d.sampled, d.at_most); }
+
+py::object deviation(const held_mesh& a, const held_mesh& b,
+                     std::optional<std::array<double, 2>> band, std::size_t bins, bool both_ways) {
+    tf::deviation_options options{.band = band, .bins = bins, .both_ways = both_ways};
+    std::optional<tf::deviation_result> found = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::deviation(a.prepared(), b.prepared(), options);
+    });
+    if (!found) return py::none();
+    py::dict made;
+    made["distances"] = as_array<double>(std::move(found->distances));
+    made["faces"] = as_array(std::move(found->faces));
+    made["is_signed"] = found->is_signed;
+    made["mean"] = found->mean;
+    made["mean_absolute"] = found->mean_absolute;
+    made["rms"] = found->rms;
+    made["p50"] = found->p50;
+    made["p95"] = found->p95;
+    made["p99"] = found->p99;
+    made["max"] = found->max;
+    made["worst"] = found->worst;
+    made["lowest"] = found->lowest;
+    made["highest"] = found->highest;
+    made["there"] = of(found->there);
+    made["back"] = found->back ? py::object(of(*found->back)) : py::none();
+    made["histogram_range"] = py::make_tuple(found->histogram.low, found->histogram.high);
+    made["histogram"] = as_array<std::uint64_t>(std::move(found->histogram.counts));
+    made["band_counts"] = py::none();
+    if (const auto& counts = found->band)
+        made["band_counts"] = py::make_tuple(counts->below, counts->within, counts->above);
+    return made;
+}
+
+}  // namespace
+
+void add_nearness(py::module_& module) {
+    module.def("closest_point", &closest_point);
+    module.def("locate", &locate);
+    module.def("raycast", &raycast);
+    module.def("raycast_all", &raycast_all);
+    module.def("raycast_any", &raycast_any);
+    module.def("deviation", &deviation);
+}
+
+}  // namespace binding

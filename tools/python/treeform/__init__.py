@@ -1,0 +1,44 @@
+"""Exact, fast mesh processing.
+
+NumPy arrays in, NumPy arrays out. A mesh is a `Mesh`, a pair (vertices, faces), or anything with
+such arrays: of trimesh, PyVista, Open3D, meshio. Every yes or no is exact on the coordinates as
+given; what operations return has been checked in the numbers returned.
+
+>>> import treeform
+>>> m = treeform.read("data/two_spheres.stl")
+>>> len(treeform.self_intersections(m))
+78
+"""
+
+from . import _core, _exit
+from ._arrays import NONE
+from ._assembly import (STANDINGS, ClashResult, NearestPoints, PartClash, PoseClashes, check_poses,
+                        clash, closest_points, distance, intersects)
+from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, intersection, split,
+                        symmetric_difference, union)
+from ._core import Certificate
+from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
+                      NotSolidError)
+from ._files import Written, read, write
+from ._intersections import (KINDS, FacePairs, FilePairs, Region, faces_in_box,
+                             intersection_curves, intersection_regions, mesh_intersections,
+                             self_intersections, self_intersections_of_file)
+from ._mesh import Attributes, Mesh, MeshLike, from_trimesh
+from ._nearness import (AllRayHits, ClosestPoints, Deviation, RayHits, closest_point, contains,
+                        deviation, locate, raycast, raycast_all, raycast_any, signed_distance,
+                        winding_number)
+from ._placement import (Alignment, Contacts, Depth, Impact, LaidFlat, Measure, PackedPart,
+                         Packing, Placement, align, drop, lay_flat, mate, mate_features, measure,
+                         pack, penetration_depth, separate, slide, time_of_impact, turn)
+from ._properties import (Feature, MeshDefects, SolidDefects, Topology, count_topology,
+                          face_components, find_defects, find_features, find_solid_defects)
+from ._repair import (ConvexHull, MadeMesh, RepairResult, ResolveResult, WrapResult, convex_hull,
+                      find_rounding_defects, join_equal_points, repair,
+                      resolve_self_intersections, rounded, wrap)
+from ._threads import thread_count, threads
+from ._trees import BoxTree, Neighbors, PointTree
+from ._weld import (WeldResult, WeldStreamResult, count_nearly_equal, weld, weld_stream)
+
+__version__: str = _core.version()
+
+__all__ = [name for name in dir() if not name.startswith("_")]

@@ -1,0 +1,124 @@
+"""Arrays as they come, made into those that the library takes. What fits is not copied."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+Ids = NDArray[np.uint32]
+
+_FLOAT64 = np.dtype(np.float64)
+_UINT32 = np.dtype(np.uint32)
+
+#: In place of a number: there is none.
+NONE = 0xFFFFFFFF
+
+
+def floats(values: ArrayLike, name: str) -> Floats:
+    """`values` as float64, in one piece."""
+    array = values if type(values) is np.ndarray else np.asarray(values)
+    if array.dtype == _FLOAT64 and array.flags.c_contiguous and array.flags.aligned:
+        return array
+    if array.dtype.kind not in "fiu":
+        if array.size == 0 and array.dtype.kind == "O":
+            return np.zeros(array.shape)
+        raise ValueError(f"{name}: numbers are needed, not {array.dtype}")
+    return np.require(array, np.float64, ["C", "A"])
+
+
+def rows(values: ArrayLike, width: int, name: str) -> Floats:
+    """`values` as float64 of shape (n, width)."""
+    array = floats(values, name)
+    if array.ndim != 2 or array.shape[1] != width:
+        if array.size == 0:
+            return np.empty((0, width))
+        raise ValueError(f"{name}: the shape is {array.shape}, not (n, {width})")
+    return array
+
+
+def points(values: ArrayLike, name: str = "vertices") -> Floats:
+    """`values` as points, (n, 3)."""
+    return rows(values, 3, name)
+
+
+def vector(values: ArrayLike, name: str) -> Floats:
+    """`values` as three numbers."""
+    array = floats(values, name)
+    if array.shape != (3,):
+        raise ValueError(f"{name}: the shape is {array.shape}, not (3,)")
+    return array
+
+
+_IDENTITY = np.eye(4)
+
+
+def matrix(values: ArrayLike | None, name: str) -> Floats:
+    """`values` as an affine map, (4, 4); None is the identity."""
+    if values is None:
+        return _IDENTITY
+    array = floats(values, name)
+    if array.shape == (3, 4):
+        array = np.vstack([array, [0.0, 0.0, 0.0, 1.0]])
+    if array.shape != (4, 4):
+        raise ValueError(f"{name}: the shape is {array.shape}, not (4, 4)")
+    if not np.array_equal(array[3], (0.0, 0.0, 0.0, 1.0)):
+        raise ValueError(f"{name}: the last row is {array[3].tolist()}, not [0, 0, 0, 1]")
+    return array
+
+
+def ids(values: ArrayLike, name: str) -> Ids:
+    """`values` as uint32, in one piece."""
+    array = values if type(values) is np.ndarray else np.asarray(values)
+    if array.dtype == _UINT32 and array.flags.c_contiguous and array.flags.aligned:
+        return array
+    if array.size == 0:
+        return np.empty(array.shape, np.uint32)
+    if array.dtype.kind not in "iu":
+        raise ValueError(f"{name}: whole numbers are needed, not {array.dtype}")
+    wrong = (array < 0) | (array >= NONE) if array.dtype.itemsize > 2 else array < 0
+    if wrong.any():
+        at = tuple(int(i) for i in np.argwhere(wrong)[0])
+        place = at[0] if len(at) == 1 else at
+        raise ValueError(f"{name}: {array[at]} at {place} is no number of an element")
+    return np.require(array, np.uint32, ["C", "A"])
+
+
+def faces(values: ArrayLike, name: str = "faces") -> Ids:
+    """`values` as faces: (n, 3), or the flat [3, a, b, c, 3, ...] of PyVista and VTK."""
+    array = ids(values, name)
+    if array.ndim == 2 and array.shape[1] == 3:
+        return array
+    if array.size == 0:
+        return np.empty((0, 3), np.uint32)
+    if array.ndim == 1:
+        return _flat_faces(array, name)
+    raise ValueError(f"{name}: the shape is {array.shape}, not (n, 3)")
+
+
+def _flat_faces(array: Ids, name: str) -> Ids:
+    if array.size % 4 == 0:
+        table = array.reshape(-1, 4)
+        other = np.flatnonzero(table[:, 0] != 3)
+        if other.size == 0:
+            return np.ascontiguousarray(table[:, 1:])
+        if (table[: other[0], 0] == 3).all():
+            raise ValueError(
+                f"{name}: face {other[0]} has {table[other[0], 0]} corners; triangulate first")
+    raise ValueError(f"{name}: {array.size} numbers in a row are no [3, a, b, c, 3, ...]")
+
+
+def is_points(values: Any) -> bool:
+    """Whether `values` is an array of points rather than a mesh."""
+    if isinstance(values, np.ndarray):
+        return True
+    return isinstance(values, (list, tuple)) and not is_pair(values)
+
+
+def is_pair(values: Any) -> bool:
+    """Whether `values` is (vertices, faces): two tables."""
+    return (isinstance(values, (list, tuple)) and len(values) == 2
+            and all(np.ndim(part) == 2 or np.size(part) == 0 or isinstance(part, np.ndarray)
+                    for part in values))

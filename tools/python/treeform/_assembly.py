@@ -1,0 +1,235 @@
+"""Two bodies, or all parts of an assembly: whether they meet, how far apart they are; in many
+poses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Iterable, NamedTuple, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arrays, _core
+from ._arrays import Floats, Ids
+from ._mesh import MeshLike, held, held_body
+from ._progress import Progress, watched
+from ._results import Result, tuple_repr
+
+#: How two parts lie to each other; a number in `PoseClashes.how` is a place in this list.
+STANDINGS = tuple(_core.STANDINGS)
+
+
+def _poses(values: ArrayLike | None, name: str) -> Floats:
+    """Affine maps as (n, 4, 4)."""
+    if values is None:
+        return _arrays.matrix(None, name)[None]
+    array = _arrays.floats(values, name)
+    if array.ndim not in (2, 3) or array.shape[-2:] != (4, 4):
+        raise ValueError(f"{name}: the shape is {array.shape}, not (4, 4) or (n, 4, 4)")
+    array = array.reshape(-1, 4, 4)
+    wrong = (array[:, 3] != (0.0, 0.0, 0.0, 1.0)).any(axis=1)
+    if wrong.any():
+        at = int(np.argmax(wrong))
+        raise ValueError(f"{name}: the last row of {at} is {array[at, 3].tolist()}, "
+                         "not [0, 0, 0, 1]")
+    return array
+
+
+def _one(a: ArrayLike | None, b: ArrayLike | None) -> bool:
+    """Whether neither is a batch."""
+    return all(one is None or np.ndim(one) == 2 for one in (a, b))
+
+
+def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
+               move_b: ArrayLike | None = None, progress: Progress = None) -> Any:
+    """Whether a face of `a` and a face of `b` have a common point; touching counts. Exact.
+
+    move_a, move_b: an affine map (4, 4), or many (n, 4, 4): then the answer is (n,) bool, found in
+    parallel. Moved corners are rounded to float64, and then exact. Surfaces count, not solids.
+
+    >>> import numpy as np, treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> away = np.eye(4); away[0, 3] = 1.5
+    >>> treeform.intersects(cube, cube), treeform.intersects(cube, cube, move_b=away)
+    (True, False)
+    >>> treeform.intersects(cube, cube, move_b=np.stack([np.eye(4), away]))
+    array([ True, False])
+    """
+    found = _core.intersects(held(a), held(b), _poses(move_a, "move_a"), _poses(move_b, "move_b"),
+                             progress=watched(progress)).view(np.bool_)
+    return bool(found[0]) if _one(move_a, move_b) else found
+
+
+def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
+             move_b: ArrayLike | None = None, radius: float = np.inf,
+             progress: Progress = None) -> Any:
+    """The distance of the surfaces of `a` and `b`; exactly 0 if and only if they meet; infinite
+    beyond `radius`. With many maps (n, 4, 4), (n,) float64. Surfaces count, not solids.
+
+    >>> import numpy as np, treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> away = np.eye(4); away[0, 3] = 1.5
+    >>> treeform.distance(cube, cube, move_b=away)
+    0.5
+    """
+    found = _core.distance(held(a), held(b), _poses(move_a, "move_a"), _poses(move_b, "move_b"),
+                           radius, progress=watched(progress))
+    return float(found[0]) if _one(move_a, move_b) else found
+
+
+class NearestPoints(NamedTuple):
+    """The nearest points of two meshes."""
+
+    #: (3,) rounded, as is `on_b`.
+    on_a: Floats
+    on_b: Floats
+    #: Exactly 0 if and only if the meshes meet.
+    distance: float
+    face_a: int
+    face_b: int
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
+def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
+                   move_b: ArrayLike | None = None,
+                   radius: float = np.inf) -> NearestPoints | None:
+    """The nearest points of the surfaces; None where one has no faces, or beyond `radius`.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> treeform.closest_points(cube, (cube.vertices + [0, 0, 3], cube.faces)).distance
+    2.0
+    """
+    found = _core.closest_points(held(a), held(b), _arrays.matrix(move_a, "move_a"),
+                                 _arrays.matrix(move_b, "move_b"), radius)
+    return None if found is None else NearestPoints(*found)
+
+
+@dataclass(frozen=True, repr=False)
+class PartClash(Result):
+    """Two parts that are not clear of each other."""
+
+    #: Numbers of the parts, the lower one first.
+    a: int
+    b: int
+    #: 'penetrating', 'touching' or 'closer_than_clearance'.
+    how: str
+    a_inside_b: bool
+    b_inside_a: bool
+    #: Of the surfaces; 0 where they meet.
+    distance: float
+    #: (2, 3) the nearest points of those that are too close; else None.
+    nearest: Floats | None
+    #: Pairs of faces that meet.
+    face_pairs: int
+    #: Of what two closed parts have in common; else None.
+    volume: float | None
+    #: Of penetrating parts: the length of `move`; else None.
+    depth: float | None
+    #: (3,) a short translation that takes `a` out of `b`.
+    move: Floats
+    #: Where they meet: (box (2, 3), pairs of faces, faces of a, faces of b).
+    regions: list[tuple[Floats, int, Ids, Ids]]
+
+
+@dataclass(frozen=True, repr=False)
+class ClashResult(Result):
+    """How all parts lie to each other."""
+
+    #: Those that are not clear, ascending.
+    pairs: list[PartClash]
+    #: Pairs that were looked at, by how they lie.
+    counts: dict[str, int]
+    #: Pairs that penetrate or are too close; with a clearance those that touch, too.
+    clashes: int
+    #: Pairs that their boxes keep apart.
+    boxes_apart: int
+
+
+def _pairs(pairs: Iterable[Sequence[int]]) -> Ids:
+    array = _arrays.ids(np.asarray(list(pairs), dtype=np.int64).reshape(-1, 2), "ignored")
+    return array
+
+
+def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *,
+          volumes: bool = True, depths: bool = True, limit: int = 1000,
+          ignored: Iterable[Sequence[int]] = (), vertices: str = "by_coordinates",
+          progress: Progress = None) -> ClashResult:
+    """Which parts of an assembly penetrate each other, touch, or are nearer than `clearance`; where,
+    and how deep. Exact: boxes only say which pairs need not be looked at.
+
+    volumes: of what two closed parts have in common. depths: of those that penetrate. limit: faces
+    listed for each region. ignored: pairs of numbers that are not looked at.
+
+    Raises ValueError naming the part and face.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> found = treeform.clash([cube, (cube.vertices + 0.5, cube.faces),
+    ...                         (cube.vertices + [0, 0, 9], cube.faces)])
+    >>> [(one.a, one.b, one.how, one.volume) for one in found.pairs]
+    [(0, 1, 'penetrating', 0.125)]
+    """
+    made = _core.clash([held_body(part) for part in parts], clearance, volumes, depths, limit,
+                       _pairs(ignored), vertices, progress=watched(progress))
+    made["pairs"] = [PartClash(**one) for one in made["pairs"]]
+    return ClashResult(**made)
+
+
+@dataclass(frozen=True, repr=False)
+class PoseClashes(Result):
+    """What is not clear in each of many poses: n pairs of parts, pose after pose."""
+
+    #: (n,) the pose, ascending.
+    pose: Ids
+    #: (n, 2) the parts, the lower number first.
+    parts: Ids
+    #: (n,) uint8: how they lie, a place in `STANDINGS`.
+    how: NDArray[np.uint8]
+    #: (n,) of those that are closer than the clearance; else 0.
+    distance: Floats
+    #: Poses with a pair that penetrates or is too close.
+    clashing: int
+
+    def in_collision(self, poses: int) -> NDArray[np.bool_]:
+        """(poses,) bool: whether something penetrates or is too close in each pose."""
+        bad = np.zeros(poses, np.bool_)
+        bad[self.pose[np.isin(self.how, [STANDINGS.index("penetrating"),
+                                         STANDINGS.index("closer_than_clearance")])]] = True
+        return bad
+
+
+def check_poses(parts: Iterable[Union[MeshLike, ArrayLike]], poses: ArrayLike,
+                clearance: float = 0.0, *, first_only: bool = False,
+                ignored: Iterable[Sequence[int]] = (), vertices: str = "by_coordinates",
+                progress: Progress = None) -> PoseClashes:
+    """What clashes in each of many poses. `poses` is (P, N, 4, 4): an affine map for each of the N
+    parts, or (P, 4, 4) for a single one beside parts that stay: then it moves the first.
+
+    first_only: name only the first clash of each pose. ignored: pairs that are not looked at.
+
+    Exact for the corners that the maps give, rounded to float64. No part is copied or indexed anew.
+
+    >>> import numpy as np, treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> poses = np.tile(np.eye(4), (3, 2, 1, 1))
+    >>> poses[:, 1, 0, 3] = [0.5, 1.0, 1.5]
+    >>> found = treeform.check_poses([cube, cube], poses)
+    >>> [(int(p), treeform.STANDINGS[h]) for p, h in zip(found.pose, found.how)]
+    [(0, 'penetrating'), (1, 'touching')]
+    >>> found.in_collision(3)
+    array([ True, False, False])
+    """
+    bodies = [held_body(part) for part in parts]
+    array = _arrays.floats(poses, "poses")
+    if array.ndim == 3 and array.shape[1:] == (4, 4):
+        moves = np.tile(np.eye(4), (len(array), max(1, len(bodies)), 1, 1))
+        moves[:, 0] = array
+        array = moves
+    if array.ndim != 4 or array.shape[1:] != (len(bodies), 4, 4):
+        raise ValueError(f"poses: the shape is {array.shape}, not (n, {len(bodies)}, 4, 4)")
+    return PoseClashes(**_core.check_poses(bodies, _poses(array.reshape(-1, 4, 4), "poses"),
+                                           clearance, first_only, _pairs(ignored), vertices,
+                                           progress=watched(progress)))

@@ -1,0 +1,210 @@
+"""Set operations on solids."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._arrays import Floats, Ids
+from ._core import Certificate
+from ._errors import require
+from ._mesh import Mesh, MeshLike, held
+from ._progress import Progress, watched
+from ._results import Result
+
+
+@dataclass(frozen=True, repr=False)
+class BooleanResult(Result):
+    """The surface of a solid, and what was checked about it. Every function that takes a mesh takes
+    a result; `vertices, faces = result.mesh`."""
+
+    #: Faces are counter-clockwise from outside.
+    mesh: Mesh
+    #: What was checked about its coordinates.
+    certificate: Certificate
+    #: (F, 2): the lowest operand, and its face, that each face lies in.
+    face_source: Ids
+    #: (V, 2): the lowest operand, and its vertex, that each vertex is; 4294967295 for new ones.
+    vertex_source: Ids
+    #: With `volumes`: of the first, the second, either and both.
+    volumes: tuple[float, float, float, float] | None
+    #: Counts of what was done.
+    statistics: dict[str, int]
+
+    @property
+    def vertices(self) -> Floats:
+        """(V, 3) float64."""
+        return self.mesh.vertices
+
+    @property
+    def faces(self) -> Ids:
+        """(F, 3) uint32."""
+        return self.mesh.faces
+
+
+def _result(made: dict[str, Any], check: bool, *also: str) -> BooleanResult:
+    certificate = made["certificate"]
+    if check:
+        require(certificate, *also)
+    return BooleanResult(mesh=Mesh._of(made.pop("points"), made.pop("faces"), certificate), **made)
+
+
+def _operands(meshes: tuple[Any, ...]) -> list[_core.HeldMesh]:
+    """Those of `union(a, b, c)`, or of `union([a, b, c])`."""
+    if len(meshes) == 1 and isinstance(meshes[0], (list, tuple)):
+        first = meshes[0]
+        if not (len(first) == 2 and isinstance(first[0], (np.ndarray, list))):
+            meshes = tuple(first)
+    return [held(mesh) for mesh in meshes]
+
+
+def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: str, simplify: bool,
+             volumes: bool, max_displacement: float, check: bool,
+             progress: Progress) -> BooleanResult:
+    return _result(_core.boolean(_operands(meshes), operation, "", [], inside, precision, simplify,
+                                 volumes, max_displacement, progress=watched(progress)), check)
+
+
+def union(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
+          simplify: bool = False, volumes: bool = False, max_displacement: float = np.inf,
+          check: bool = True, progress: Progress = None) -> BooleanResult:
+    """What is in any of the solids: `union(a, b, ...)`, or `union([a, b, ...])` as in trimesh. Of
+    one mesh, the solid that it winds around, without self-intersections. See `boolean`.
+
+    >>> import treeform
+    >>> a = treeform.read("data/cube.stl")
+    >>> both = treeform.union(a, (a.vertices + 0.5, a.faces))
+    >>> both.mesh.volume, both.certificate
+    (1.875, Certificate(ok))
+    """
+    return _combine("union", meshes, inside, precision, simplify, volumes, max_displacement, check,
+                    progress)
+
+
+def intersection(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
+                 simplify: bool = False, volumes: bool = False, max_displacement: float = np.inf,
+                 check: bool = True, progress: Progress = None) -> BooleanResult:
+    """What is in all of the solids. See `boolean`.
+
+    >>> import treeform
+    >>> a = treeform.read("data/cube.stl")
+    >>> treeform.intersection(a, (a.vertices + 0.5, a.faces)).mesh.volume
+    0.125
+    """
+    return _combine("intersection", meshes, inside, precision, simplify, volumes, max_displacement,
+                    check, progress)
+
+
+def difference(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
+               simplify: bool = False, volumes: bool = False, max_displacement: float = np.inf,
+               check: bool = True, progress: Progress = None) -> BooleanResult:
+    """The first solid without all others. See `boolean`.
+
+    >>> import treeform
+    >>> a = treeform.read("data/cube.stl")
+    >>> treeform.difference(a, (a.vertices + 0.5, a.faces)).mesh.volume
+    0.875
+    """
+    return _combine("difference", meshes, inside, precision, simplify, volumes, max_displacement,
+                    check, progress)
+
+
+def symmetric_difference(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
+                         simplify: bool = False, volumes: bool = False,
+                         max_displacement: float = np.inf, check: bool = True,
+                         progress: Progress = None) -> BooleanResult:
+    """What is in an odd number of the solids. See `boolean`.
+
+    >>> import treeform
+    >>> a = treeform.read("data/cube.stl")
+    >>> treeform.symmetric_difference(a, (a.vertices + 0.5, a.faces)).mesh.volume
+    1.75
+    """
+    return _combine("xor", meshes, inside, precision, simplify, volumes, max_displacement, check,
+                    progress)
+
+
+def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float64",
+            simplify: bool = False, volumes: bool = False, max_displacement: float = np.inf,
+            check: bool = True, progress: Progress = None, **meshes: MeshLike) -> BooleanResult:
+    """The solid that a formula makes of meshes, all cut along each other at once.
+
+    expression: names of `meshes`, `+` or `|` union, `*` or `&` intersection, `-` difference, `^`
+    exclusive or, and brackets. `*` and `&` bind tighter than the others, which go from left to
+    right.
+    inside: what is solid, by how often the surface winds around it: 'nonzero', 'odd', 'positive'.
+    precision: of the coordinates returned; 'float32' for STL and GLB.
+    simplify: merge coplanar faces. volumes: compute those of two operands.
+    max_displacement: mending after rounding moves no coordinate further at once.
+    check: raise where the result is not certified; False returns it with its certificate.
+
+    The surface is decided exactly on the coordinates as given. Then points on cuts are rounded, and
+    the rounded surface is checked: it is closed, manifold, outward, and no two faces meet but in a
+    corner or an edge. Operands may overlap themselves, touch, be equal, be inside out or empty.
+
+    Raises NotSolidError where an operand is open, NotCertifiedError where the result cannot be
+    certified, ValueError naming the face that is out of range or not finite.
+
+    >>> import treeform
+    >>> a = treeform.read("data/cube.stl")
+    >>> b, c = (a.vertices + 0.5, a.faces), (a.vertices + [0.5, 0, 0], a.faces)
+    >>> treeform.boolean("(a - b) * c", a=a, b=b, c=c).mesh.volume
+    0.375
+    """
+    names = list(meshes)
+    held_meshes = [held(mesh) for mesh in meshes.values()]
+    return _result(_core.boolean(held_meshes, "", expression, names, inside, precision, simplify,
+                                 volumes, max_displacement, progress=watched(progress)), check)
+
+
+def clip(sheet: MeshLike, *solids: MeshLike, keep: str = "outside", inside: str = "nonzero",
+         precision: str = "float64", max_displacement: float = np.inf, check: bool = True,
+         progress: Progress = None) -> BooleanResult:
+    """An open surface cut by solids: the pieces of `sheet` outside all of them, or inside all.
+
+    keep: 'outside' or 'inside'. A piece on the surface of a solid is inside it, so both together
+    are the sheet. Edges are not checked, since the result is open.
+
+    Raises NotSolidError where a solid is open, and as `boolean`.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> sheet = ([[-1, -1, 0.5], [2, -1, 0.5], [2, 2, 0.5]], [[0, 1, 2]])
+    >>> round(treeform.clip(sheet, cube, keep="inside").mesh.area, 12)
+    0.5
+    """
+    if keep not in ("outside", "inside"):
+        raise ValueError(f"keep: {keep!r} is neither 'outside' nor 'inside'")
+    operation = "difference" if keep == "outside" else "intersection"
+    return _result(_core.clip([held(sheet), *map(held, solids)], 0, operation, "", [], inside,
+                              precision, max_displacement, progress=watched(progress)), check)
+
+
+def split(*meshes: MeshLike, precision: str = "float64", max_displacement: float = np.inf,
+          check: bool = True, progress: Progress = None) -> BooleanResult:
+    """All faces of the meshes, cut along each other and along themselves, each piece once. They
+    need not bound solids.
+
+    >>> import treeform
+    >>> a = treeform.read("data/cube.stl")
+    >>> treeform.split(a, (a.vertices + 0.5, a.faces)).certificate
+    Certificate(ok)
+    """
+    return _result(_core.split(_operands(meshes), precision, max_displacement, progress=watched(progress)),
+                   check)
+
+
+def check_solid(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
+    """Whether a mesh bounds a solid, as operands of `boolean` have to: True, or says where the
+    surface ends.
+
+    >>> import treeform
+    >>> bool(treeform.check_solid(treeform.read("data/cube.stl")))
+    True
+    >>> treeform.check_solid(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])).open_count
+    3
+    """
+    return _core.check_solid(held(mesh), progress=watched(progress))

@@ -1,0 +1,65 @@
+"""What goes wrong. Data that makes no sense is a ValueError that names the element; memory that is
+not enough is a MemoryError."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._core import Certificate
+
+
+class Error(Exception):
+    """What is raised by treeform alone."""
+
+
+class FileError(Error, OSError):
+    """A file that cannot be read or written. The message names the path, the line or byte, and the
+    reason."""
+
+
+class Cancelled(Error):
+    """`progress` has returned False."""
+
+
+class CertificateError(Error, ValueError):
+    """A result that is not what was asked for.
+
+    `certificate` says why. With `check=False`, the operation returns it with the result instead.
+    """
+
+    def __init__(self, certificate: Certificate) -> None:
+        super().__init__(certificate.message)
+        self.certificate = certificate
+
+
+class NotSolidError(CertificateError):
+    """A mesh does not bound a solid: its surface ends somewhere."""
+
+    @property
+    def edges(self) -> NDArray[np.float64]:
+        """(n, 2, 3): the ends of the first 100 edges where the surface ends."""
+        return self.certificate.open_edges
+
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """(n, 2): the operand and the face at each of these edges."""
+        return self.certificate.open_faces
+
+
+class NotCertifiedError(CertificateError):
+    """The coordinates of a result could not be certified."""
+
+    @property
+    def pairs(self) -> NDArray[np.uint32]:
+        """(n, 2): the first 100 pairs of faces of the result that still meet."""
+        return self.certificate.meeting
+
+
+def require(certificate: Certificate, *also: str) -> None:
+    """Raises what `certificate` says, unless it is ok or its status is one of `also`."""
+    if certificate or certificate.status in also:
+        return
+    if certificate.status == "open_input":
+        raise NotSolidError(certificate)
+    raise NotCertifiedError(certificate)

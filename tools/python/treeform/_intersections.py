@@ -1,0 +1,192 @@
+"""Faces that meet: of one mesh, of two, of a file larger than memory."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Iterable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arrays, _core
+from ._arrays import Floats, Ids
+from ._files import Path
+from ._mesh import Mesh, MeshLike, held
+from ._progress import Progress, watched
+from ._results import Result
+
+#: How two faces meet; a number in `kinds` is a place in this list.
+KINDS = tuple(_core.KINDS)
+_ALL = list(KINDS)
+_NO_LIMIT = 2**64 - 1
+
+
+@dataclass(frozen=True, repr=False)
+class FacePairs(Result):
+    """Pairs of faces that meet."""
+
+    #: (n, 2) uint32, ascending; of one mesh, the lower face first.
+    pairs: Ids
+    #: (n,) uint8: how they meet, a place in `KINDS`.
+    kinds: NDArray[np.uint8]
+    #: How many of each kind there are, listed or not.
+    counts: dict[str, int]
+
+    def __len__(self) -> int:
+        return len(self.pairs)
+
+    def of_kind(self, *kinds: str) -> Ids:
+        """(n, 2): the pairs of these kinds.
+
+        >>> import treeform
+        >>> found = treeform.self_intersections(treeform.read("data/two_spheres.stl"))
+        >>> len(found.of_kind("crossing")), len(found.of_kind("touching"))
+        (78, 0)
+        """
+        return self.pairs[np.isin(self.kinds, [KINDS.index(kind) for kind in kinds])]
+
+
+def self_intersections(mesh: MeshLike, *, kinds: Iterable[str] | None = None,
+                       vertices: str = "by_coordinates", first_only: bool = False,
+                       limit: int | None = None, progress: Progress = None) -> FacePairs:
+    """All pairs of faces of a mesh that meet where they should not: in a point that is neither a
+    shared corner nor on a shared edge. Exact on the coordinates as given.
+
+    kinds: those to look for, of `KINDS`; None is all. 'crossing': interiors pass through each
+    other, no shared corner; 'pierce': the same with one shared corner; 'overlap': coplanar, with a
+    common area; 'fold': coplanar, on the same side of a shared edge; 'duplicate': the same three
+    corners; 'touching': contact without crossing; 'degenerate': one of them has no area.
+    vertices: 'by_coordinates': corners with equal coordinates are shared, also where a file repeats
+    them; 'by_index': those with the same number.
+    first_only: stop at the first pair found. limit: list at most so many; all are counted.
+
+    Raises ValueError naming the face or vertex that is out of range or not finite.
+
+    >>> import treeform
+    >>> m = treeform.read("data/two_spheres.stl")
+    >>> treeform.self_intersections(m)
+    FacePairs(pairs=uint32[78, 2], kinds=uint8[78], counts={'crossing': 78})
+    """
+    return FacePairs(**_core.self_intersections(
+        held(mesh), _ALL if kinds is None else list(kinds), vertices, first_only,
+        _NO_LIMIT if limit is None else limit, progress=watched(progress)))
+
+
+def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None = None,
+                       first_only: bool = False, limit: int | None = None,
+                       move_a: ArrayLike | None = None, move_b: ArrayLike | None = None,
+                       progress: Progress = None) -> FacePairs:
+    """All pairs of a face of `a` and a face of `b` that have a common point. Exact.
+
+    move_a, move_b: (4, 4) affine maps, applied first; corners are rounded to float64 and then exact.
+    The kinds are 'crossing', 'overlap', 'touching' and 'degenerate', as the meshes share no
+    corners. Surfaces count, not solids: a mesh inside the other gives no pair.
+
+    >>> import treeform
+    >>> a = treeform.read("data/cube.stl")
+    >>> b = (a.vertices + 0.5, a.faces)
+    >>> treeform.mesh_intersections(a, b).counts["crossing"]
+    6
+    """
+    return FacePairs(**_core.mesh_intersections(
+        held(a), held(b), _ALL if kinds is None else list(kinds), first_only,
+        _NO_LIMIT if limit is None else limit, _arrays.matrix(move_a, "move_a"),
+        _arrays.matrix(move_b, "move_b"), progress=watched(progress)))
+
+
+@dataclass(frozen=True, repr=False)
+class FilePairs(FacePairs):
+    """Pairs of faces of a file that meet; they are numbers of faces of `mesh`."""
+
+    #: Only the faces that meet others, in the order of the file.
+    mesh: Mesh
+    #: (F,) the number in the file of each face of `mesh`.
+    face_in_file: Ids
+    #: Faces of the file.
+    stored_faces: int
+    #: Triangles with a coordinate that is not finite, left out.
+    dropped: int
+    #: Parts that space was cut into.
+    tiles: int
+
+    @property
+    def pairs_in_file(self) -> Ids:
+        """(n, 2): the pairs by numbers of the file."""
+        return self.face_in_file[self.pairs]
+
+
+def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None,
+                               vertices: str | None = None, format: str = "", memory: int = 0,
+                               folder: Path = "", progress: Progress = None) -> FilePairs:
+    """The same for a file that may be larger than memory: binary STL, and PLY whose vertices come
+    ahead of its faces. Space is cut into tiles on the disk.
+
+    vertices: None: 'by_coordinates' for STL, else 'by_index'.
+    memory: bytes that the process may take; 0: three quarters of the machine's.
+    folder: for the tiles; empty: beside the input. Where a run was killed, the same call goes on.
+
+    >>> import treeform
+    >>> found = treeform.self_intersections_of_file("data/two_spheres.stl")
+    >>> found.counts["crossing"], found.pairs_in_file.shape
+    (78, (78, 2))
+    """
+    made = _core.self_intersections_of_file(
+        os.fspath(path), _ALL if kinds is None else list(kinds), vertices, format, memory,
+        os.fspath(folder), progress=watched(progress))
+    mesh = Mesh._of(made.pop("points"), made.pop("faces"))
+    return FilePairs(mesh=mesh, **made)
+
+
+@dataclass(frozen=True, repr=False)
+class Region(Result):
+    """Faces that meet, in one place of a mesh."""
+
+    #: (n,) ascending.
+    faces: Ids
+    #: (2, 3): the box around them.
+    bounds: Floats
+    #: Pairs here.
+    pairs: int
+
+
+def intersection_regions(mesh: MeshLike, found: FacePairs) -> tuple[list[Region], Ids]:
+    """Where pairs of faces meet: regions of faces that hang together by pairs or shared corners, in
+    the order of their lowest face, and (n,) the region of each pair.
+
+    >>> import treeform
+    >>> m = treeform.read("data/two_spheres.stl")
+    >>> regions, of_pair = treeform.intersection_regions(m, treeform.self_intersections(m))
+    >>> len(regions), regions[0].pairs
+    (1, 78)
+    """
+    regions, of_pair = _core.group_pairs(held(mesh), found.pairs, found.kinds)
+    return [Region(faces, np.stack([low, high]), pairs)
+            for faces, low, high, pairs in regions], of_pair
+
+
+def intersection_curves(mesh: MeshLike, found: FacePairs) -> list[Floats]:
+    """The curves along which pairs of faces meet, each (n, 3); the last point of a closed curve is
+    the first again. Which segments there are is exact; points are rounded to nearest.
+
+    found: pairs of faces of `mesh` that are not degenerate.
+
+    >>> import treeform
+    >>> m = treeform.read("data/two_spheres.stl")
+    >>> curves = treeform.intersection_curves(m, treeform.self_intersections(m))
+    >>> [len(curve) for curve in curves]
+    [79]
+    """
+    points, paths = _core.intersection_paths(held(mesh), found.pairs, found.kinds)
+    return [points[np.append(path, path[:1]) if closed else path] for path, closed in paths]
+
+
+def faces_in_box(mesh: MeshLike, min: ArrayLike, max: ArrayLike) -> Ids:
+    """(n,) the faces, ascending, that have a point in the closed box from `min` (3,) to `max` (3,).
+    Exact: faces are tested, not their boxes.
+
+    >>> import treeform
+    >>> treeform.faces_in_box(treeform.read("data/cube.stl"), [0, 0, 0], [0, 0, 0]).size
+    3
+    """
+    return _core.faces_in_box(held(mesh), _arrays.vector(min, "min"), _arrays.vector(max, "max"))

@@ -1,0 +1,420 @@
+"""Meshes, and whatever can be taken for one."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any, Iterator, Protocol, Tuple, TypeVar, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arrays, _core
+from ._arrays import Floats, Ids
+from ._core import Certificate
+from ._errors import require
+
+
+class HasFaces(Protocol):
+    """A mesh as trimesh has it; PyVista has `points` and flat `faces`, Open3D `triangles`."""
+
+    @property
+    def faces(self) -> Any: ...
+
+
+class HasTriangles(Protocol):
+    """A mesh as Open3D has it."""
+
+    @property
+    def vertices(self) -> Any: ...
+    @property
+    def triangles(self) -> Any: ...
+
+
+class HasMesh(Protocol):
+    """A result of treeform."""
+
+    @property
+    def mesh(self) -> "Mesh": ...
+
+
+class Attributes:
+    """All that a file has besides points and faces.
+
+    Columns of numbers for vertices and faces (colors, normals, qualities), names of parts, texture
+    coordinates and normals of corners, comments, and the format that the file had. `write` puts
+    back what the format of the output can hold.
+
+    >>> import numpy as np
+    >>> import treeform
+    >>> extra = treeform.Attributes()
+    >>> extra.set_vertex("quality", np.array([0.5, 1.0, 2.0]))
+    >>> extra.vertex
+    {'quality': array([0.5, 1. , 2. ])}
+    """
+
+    __slots__ = ("_data",)
+
+    def __init__(self, data: _core.FileData | None = None) -> None:
+        self._data = _core.FileData() if data is None else data
+
+    @property
+    def format(self) -> str:
+        """Of the file that was read: 'stl-binary', 'ply-ascii', 'obj', ...; else empty."""
+        return self._data.format
+
+    @property
+    def precision(self) -> str:
+        """Of the coordinates in the file: 'float32' or 'float64'."""
+        return self._data.precision
+
+    @property
+    def warnings(self) -> list[tuple[str, str]]:
+        """What a person should know of the file: (code, text)."""
+        return self._data.warnings
+
+    @property
+    def comments(self) -> list[str]:
+        """Lines of comment of a PLY."""
+        return self._data.comments
+
+    @property
+    def elements(self) -> list[str]:
+        """Kinds of rows that the file has: 'vertex', 'face', ..."""
+        return self._data.elements
+
+    @property
+    def parts(self) -> list[tuple[str, str, str, int]]:
+        """Names in the file: (object, group, material, first face)."""
+        return self._data.parts
+
+    @property
+    def corners(self) -> dict[str, NDArray[Any]]:
+        """Values of corners: `texture` (n, 3), `texture_of_corner` (F, 3) numbers in it, and the
+        same for `normals`; 4294967295 where a corner has none."""
+        return self._data.corners
+
+    @property
+    def stored_face(self) -> Ids | None:
+        """(F,) the file's face that each triangle is a part of; None where all are triangles."""
+        return self._data.stored_face
+
+    @property
+    def vertex(self) -> dict[str, Any]:
+        """A copy of each column of vertices, (V,)."""
+        return self._data.columns("vertex")
+
+    @property
+    def face(self) -> dict[str, Any]:
+        """A copy of each column of faces as stored in the file."""
+        return self._data.columns("face")
+
+    def columns(self, element: str) -> dict[str, Any]:
+        """A copy of each column of `element`; lists as (begin, values)."""
+        return self._data.columns(element)
+
+    def set_vertex(self, name: str, values: ArrayLike) -> None:
+        """Sets a column of vertices, (V,), in the type of `values`."""
+        self._data.set_column("vertex", name, np.asarray(values))
+
+    def set_face(self, name: str, values: ArrayLike) -> None:
+        """Sets a column of faces, (F,), in the type of `values`."""
+        self._data.set_column("face", name, np.asarray(values))
+
+    def __repr__(self) -> str:
+        rows = {name: list(self.columns(name)) for name in self.elements}
+        return f"Attributes(format={self.format!r}, columns={rows})"
+
+
+class Mesh:
+    """A triangle mesh.
+
+    vertices: (V, 3) numbers; float64 in one piece is not copied, else it is converted once.
+    faces: (F, 3) whole numbers, the vertices of each face, counter-clockwise from outside; uint32
+    in one piece is not copied. The flat [3, a, b, c, 3, ...] of PyVista and VTK will do.
+
+    A mesh does not change: its arrays cannot be written to, and the arrays that it was made of must
+    stay as they are as long as it is in use. So indexes that queries build are kept, and the second
+    query is fast.
+
+    `a | b`, `a - b`, `a & b` and `a ^ b` are exact set operations on solids (see `boolean`). They
+    are collected, and computed at once when the result is looked at: `(a | b) - c` is cut and
+    rounded once. An operand that bounds no solid raises NotSolidError.
+
+    >>> import numpy as np
+    >>> import treeform
+    >>> m = treeform.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                   [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    >>> m
+    Mesh(4 vertices, 4 faces)
+    >>> m.is_solid, round(m.volume, 12), m.bounds.tolist()
+    (True, 0.166666666667, [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]])
+    """
+
+    __slots__ = ("_vertices", "_faces", "_attributes", "_certificate", "_held", "_formula",
+                 "_solid", "__weakref__")
+
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike = (),
+                 attributes: Attributes | None = None) -> None:
+        self._formula: _Formula | None = None
+        self._set(_arrays.points(vertices), _arrays.faces(faces), attributes, None)
+
+    def _set(self, vertices: Floats, faces: Ids, attributes: Attributes | None,
+             certificate: Certificate | None) -> None:
+        self._vertices = vertices
+        self._faces = faces
+        self._attributes = attributes
+        self._certificate = certificate
+        self._held = _core.HeldMesh(vertices, faces, True)
+        self._solid: Certificate | None = None
+
+    @classmethod
+    def _of(cls, vertices: Floats, faces: Ids, certificate: Certificate | None = None,
+            attributes: Attributes | None = None) -> Mesh:
+        """Of arrays that the library has made."""
+        made = cls.__new__(cls)
+        made._formula = None
+        made._set(vertices, faces, attributes, certificate)
+        return made
+
+    def _ready(self) -> Mesh:
+        """Computes what operators have collected."""
+        if self._formula is not None:
+            made = self._formula.result().mesh
+            self._set(made._vertices, made._faces, None, made._certificate)
+            self._formula = None
+        return self
+
+    @property
+    def vertices(self) -> Floats:
+        """(V, 3) float64, not to be written to."""
+        return _read_only(self._ready()._vertices)
+
+    @property
+    def faces(self) -> Ids:
+        """(F, 3) uint32, not to be written to."""
+        return _read_only(self._ready()._faces)
+
+    @property
+    def attributes(self) -> Attributes | None:
+        """What else was in the file; None where there was none."""
+        return self._ready()._attributes
+
+    @property
+    def certificate(self) -> Certificate | None:
+        """What was checked about the coordinates by the operation that made them; `write` does not
+        round these unless told to. None for other meshes."""
+        return self._ready()._certificate
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether the mesh bounds a solid, as set operations need it: cut along itself, it is
+        closed. It may overlap itself. Decided exactly, once."""
+        return bool(self.solid_certificate)
+
+    @property
+    def solid_certificate(self) -> Certificate:
+        """Why it bounds a solid or not."""
+        mesh = self._ready()
+        if mesh._solid is None:
+            mesh._solid = _core.check_solid(mesh._held)
+        return mesh._solid
+
+    @property
+    def volume(self) -> float:
+        """The volume inside, negative where the mesh is inside out; in cubic units. Of an open
+        mesh, the sum over its faces of tetrahedra from the origin."""
+        return _core.signed_volume(self._ready()._held)
+
+    @property
+    def area(self) -> float:
+        """The area of all faces, in square units."""
+        mesh = self._ready()
+        a, b, c = (mesh._vertices[mesh._faces[:, k]] for k in range(3))
+        return float(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+
+    @property
+    def bounds(self) -> Floats | None:
+        """(2, 3): the lowest and highest coordinates of finite vertices; None where there are
+        none."""
+        return _core.bounds(self._ready()._held)
+
+    def to_trimesh(self) -> Any:
+        """A `trimesh.Trimesh` with copies of the arrays; trimesh has to be installed."""
+        mesh = self._ready()
+        return importlib.import_module("trimesh").Trimesh(
+            vertices=mesh._vertices.copy(), faces=mesh._faces.astype(np.int64), process=False)
+
+    def __or__(self, other: MeshLike) -> Mesh:
+        return _operation("|", self, other)
+
+    def __and__(self, other: MeshLike) -> Mesh:
+        return _operation("&", self, other)
+
+    def __sub__(self, other: MeshLike) -> Mesh:
+        return _operation("-", self, other)
+
+    def __xor__(self, other: MeshLike) -> Mesh:
+        return _operation("^", self, other)
+
+    def __ror__(self, other: MeshLike) -> Mesh:
+        return _operation("|", other, self)
+
+    def __rand__(self, other: MeshLike) -> Mesh:
+        return _operation("&", other, self)
+
+    def __rsub__(self, other: MeshLike) -> Mesh:
+        return _operation("-", other, self)
+
+    def __rxor__(self, other: MeshLike) -> Mesh:
+        return _operation("^", other, self)
+
+    #: NumPy leaves `array - mesh` to the mesh.
+    __array_ufunc__ = None
+
+    def __iter__(self) -> Iterator[NDArray[Any]]:
+        """`vertices, faces = mesh`"""
+        yield self.vertices
+        yield self.faces
+
+    def __reduce__(self) -> Any:
+        mesh = self._ready()
+        return Mesh, (mesh._vertices, mesh._faces)
+
+    def __repr__(self) -> str:
+        if self._formula is not None:
+            return f"Mesh(of {len(self._formula.operands())} meshes, not computed yet)"
+        return f"Mesh({len(self._vertices):,} vertices, {len(self._faces):,} faces)"
+
+
+MeshLike = Union[Mesh, HasMesh, HasFaces, HasTriangles, Tuple[ArrayLike, ArrayLike]]
+
+
+_Array = TypeVar("_Array", Floats, Ids)
+
+
+def _read_only(array: _Array) -> _Array:
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def from_trimesh(mesh: HasFaces) -> Mesh:
+    """A Mesh of the arrays of a `trimesh.Trimesh`, or of anything with `vertices` and `faces`.
+
+    >>> import treeform
+    >>> class Trimesh:
+    ...     vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    ...     faces = [[0, 1, 2]]
+    >>> treeform.from_trimesh(Trimesh())
+    Mesh(3 vertices, 1 faces)
+    """
+    return as_mesh(mesh)
+
+
+def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
+    """Vertices and faces of whatever is taken for a mesh."""
+    if isinstance(mesh, (tuple, list)):
+        if len(mesh) != 2:
+            raise ValueError("mesh: a pair (vertices, faces) is needed, "
+                             f"not {len(mesh)} elements")
+        return mesh[0], mesh[1]
+    if hasattr(mesh, "vertices"):
+        for name in ("faces", "triangles"):
+            if hasattr(mesh, name):
+                return np.asarray(mesh.vertices), np.asarray(getattr(mesh, name))
+    if hasattr(mesh, "points"):
+        if hasattr(mesh, "cells_dict"):
+            return np.asarray(mesh.points), mesh.cells_dict.get("triangle", np.empty((0, 3), int))
+        if hasattr(mesh, "faces"):
+            return np.asarray(mesh.points), np.asarray(mesh.faces)
+    raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces")
+
+
+def as_mesh(mesh: Any) -> Mesh:
+    """`mesh` as a Mesh."""
+    made = getattr(mesh, "mesh", mesh)
+    if isinstance(made, Mesh):
+        return made._ready()
+    return Mesh(*arrays_of(mesh))
+
+
+def held(mesh: Any) -> _core.HeldMesh:
+    """`mesh` as operations take it. A Mesh keeps what they index; other things do not."""
+    made = mesh if type(mesh) is Mesh else getattr(mesh, "mesh", mesh)
+    if isinstance(made, Mesh):
+        return made._ready()._held
+    vertices, faces = arrays_of(mesh)
+    return _core.HeldMesh(_arrays.points(vertices), _arrays.faces(faces), False)
+
+
+def held_body(body: Any) -> _core.HeldMesh:
+    """The same for a mesh or a cloud: an array of points, or anything with `points` and no faces."""
+    if isinstance(body, np.ndarray):
+        return _core.HeldMesh(_arrays.points(body, "points"))
+    if isinstance(body, (list, tuple)) and not _arrays.is_pair(body):
+        return _core.HeldMesh(_arrays.points(body, "points"))
+    if hasattr(body, "points") and not hasattr(body, "faces") and not hasattr(body, "cells_dict"):
+        return _core.HeldMesh(_arrays.points(np.asarray(body.points), "points"))
+    one = held(body)
+    return one
+
+
+class _Formula:
+    """What operators have collected: an operation on two sides, each a mesh or such a thing."""
+
+    __slots__ = ("sign", "left", "right", "size")
+
+    #: More operations than this are computed before others are added.
+    MOST = 4096
+
+    def __init__(self, sign: str, left: Mesh, right: Mesh) -> None:
+        self.sign = sign
+        self.left: Mesh | _Formula = left._formula or left
+        self.right: Mesh | _Formula = right._formula or right
+        self.size: int = 1 + sum(side.size for side in (self.left, self.right)
+                            if isinstance(side, _Formula))
+
+    def _in_order(self) -> Iterator[Mesh | str]:
+        """Brackets, signs and meshes from left to right, however deep they are."""
+        rest: list[Mesh | _Formula | str] = [self]
+        while rest:
+            one = rest.pop()
+            if isinstance(one, _Formula):
+                rest += [")", one.right, one.sign, one.left, "("]
+            else:
+                yield one
+
+    def operands(self) -> list[Mesh]:
+        """Each mesh once."""
+        return list({id(one): one for one in self._in_order() if isinstance(one, Mesh)}.values())
+
+    def result(self) -> Any:
+        """What it comes to."""
+        from ._booleans import boolean
+
+        operands = self.operands()
+        names = {id(one): f"m{i}" for i, one in enumerate(operands)}
+        text = "".join(one if isinstance(one, str) else names[id(one)]
+                       for one in self._in_order())
+        named: Any = {names[id(one)]: one for one in operands}
+        return boolean(text, **named)
+
+
+def _operation(sign: str, left: Any, right: Any) -> Mesh:
+    sides = []
+    for side in (left, right):
+        mesh = getattr(side, "mesh", side)
+        try:
+            mesh = mesh if isinstance(mesh, Mesh) else Mesh(*arrays_of(side))
+        except ValueError:
+            if not isinstance(side, (tuple, list)) and not hasattr(side, "faces"):
+                return NotImplemented
+            raise
+        if mesh._formula is None:
+            require(mesh.solid_certificate)
+        elif mesh._formula.size > _Formula.MOST:
+            mesh._ready()
+        sides.append(mesh)
+    made = Mesh.__new__(Mesh)
+    made._formula = _Formula(sign, sides[0], sides[1])
+    return made

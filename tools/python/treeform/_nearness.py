@@ -1,0 +1,263 @@
+"""Nearest points, inside or outside, rays, deviations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arrays, _core
+from ._arrays import Floats, Ids
+from ._errors import NotSolidError
+from ._mesh import MeshLike, as_mesh, held, held_body
+from ._progress import Progress, watched
+from ._results import Result, tuple_repr
+
+
+class ClosestPoints(NamedTuple):
+    """The nearest point of a mesh for each query, in the order that trimesh has:
+    `closest, distance, triangle_id = closest_point(mesh, points)`."""
+
+    #: (n, 3) points on the mesh, rounded; NaN where none is within the radius.
+    closest: Floats
+    #: (n,) not squared; infinite where there is none.
+    distance: Floats
+    #: (n,) uint32 the face; 4294967295 where there is none.
+    triangle_id: Ids
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
+def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
+                  progress: Progress = None) -> ClosestPoints:
+    """The point of the surface that is nearest to each of `points` (n, 3).
+
+    radius: ignore what is further away; inclusive.
+
+    Distances are within 16 u L of the true ones, u = 2**-53, L the larger of the distance and the
+    diagonal of the face's box. Of faces at the same computed distance, the lowest is named. A Mesh
+    keeps the index for the next call.
+
+    Raises ValueError naming the point that is not finite, or the face.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> closest, distance, face = treeform.closest_point(cube, [[0.5, 0.25, 3.0]])
+    >>> closest.tolist(), distance.tolist()
+    ([[0.5, 0.25, 1.0]], [2.0])
+    """
+    return ClosestPoints(*_core.closest_point(held(mesh), _arrays.points(points, "points"), radius,
+                                              progress=watched(progress)))
+
+
+_OUTSIDE, _INSIDE, _BOUNDARY = 0, 1, 2
+
+
+def contains(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.bool_]:
+    """(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its surface. Exact,
+    for every point.
+
+    Raises ValueError naming an open edge, or what is not finite.
+
+    >>> import treeform
+    >>> treeform.contains(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [1, 1, 1], [2, 0, 0]])
+    array([ True,  True, False])
+    """
+    where, _ = _core.locate(held(mesh), _arrays.points(points, "points"), progress=watched(progress))
+    return np.asarray(where != _OUTSIDE)
+
+
+def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.int8]:
+    """(n,) int8: 1 where a point is strictly inside a closed mesh, 0 on its surface, -1 outside.
+    Exact.
+
+    >>> import treeform
+    >>> treeform.locate(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [1, 1, 1], [2, 0, 0]])
+    array([ 1,  0, -1], dtype=int8)
+    """
+    where, _ = _core.locate(held(mesh), _arrays.points(points, "points"), progress=watched(progress))
+    return np.array([-1, 1, 0], np.int8)[where]
+
+
+def winding_number(mesh: MeshLike, points: ArrayLike, *,
+                   progress: Progress = None) -> NDArray[np.int32]:
+    """(n,) int32: how often a closed mesh winds around each of `points` (n, 3); 0 on the surface.
+    Exact.
+
+    >>> import treeform
+    >>> treeform.winding_number(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [2, 0, 0]])
+    array([1, 0], dtype=int32)
+    """
+    _, winding = _core.locate(held(mesh), _arrays.points(points, "points"), progress=watched(progress))
+    return winding
+
+
+def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> Floats:
+    """(n,) the distance of each of `points` (n, 3) from the surface of a closed mesh; positive
+    inside, as in trimesh, and exactly 0 on the surface. The sign is exact.
+
+    `deviation` has the other sign, that of metrology: negative inside.
+
+    Raises NotSolidError where the mesh is open.
+
+    >>> import treeform
+    >>> treeform.signed_distance(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.75], [0, 0, 3]])
+    array([ 0.25, -2.  ])
+    """
+    cloud = _arrays.points(points, "points")
+    if len(cloud) == 0:
+        return np.empty(0)
+    made = _core.deviation(_core.HeldMesh(cloud), held(mesh), None, 0, False, progress=watched(progress))
+    if made is None:
+        return np.full(len(cloud), -np.inf)
+    if not made["is_signed"]:
+        raise NotSolidError(as_mesh(mesh).solid_certificate)
+    return np.asarray(-made["distances"] + 0.0)
+
+
+class RayHits(NamedTuple):
+    """The first face that each ray hits."""
+
+    #: (n,) the point hit is origin + t direction; infinite where nothing is hit.
+    t: Floats
+    #: (n,) uint32 the face; 4294967295 where nothing is hit.
+    face: Ids
+    #: (n,) uint8: on which corner (0, 1, 2), edge (3, 4, 5) or in the interior (6) of the face.
+    at: NDArray[np.uint8]
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
+def _rays(origins: ArrayLike, directions: ArrayLike) -> tuple[Floats, Floats]:
+    start, along = _arrays.points(origins, "origins"), _arrays.points(directions, "directions")
+    if len(start) != len(along):
+        raise ValueError(f"directions: {len(along)} for {len(start)} origins")
+    return start, along
+
+
+def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
+            t_max: float = np.inf, progress: Progress = None) -> RayHits:
+    """The face that each ray hits first. `origins` and `directions` (of any length) are (n, 3).
+
+    Which face a ray hits, on which corner, edge or interior, is exact; only t is rounded. Of faces
+    at one point, the lowest number. Faces include their edges and are hit from both sides.
+
+    Raises ValueError naming the ray or face.
+
+    >>> import treeform
+    >>> hits = treeform.raycast(treeform.read("data/cube.stl"), [[0.5, 0.25, 3]], [[0, 0, -1]])
+    >>> hits.t.tolist(), hits.at.tolist()
+    ([2.0], [6])
+    """
+    return RayHits(*_core.raycast(held(mesh), *_rays(origins, directions), t_min, t_max,
+                                  progress=watched(progress)))
+
+
+class AllRayHits(NamedTuple):
+    """All faces that rays hit, in the order that trimesh's `intersects_location` has:
+    `locations, index_ray, index_tri = raycast_all(...)`."""
+
+    #: (n, 3) the points hit, rounded.
+    locations: Floats
+    #: (n,) uint32 the ray, ascending.
+    index_ray: Ids
+    #: (n,) uint32 the face.
+    index_tri: Ids
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
+def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
+                t_max: float = np.inf, progress: Progress = None) -> AllRayHits:
+    """All faces that each ray hits, in the exact order along the ray, then by number.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> locations, ray, face = treeform.raycast_all(cube, [[0.5, 0.25, 3]], [[0, 0, -1]])
+    >>> locations.tolist()
+    [[0.5, 0.25, 1.0], [0.5, 0.25, 0.0]]
+    """
+    start, along = _rays(origins, directions)
+    t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max, progress=watched(progress))
+    return AllRayHits(start[ray] + t[:, None] * along[ray], ray, face)
+
+
+def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
+                t_max: float = np.inf, progress: Progress = None) -> NDArray[np.bool_]:
+    """(n,) bool: whether each ray hits any face. Exact.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> treeform.raycast_any(cube, [[0.5, 0.5, 3], [5, 5, 5]], [[0, 0, -1], [0, 0, -1]])
+    array([ True, False])
+    """
+    return _core.raycast_any(held(mesh), *_rays(origins, directions), t_min, t_max,
+                             progress=watched(progress)).view(np.bool_)
+
+
+@dataclass(frozen=True, repr=False)
+class Deviation(Result):
+    """How far points are from a surface."""
+
+    #: (V,) of each point of the first: negative inside the solid that the second bounds, exactly 0
+    #: on its surface; not negative where that bounds none.
+    distances: Floats
+    #: (V,) the nearest face of the second.
+    faces: Ids
+    #: Whether distances have a sign.
+    is_signed: bool
+    #: Of the signed distances.
+    mean: float
+    #: Of their magnitudes, as are the six below.
+    mean_absolute: float
+    rms: float
+    p50: float
+    p95: float
+    p99: float
+    max: float
+    #: The lowest point with that distance.
+    worst: int
+    #: The least signed distance.
+    lowest: float
+    #: The greatest signed distance.
+    highest: float
+    #: (over the points of the first, a bound that no point of its surface exceeds); of the
+    #: distances from the first to the second.
+    there: tuple[float, float]
+    #: The same from the second to the first; the larger one is the Hausdorff distance. None unless
+    #: `both_ways`.
+    back: tuple[float, float] | None
+    #: (bins,) how many signed distances are in intervals of equal length.
+    histogram: NDArray[np.uint64]
+    #: From where to where these go.
+    histogram_range: tuple[float, float]
+    #: With `band`: how many are below, within, above.
+    band_counts: tuple[int, int, int] | None
+
+
+def deviation(a: Union[MeshLike, ArrayLike], b: Union[MeshLike, ArrayLike], *,
+              band: tuple[float, float] | None = None, bins: int = 40, both_ways: bool = True,
+              progress: Progress = None) -> Deviation:
+    """How far the points of `a`, a mesh or a cloud (n, 3), are from the surface of `b`.
+
+    band: signed distances that are within tolerance. bins: of the histogram.
+
+    The sign is exact, that of the winding number; magnitudes are as for `closest_point`.
+
+    Raises ValueError naming what is not finite, or where `a` has no points or `b` no faces.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> map = treeform.deviation([[0.5, 0.5, 0.75], [0.5, 0.5, 3.0]], cube, band=(-0.5, 0.5))
+    >>> map.distances.tolist(), map.band_counts, map.is_signed
+    ([-0.25, 2.0], (0, 1, 1), True)
+    """
+    made = _core.deviation(held_body(a), held_body(b), band, bins, both_ways, progress=watched(progress))
+    if made is None:
+        raise ValueError("deviation: a has no points, or b no faces")
+    return Deviation(**made)

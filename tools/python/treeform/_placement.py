@@ -1,0 +1,519 @@
+"""Where a mesh goes: moved against others, laid on a bed, aligned, packed; and how two lie."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Iterable, NamedTuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _arrays, _core
+from ._arrays import Floats, Ids
+from ._core import Certificate
+from ._mesh import Mesh, MeshLike, held, held_body
+from ._progress import Progress, watched
+from ._properties import Feature
+from ._results import Result, tuple_repr
+
+#: A mesh, or a cloud (n, 3).
+Body = Union[MeshLike, ArrayLike]
+
+
+class Contacts(NamedTuple):
+    """Pairs of faces that meet at a place, or keep the clearance there."""
+
+    #: (n, 3)
+    points: Floats
+    #: (n, 3) of length 1, from the fixed to the moving mesh; 0 where there is none.
+    normals: Floats
+    #: (n,) faces of the moving mesh.
+    moving: Ids
+    #: (n,) faces of the fixed mesh; 4294967295 for the bed.
+    fixed_face: Ids
+    #: (n,) which fixed mesh.
+    fixed: Ids
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
+@dataclass(frozen=True, repr=False)
+class Measure(Result):
+    """How two bodies lie to each other."""
+
+    #: 'separate', 'touching' or 'penetrating'. Exact.
+    relation: str
+    #: 0 if and only if they touch or penetrate.
+    distance: float
+    #: 0 if and only if a face of one meets a face of the other.
+    surface_distance: float
+    #: (3,) the nearest point on the surface of `a`; where they meet, a common one.
+    on_a: Floats
+    #: (3,) likewise of `b`.
+    on_b: Floats
+    face_a: int
+    face_b: int
+    #: A part of `a` is inside `b`, and does not touch it.
+    a_inside_b: bool
+    b_inside_a: bool
+
+
+@dataclass(frozen=True, repr=False)
+class Placement(Result):
+    """Where a mesh goes. True where it has a place; else `message` says why not."""
+
+    #: The moved mesh, in coordinates that have been checked; where it was, if it has no place.
+    mesh: Mesh
+    #: (4, 4) new = M old; coordinates are rounded once after it.
+    matrix: Floats
+    #: Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', 'nothing_met', 'too_far',
+    #: 'starts_penetrating', 'starts_too_near', 'starts_touching', 'starts_below_bed',
+    #: 'no_coordinates', 'too_many_steps', 'out_of_range'.
+    end: str
+    #: Half a sentence; empty where there is a place.
+    message: str
+    #: (3,) of length 1; 0 where it does not travel.
+    direction: Floats
+    #: How far it went.
+    travel: float
+    #: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or 'clear'. Exact.
+    at_start: str
+    #: The same at the place.
+    at_place: str
+    contacts: Contacts
+    #: All, listed or not.
+    contact_count: int
+    #: The fixed mesh that matters most, and how the mesh lies to it; None where all are far.
+    nearest: tuple[int, Measure] | None
+    certificate: Certificate
+    #: Of `turn` and `mate_features`: in degrees.
+    angle: float = 0.0
+    #: Of `turn`: the gap beyond the clearance that counts as contact.
+    tolerance: float = 0.0
+    #: Of `mate_features`: how far the center of the moving feature ended from the fixed one.
+    offset: float = 0.0
+
+    def __bool__(self) -> bool:
+        return bool(self.certificate)
+
+    @property
+    def vertices(self) -> Floats:
+        """(V, 3) of the moved mesh."""
+        return self.mesh.vertices
+
+    @property
+    def faces(self) -> Ids:
+        """(F, 3)."""
+        return self.mesh.faces
+
+
+def _bodies(fixed: Any) -> list[_core.HeldMesh]:
+    """Fixed bodies: one, or a list of them."""
+    if fixed is None:
+        return []
+    if isinstance(fixed, (list, tuple)) and not _arrays.is_pair(fixed):
+        return [held_body(one) for one in fixed]
+    return [held_body(fixed)]
+
+
+def _moved(moving: _core.HeldMesh, made: dict[str, Any]) -> Placement:
+    points = made.pop("points")
+    if len(points) == 0:
+        points = moving.vertices
+    made["mesh"] = Mesh._of(points, moving.faces,
+                            made["certificate"] if made["certificate"] else None)
+    made["contacts"] = Contacts(*made["contacts"])
+    if made["nearest"] is not None:
+        number, how = made["nearest"]
+        made["nearest"] = number, Measure(**how)
+    return Placement(**made)
+
+
+def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0, *,
+          max_travel: float | None = None, bed: float | None = None, precision: str = "float64",
+          progress: Progress = None) -> Placement:
+    """Moves a mesh along a direction until it first meets others, or comes as near as the
+    clearance. It does not penetrate in the coordinates returned: they are checked exactly.
+
+    moving: a mesh, or points (n, 3). onto: a fixed body, or a list of them.
+    direction: (3,) of any length. max_travel: a length. bed: z of a bed that also stops it.
+
+    Raises ValueError naming the operand and face.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> seated = treeform.slide((cube.vertices + [0.25, 0, 5], cube.faces), cube, [0, 0, -1])
+    >>> bool(seated), seated.travel, seated.at_place
+    (True, 4.0, 'touching')
+    """
+    body = held_body(moving)
+    return _moved(body, _core.slide(body, _bodies(onto), _arrays.vector(direction, "direction"),
+                                    clearance, max_travel, bed, precision, progress=watched(progress)))
+
+
+def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0,
+         max_travel: float | None = None, bed: float | None = None,
+         direction: ArrayLike = (0.0, 0.0, -1.0), precision: str = "float64",
+         progress: Progress = None) -> Placement:
+    """Moves a mesh down until it rests on the bed (z = 0 unless told), or on `onto`; from below the
+    bed it goes up. The lowest points then have exactly the z of the bed.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> low = treeform.drop((cube.vertices + 3.25, cube.faces))
+    >>> low.travel, low.mesh.bounds[:, 2].tolist()
+    (3.25, [0.0, 1.0])
+    """
+    body = held_body(moving)
+    return _moved(body, _core.drop(body, _bodies(onto), clearance, max_travel, bed,
+                                   _arrays.vector(direction, "direction"), precision,
+                                   progress=watched(progress)))
+
+
+def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float | None = None,
+         precision: str = "float64", progress: Progress = None) -> Placement:
+    """Translates a mesh so that its nearest points to others come together, or to the clearance.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> treeform.mate((cube.vertices + [0, 3, 0], cube.faces), cube).travel
+    2.0
+    """
+    body = held_body(moving)
+    return _moved(body, _core.mate(body, _bodies(onto), clearance, max_travel, precision,
+                                   progress=watched(progress)))
+
+
+def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: float | None = None,
+             precision: str = "float64", progress: Progress = None) -> Placement:
+    """Translates a mesh to where it penetrates none of the others and keeps the clearance; it stays
+    where it already does. Some fifty directions are tried.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> apart = treeform.separate((cube.vertices + [0.75, 0, 0], cube.faces), cube)
+    >>> apart.travel, apart.at_start, apart.at_place
+    (0.25, 'penetrating', 'touching')
+    """
+    body = held_body(moving)
+    return _moved(body, _core.separate(body, _bodies(fixed), clearance, max_travel, precision,
+                                       progress=watched(progress)))
+
+
+def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.0, 0.0), *,
+         clearance: float = 0.0, max_angle: float = 360.0, tolerance: float | None = None,
+         precision: str = "float64", progress: Progress = None) -> Placement:
+    """Turns a mesh about an axis, counter-clockwise seen against it, until it comes within the
+    tolerance of others, or of the clearance from them. `angle` is in degrees.
+
+    axis: (3,) of any length. origin: (3,) a point on it. tolerance: the gap that counts as contact;
+    None: 2**-32 of the largest distance from the axis.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> door = treeform.turn(cube, (cube.vertices + [-1.5, 0, 0], cube.faces), [0, 0, 1])
+    >>> bool(door), 0 < door.angle < 180
+    (True, True)
+    """
+    body = held_body(moving)
+    return _moved(body, _core.turn(body, _bodies(fixed), _arrays.vector(axis, "axis"),
+                                   _arrays.vector(origin, "origin"), clearance, max_angle,
+                                   tolerance, precision, progress=watched(progress)))
+
+
+def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature, *,
+                  clearance: float = 0.0, flip: bool = False, precision: str = "float64",
+                  progress: Progress = None) -> Placement:
+    """Brings two planes face to face, or two axes on one line, and slides until first contact.
+
+    of_moving, of_fixed: of `find_features`. flip: planes look the same way; axes are turned around.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> other = (cube.vertices + [0, 0, 5], cube.faces)
+    >>> side, top = treeform.find_features(other)[0], treeform.find_features(cube)[0]
+    >>> treeform.mate_features(other, cube, side, top).at_place
+    'touching'
+    """
+    if of_moving.kind != of_fixed.kind:
+        raise ValueError(f"of_fixed: {of_fixed.kind!r}, but of_moving is {of_moving.kind!r}")
+    body = held_body(moving)
+    return _moved(body, _core.mate_features(
+        body, _bodies(onto), of_moving.kind, of_moving.origin, of_moving.direction,
+        of_fixed.origin, of_fixed.direction, clearance, flip, precision, progress=watched(progress)))
+
+
+@dataclass(frozen=True, repr=False)
+class LaidFlat(Result):
+    """A mesh on the bed."""
+
+    mesh: Mesh
+    #: (4, 4) new = M old.
+    matrix: Floats
+    #: The side that is down, a number of the lists below.
+    chosen: int
+    #: 'on side 0 of 6, of area 24'
+    message: str
+    #: (S,) of the flat sides of the convex hull, largest first.
+    areas: Floats
+    #: (S, 3) outward, before the turn.
+    normals: Floats
+    #: (S,) degrees of tilt at which it tips over; negative: by itself.
+    tip_angles: Floats
+    #: (S,) area of the faces that would need support; NaN where it was not computed.
+    overhangs: Floats
+    #: (3,) before the turn.
+    center_of_mass: Floats
+    #: What that is of: 'solid', 'surface' or 'points'.
+    mass: str
+    #: (n,) vertices of the side, ascending.
+    on_bed: Ids
+    certificate: Certificate
+
+    @property
+    def vertices(self) -> Floats:
+        """(V, 3) of the turned mesh."""
+        return self.mesh.vertices
+
+    @property
+    def faces(self) -> Ids:
+        """(F, 3)."""
+        return self.mesh.faces
+
+
+def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.0, 0.0, 0.0),
+             keep_spin: bool = False, tolerance: float = 0.0, bed: float = 0.0,
+             overhang_angle: float = 45.0, precision: str = "float64",
+             progress: Progress = None) -> LaidFlat:
+    """Turns a mesh so that a flat side of its convex hull is on the bed.
+
+    choose: 'largest' area, 'nearest_normal' to the direction `toward`, 'holding_point' `toward`, or
+    'most_stable'. keep_spin: only bring the side down. tolerance: points this far from the plane of
+    a side belong to it. overhang_angle: in degrees from the vertical.
+
+    Raises ValueError where there is no side: fewer than three points, or all on a line.
+
+    >>> import treeform
+    >>> laid = treeform.lay_flat(treeform.read("data/cube.stl"))
+    >>> laid.message, laid.mesh.bounds[0, 2]
+    ('on side 0 of 6, of area 1', 0.0)
+    """
+    body = held(mesh)
+    made = _core.lay_flat(body, choose, _arrays.vector(toward, "toward"), keep_spin, tolerance, bed,
+                          overhang_angle, precision, progress=watched(progress))
+    if made is None:
+        raise ValueError("lay_flat: no side: fewer than three points, or all on a line")
+    made["mesh"] = Mesh._of(made.pop("points"), body.faces, made["certificate"])
+    return LaidFlat(**made)
+
+
+@dataclass(frozen=True, repr=False)
+class Alignment(Result):
+    """The motion that `align` has found."""
+
+    #: (4, 4) new = M old, with `start` included.
+    matrix: Floats
+    #: The moved mesh; of a cloud, one without faces.
+    mesh: Mesh
+    #: Root mean square of the distances that count, after.
+    rms: float
+    rms_at_start: float
+    #: Share of the moving points with a partner within `max_distance`, after.
+    overlap: float
+    #: Moving points within 4.5 medians of the distances that count.
+    inliers: int
+    #: Of the signed distances of neighbors: near 0 for noise, near 1 where regions are off.
+    correlation: float
+    #: Found in addition to that of `start`.
+    scale: float
+    #: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
+    end: str
+    converged: bool
+    iterations: int
+    #: Which start was best; 0 is the present position.
+    start: int
+    #: How many independent motions nothing holds, as where a plane slides on a plane.
+    undetermined: int
+    #: 'after 12 steps; rms 0.01, from 0.3; overlap 1'
+    message: str
+
+    def __bool__(self) -> bool:
+        return self.converged
+
+    @property
+    def vertices(self) -> Floats:
+        """(V, 3) the moved points."""
+        return self.mesh.vertices
+
+    @property
+    def faces(self) -> Ids:
+        """(F, 3)."""
+        return self.mesh.faces
+
+
+def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float = 1.0,
+          weights: str = "equal", max_distance: float = np.inf, scale: bool = False,
+          max_iterations: int = 100, tolerance: float = 1e-6, starts: int = 1,
+          samples: int = 100_000, start: ArrayLike | None = None, precision: str = "float64",
+          progress: Progress = None) -> Alignment:
+    """The rigid motion that brings a mesh or cloud (n, 3) near another one: iterative closest
+    point, from where it is or from several places.
+
+    method: 'point_to_plane', 'point_to_point' or 'automatic' (planes of a mesh, points of a cloud).
+    overlap: the share of the moving points that have a partner. weights: 'equal' or 'welsch'.
+    max_distance: ignore partners further apart. scale: find a uniform scale, too.
+    starts: places to start from, turned all around. samples: points used in the steps; 0 is all.
+    start: (4, 4) applied first.
+
+    True where it has converged and nothing speaks against the place.
+
+    >>> import treeform
+    >>> part = treeform.read("data/two_spheres.stl")
+    >>> found = treeform.align(part.vertices + [0.02, 0.01, 0], part)
+    >>> bool(found), abs(found.matrix[:3, 3] + [0.02, 0.01, 0]).max() < 1e-6
+    (True, True)
+    """
+    body = held_body(moving)
+    made = _core.align(body, held_body(onto), method, overlap, weights, max_distance, scale,
+                       max_iterations, tolerance, starts, samples, _arrays.matrix(start, "start"),
+                       precision, progress=watched(progress))
+    made["mesh"] = Mesh._of(made.pop("points"), body.faces)
+    return Alignment(**made)
+
+
+class PackedPart(NamedTuple):
+    """A part on a plate."""
+
+    placed: bool
+    #: Number of its plate, from 0.
+    plate: int
+    #: (4, 4) new = M old.
+    matrix: Floats
+    #: The part where it goes; where it was, if it is not placed.
+    mesh: Mesh
+
+
+@dataclass(frozen=True, repr=False)
+class Packing(Result):
+    """Filled plates. True where every part has a place."""
+
+    #: In the order of the input.
+    parts: list[PackedPart]
+    #: (n,) numbers of parts without a place.
+    not_placed: Ids
+    plates_used: int
+    tries: int
+    #: Share of the plates that the parts cover.
+    density: float
+    #: '9 of 9 parts placed'
+    message: str
+
+    def __bool__(self) -> bool:
+        return len(self.not_placed) == 0
+
+
+def pack(parts: Iterable[MeshLike], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.0, 0.0),
+         spacing: float = 2.0, turns: str = "quarter", stack: bool = False, plates: int = 1,
+         plate_step: ArrayLike = (0.0, 0.0, 0.0), seed: int = 0, tries: int = 32,
+         seconds: float = np.inf, precision: str = "float64",
+         progress: Progress = None) -> Packing:
+    """Puts parts on plates, at least `spacing` apart, each turned about the vertical.
+
+    size: (2,) or (3,): length, depth and height. turns: 'none', 'quarter', 'eighth' or 'any'.
+    stack: fill the box up to its height. plates: most that are used, `plate_step` (3,) apart.
+
+    Distances are checked in the coordinates returned. This is a search: a part without a place may
+    have had one. Same input, same result, unless `seconds` ends the search.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> treeform.pack([cube, cube, cube], [4, 4], spacing=0.5).message
+    '3 of 3 parts placed'
+    """
+    extent = _arrays.floats(size, "size")
+    if extent.shape == (2,):
+        extent = np.append(extent, np.inf)
+    bodies = [held(part) for part in parts]
+    made = _core.pack(bodies, _arrays.vector(extent, "size"), _arrays.vector(corner, "corner"),
+                      spacing, turns, stack, plates, _arrays.vector(plate_step, "plate_step"), seed,
+                      tries, seconds, precision, progress=watched(progress))
+    made["parts"] = [
+        PackedPart(placed, plate, matrix, Mesh._of(points, body.faces))
+        for (placed, plate, matrix, points), body in zip(made["parts"], bodies)]
+    return Packing(**made)
+
+
+def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coordinates",
+            progress: Progress = None) -> Measure | None:
+    """How two bodies lie to each other: separate, touching or penetrating, how far apart, and where.
+    Each is a mesh or a cloud (n, 3). None where one has no faces, or they are further apart than
+    `radius`. The relation is exact, and so is whether a distance is 0.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> how = treeform.measure(cube, (cube.vertices + [0, 0, 3], cube.faces))
+    >>> how.relation, how.distance, how.on_a[2], how.on_b[2]
+    ('separate', 2.0, 1.0, 3.0)
+    """
+    made = _core.measure(held_body(a), held_body(b), radius, vertices, progress=watched(progress))
+    return None if made is None else Measure(**made)
+
+
+class Depth(NamedTuple):
+    """A way out."""
+
+    #: The length of `move`.
+    depth: float
+    #: (3,) added to each vertex of `a`, it takes `a` out of `b`. Verified exactly.
+    move: Floats
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
+def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256,
+                      progress: Progress = None) -> Depth | None:
+    """The length of a short translation that takes `a` out of `b`: an upper bound of the depth of
+    penetration. None where they do not penetrate. `directions` are tried beside those of faces.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> treeform.penetration_depth(cube, (cube.vertices + [0.75, 0, 0], cube.faces)).depth
+    0.25
+    """
+    found = _core.penetration_depth(held(a), held(b), directions, progress=watched(progress))
+    return None if found is None else Depth(*found)
+
+
+class Impact(NamedTuple):
+    """The first contact of two meshes in motion."""
+
+    #: 'free', 'contact' or 'at_start'.
+    end: str
+    #: The greatest number not beyond the exact time; 0 where they meet at the start.
+    time: float
+    #: (n, 2) the faces of `a` and `b` that meet at that time.
+    faces: Ids
+    #: (n, 3) a common point of each pair, rounded.
+    points: Floats
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
+def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *,
+                   move_a: ArrayLike | None = None, move_b: ArrayLike | None = None,
+                   latest: float = np.inf, progress: Progress = None) -> Impact:
+    """The least t >= 0 at which `a`, moved by t times `motion` (3,), has a point in common with `b`.
+    Exact: meshes that only graze each other have a contact. Surfaces count, not solids.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> treeform.time_of_impact((cube.vertices + [0, 0, 4], cube.faces), cube, [0, 0, -1]).time
+    3.0
+    """
+    return Impact(*_core.time_of_impact(held(a), held(b), _arrays.vector(motion, "motion"),
+                                        _arrays.matrix(move_a, "move_a"),
+                                        _arrays.matrix(move_b, "move_b"), latest,
+                                        progress=watched(progress)))

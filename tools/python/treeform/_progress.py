@@ -1,0 +1,22 @@
+"""Progress: a function of the share that is done, or a bar of tqdm."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Optional, Union
+
+#: Called now and then with the share of the work that is done, 0 to 1, in the thread that called.
+#: Where it returns False, the operation stops and raises Cancelled. A bar of tqdm will do as well.
+Progress = Optional[Union[Callable[[float], Any], Any]]
+
+
+def watched(progress: Progress) -> Callable[[float], Any] | None:
+    """`progress` as a function."""
+    if progress is None or not hasattr(progress, "update"):
+        return progress
+    bar: Any = progress
+    total = bar.total or 1
+
+    def update(share: float) -> None:
+        bar.update(share * total - bar.n)
+
+    return update

@@ -1,0 +1,220 @@
+"""Meshes mended, wrapped, rounded."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Iterable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _arrays, _core
+from ._arrays import Floats, Ids
+from ._core import Certificate
+from ._errors import require
+from ._mesh import Mesh, MeshLike, held
+from ._progress import Progress, watched
+from ._results import Result
+
+
+@dataclass(frozen=True, repr=False)
+class MadeMesh(Result):
+    """A mesh that an operation has made, and what was checked about it."""
+
+    mesh: Mesh
+    certificate: Certificate
+
+    @property
+    def vertices(self) -> Floats:
+        """(V, 3) float64."""
+        return self.mesh.vertices
+
+    @property
+    def faces(self) -> Ids:
+        """(F, 3) uint32."""
+        return self.mesh.faces
+
+
+@dataclass(frozen=True, repr=False)
+class ResolveResult(MadeMesh):
+    """A mesh without self-intersections."""
+
+    #: (F,) the input's face that each face lies in; 4294967295 where it fills a hole.
+    face_source: Ids
+    #: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
+    vertex_source: Ids
+    #: Counts of what was done.
+    statistics: dict[str, int]
+
+
+@dataclass(frozen=True, repr=False)
+class RepairResult(MadeMesh):
+    """A mended mesh."""
+
+    #: (F,) the input's face that each face lies in; 4294967295 where it fills a hole.
+    face_source: Ids
+    #: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
+    vertex_source: Ids
+    #: What each step has done: faces flipped, holes filled, ...
+    steps: dict[str, Any]
+
+
+@dataclass(frozen=True, repr=False)
+class WrapResult(MadeMesh):
+    """A closed surface around a mesh."""
+
+    #: What it took.
+    statistics: dict[str, Any]
+
+
+def _mesh_of(made: dict[str, Any], check: bool, *also: str) -> dict[str, Any]:
+    """`made` with a mesh in place of arrays."""
+    certificate = made["certificate"]
+    if check:
+        require(certificate, *also)
+    made["mesh"] = Mesh._of(made.pop("points"), made.pop("faces"), certificate)
+    return made
+
+
+def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: str = "nonzero",
+                               precision: str = "float64", max_displacement: float = np.inf,
+                               touching: bool = False, max_loss: float = 0.05, check: bool = True,
+                               progress: Progress = None) -> ResolveResult:
+    """The mesh without self-intersections.
+
+    mode: 'outer' cuts faces along each other and keeps what bounds the solid; 'split' keeps every
+    piece; 'remove' deletes faces that meet and fills the holes, for surfaces that bound no solid.
+    inside: for 'outer', what is solid: 'nonzero', 'odd' or 'positive' winding numbers.
+    touching: for 'remove', delete faces that only touch, too.
+    max_loss: more than this share of the volume (or area) lost is an error; 1 allows any loss.
+    precision, max_displacement, check: as for `boolean`.
+
+    What is cut and what is inside is decided exactly, on the coordinates as given. Points on cuts
+    are rounded, and the result is checked in the rounded numbers.
+
+    Raises NotSolidError where 'outer' is asked of an open mesh, NotCertifiedError.
+
+    >>> import treeform
+    >>> solid = treeform.resolve_self_intersections(treeform.read("data/two_spheres.stl"))
+    >>> solid.mesh, solid.certificate, len(treeform.self_intersections(solid))
+    (Mesh(326 vertices, 648 faces), Certificate(ok), 0)
+    """
+    return ResolveResult(**_mesh_of(
+        _core.resolve(held(mesh), mode, inside, precision, max_displacement, touching, max_loss,
+                      progress=watched(progress)), check))
+
+
+_STEPS = ("join", "orient", "fill", "resolve", "detach")
+
+
+def repair(mesh: MeshLike, *, steps: Iterable[str] = _STEPS, gap: float | None = None,
+           largest_hole: int | None = None, strays: float = 0.001, inside: str = "automatic",
+           max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
+           max_displacement: float = np.inf, check: bool = True,
+           progress: Progress = None) -> RepairResult:
+    """A solid made of a dirty mesh: closed, oriented, manifold, free of self-intersections.
+
+    steps: those to take. 'join' drops degenerate and repeated faces and closes cracks, 'orient'
+    makes faces agree and look outward, 'fill' fills holes, 'resolve' cuts self-intersections,
+    'detach' moves apart what touches in an edge or a vertex.
+    gap: the widest crack to close, a length; None finds one. largest_hole: in edges.
+    strays: loose open pieces below this share of the area are dropped.
+    inside: 'automatic', 'nonzero', 'odd' or 'positive'.
+    sheet: the mesh is an open surface, and its border stays.
+    max_loss, precision, max_displacement, check: as for `resolve_self_intersections`.
+
+    What meets and what is inside is decided exactly; which cracks close, which way faces look and
+    what fills a hole are guesses, and counted in `steps`. A solid comes back bit for bit.
+
+    Raises NotCertifiedError or NotSolidError where that was not possible, saying where.
+
+    >>> import treeform
+    >>> mended = treeform.repair(treeform.read("data/dirty.stl"))
+    >>> mended.mesh.is_solid, mended.steps["flipped"], mended.steps["holes"]
+    (True, 40, 2)
+    """
+    return RepairResult(**_mesh_of(
+        _core.repair(held(mesh), list(steps), gap, largest_hole, strays, inside, max_loss, sheet,
+                     precision, max_displacement, progress=watched(progress)), check, "sheet"))
+
+
+def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision: str = "float64",
+         check: bool = True, progress: Progress = None) -> WrapResult:
+    """A closed surface around all faces, whatever they are: open, crossing, of no area. It enters
+    no gap or hole narrower than about twice `size`, a length.
+
+    offset: how far its vertices are from the faces; None: size / 30.
+
+    No face of the mesh meets the wrap or is outside of it: that is exact.
+
+    >>> import treeform
+    >>> around = treeform.wrap(treeform.read("data/two_spheres.stl"), 0.5)
+    >>> around.mesh.is_solid, bool(around.certificate)
+    (True, True)
+    """
+    return WrapResult(**_mesh_of(
+        _core.wrap(held(mesh), size, offset, precision, progress=watched(progress)), check))
+
+
+@dataclass(frozen=True, repr=False)
+class ConvexHull(Result):
+    """The convex hull of points: triangles, grouped by flat sides."""
+
+    #: 3 for points that span space, 2 in a plane, 1 on a line, 0 for one point, -1 for none.
+    dimension: int
+    #: (F, 3) numbers of the points, outward.
+    faces: Ids
+    #: (S,) the first face of each flat side; its faces follow one another.
+    first_face: Ids
+    #: (S,) the area of each side.
+    areas: Floats
+    #: (S, 3) the outward normal of each side, of length 1.
+    normals: Floats
+
+
+def convex_hull(points: ArrayLike, *, progress: Progress = None) -> ConvexHull:
+    """The convex hull of points (n, 3). Exact: no point is outside the plane of a face, and faces
+    are of one side if and only if they are exactly coplanar.
+
+    >>> import treeform
+    >>> hull = treeform.convex_hull(treeform.read("data/cube.stl").vertices)
+    >>> hull.dimension, len(hull.faces), hull.areas.tolist()
+    (3, 12, [1.0, 1.0, 1.0, 1.0, 1.0, 1.0])
+    """
+    return ConvexHull(**_core.convex_hull(_arrays.points(points, "points"), progress=watched(progress)))
+
+
+def rounded(points: ArrayLike, precision: str = "float32") -> Floats:
+    """(n, 3) the points with each coordinate rounded to the nearest number of the precision, as
+    float64.
+
+    >>> import treeform
+    >>> treeform.rounded([[0.1, 0.2, 0.3]]).tolist()
+    [[0.10000000149011612, 0.20000000298023224, 0.30000001192092896]]
+    """
+    return _core.rounded(_arrays.points(points, "points"), precision)
+
+
+def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
+                          progress: Progress = None) -> tuple[int, int]:
+    """What breaks when the vertices of a mesh become `placed` (V, 3): the number of faces that have
+    lost their area, and of pairs of faces that meet now and did not before. Exact.
+
+    >>> import treeform
+    >>> m = treeform.read("data/sphere.ply")
+    >>> treeform.find_rounding_defects(m, treeform.rounded(m.vertices))
+    (0, 0)
+    """
+    return _core.find_rounding_defects(held(mesh), _arrays.points(placed, "placed"),
+                                       progress=watched(progress))
+
+
+def join_equal_points(mesh: MeshLike) -> Mesh:
+    """The mesh with vertices of equal coordinates joined. Faces keep their order and number.
+
+    >>> import treeform
+    >>> soup = treeform.read("data/cube.stl", join=False)
+    >>> soup, treeform.join_equal_points(soup)
+    (Mesh(36 vertices, 12 faces), Mesh(8 vertices, 12 faces))
+    """
+    return Mesh._of(*_core.join_equal_points(held(mesh)))

@@ -1,0 +1,260 @@
+"""Trees over points and boxes, in the plane and in space."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arrays, _core
+from ._arrays import Floats
+from ._progress import Progress, watched
+from ._results import tuple_repr
+
+Numbers = NDArray[np.int64]
+
+
+def _table(values: ArrayLike, name: str) -> Floats:
+    """`values` as (n, 2) or (n, 3)."""
+    array = _arrays.floats(values, name)
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise ValueError(f"{name}: the shape is {array.shape}, not (n, 2) or (n, 3)")
+    return array
+
+
+class Neighbors(NamedTuple):
+    """Lists of neighbors of many queries, in one array each: those of query q are
+    `ids[begin[q]:begin[q + 1]]`."""
+
+    #: (q + 1,)
+    begin: Numbers
+    #: (n,)
+    ids: Numbers
+    #: (n,) not squared.
+    distances: Floats
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
+class PointTree:
+    """A tree over points (n, 2) or (n, 3), with the names of SciPy's cKDTree.
+
+    Distances are Euclidean, computed in float64. Points may be equal. Equally near points come in
+    the order of their numbers. Queries run on all cores, and may be asked by several threads.
+
+    >>> import treeform
+    >>> tree = treeform.PointTree([[0, 0, 0], [1, 0, 0], [0, 2, 0]])
+    >>> tree.query([0.9, 0, 0])
+    (0.09999999999999998, 1)
+    """
+
+    __slots__ = ("data", "_cloud")
+
+    def __init__(self, data: ArrayLike) -> None:
+        self.data = _table(data, "data")
+        make = _core.Cloud3 if self.data.shape[1] == 3 else _core.Cloud2
+        self._cloud: _core._Cloud = _core.build(make, self.data)
+
+    @property
+    def n(self) -> int:
+        """Number of points."""
+        return len(self.data)
+
+    @property
+    def m(self) -> int:
+        """2 or 3."""
+        return int(self.data.shape[1])
+
+    def __len__(self) -> int:
+        return len(self.data)
+
+    def _queries(self, x: ArrayLike) -> tuple[Floats, tuple[int, ...]]:
+        array = _arrays.floats(x, "x")
+        if array.ndim == 0 or array.shape[-1] != self.m:
+            raise ValueError(f"x: the shape is {array.shape}, not (..., {self.m})")
+        return np.ascontiguousarray(array.reshape(-1, self.m)), array.shape[:-1]
+
+    def query(self, x: ArrayLike, k: Any = 1, eps: float = 0.0, p: float = 2.0,
+              distance_upper_bound: float = np.inf, workers: int = -1, *,
+              progress: Progress = None) -> tuple[Any, Any]:
+        """The k nearest points of each query: distances and numbers, nearest first.
+
+        x: (..., m). k: a number, or a list of which nearest ones are wanted, from 1.
+        distance_upper_bound: only points nearer than this.
+        eps and p are those of SciPy: answers are always those of eps 0, and p has to be 2. All cores
+        are used, whatever `workers` says (`treeform.threads`).
+
+        Returns d, i of shape (...) for k = 1, else (..., k); infinite and n where there are fewer.
+
+        >>> import treeform
+        >>> tree = treeform.PointTree([[0, 0], [1, 0], [0, 2]])
+        >>> tree.query([[0, 0], [0, 3]], k=2)
+        (array([[0., 1.],
+               [1., 3.]]), array([[0, 1],
+               [2, 0]]))
+        """
+        if p != 2:
+            raise ValueError(f"p: {p} is not 2, the only one there is")
+        queries, shape = self._queries(x)
+        wanted = None
+        count = k
+        if not isinstance(k, (int, np.integer)):
+            wanted = np.asarray(k, np.intp)
+            if wanted.ndim != 1 or len(wanted) == 0:
+                raise ValueError("k: a number, or a list of numbers from 1")
+            count = int(wanted.max())
+        if count < 1 or (wanted is not None and wanted.min() < 1):
+            raise ValueError("k: less than 1")
+        if not distance_upper_bound >= 0:
+            raise ValueError(f"distance_upper_bound: {distance_upper_bound} is negative or NaN")
+        d, i = self._cloud.query(queries, int(count), distance_upper_bound, progress=watched(progress))
+        if wanted is not None:
+            d = d.reshape(-1, count)[:, wanted - 1]
+            i = i.reshape(-1, count)[:, wanted - 1]
+            shape = shape + (len(wanted),)
+        elif k != 1:
+            shape = shape + (count,)
+        if not shape:
+            return float(d[0]), int(i[0])
+        return d.reshape(shape), i.reshape(shape)
+
+    def query_ball_point(self, x: ArrayLike, r: float, p: float = 2.0, eps: float = 0.0,
+                         workers: int = -1, return_sorted: bool | None = None,
+                         return_length: bool = False, *, progress: Progress = None) -> Any:
+        """The numbers of all points within `r` of each query, inclusive, ascending: a list, or an
+        array of lists for many queries; with `return_length`, how many they are.
+
+        `query_ball` has the same in arrays, and much faster.
+
+        >>> import treeform
+        >>> tree = treeform.PointTree([[0, 0], [1, 0], [0, 2]])
+        >>> tree.query_ball_point([0, 0], 1)
+        [0, 1]
+        """
+        if p != 2:
+            raise ValueError(f"p: {p} is not 2, the only one there is")
+        queries, shape = self._queries(x)
+        begin, ids, _ = self._cloud.query_ball(queries, r, True, progress=watched(progress))
+        if return_length:
+            length = np.diff(begin).reshape(shape)
+            return length if shape else int(length)
+        lists = _core.lists(begin, ids)
+        if not shape:
+            return lists[0]
+        made = np.empty(len(lists), object)
+        made[:] = lists
+        return made.reshape(shape)
+
+    def query_ball(self, x: ArrayLike, r: float, *, progress: Progress = None) -> Neighbors:
+        """All points within `r` of each query, inclusive, nearest first, in arrays.
+
+        >>> import treeform
+        >>> tree = treeform.PointTree([[0, 0], [1, 0], [0, 2]])
+        >>> tree.query_ball([[0, 0], [5, 5]], 1).ids.tolist()
+        [0, 1]
+        """
+        queries, _ = self._queries(x)
+        return Neighbors(*self._cloud.query_ball(queries, r, False, progress=watched(progress)))
+
+    def query_pairs(self, r: float, p: float = 2.0, eps: float = 0.0, output_type: str = "set", *,
+                    progress: Progress = None) -> Any:
+        """The pairs of points at most `r` apart, the lower number first: a set of tuples, or with
+        output_type='ndarray' an array (n, 2), ascending.
+
+        >>> import treeform
+        >>> treeform.PointTree([[0, 0], [1, 0], [0, 2]]).query_pairs(1)
+        {(0, 1)}
+        """
+        if p != 2:
+            raise ValueError(f"p: {p} is not 2, the only one there is")
+        if output_type not in ("set", "ndarray"):
+            raise ValueError(f"output_type: {output_type!r} is neither 'set' nor 'ndarray'")
+        pairs = self._cloud.query_pairs(self.data, r, progress=watched(progress))
+        return pairs if output_type == "ndarray" else set(map(tuple, pairs.tolist()))
+
+    def __repr__(self) -> str:
+        return f"PointTree({self.n:,} points, {self.m} dimensions)"
+
+
+class BoxTree:
+    """A tree over axis-aligned boxes, from mins (n, 2) or (n, 3) to maxs. Closed: touching counts.
+    Exact on the coordinates as given.
+
+    >>> import treeform
+    >>> tree = treeform.BoxTree([[0, 0], [2, 0], [1, 1]], [[1, 1], [3, 1], [2, 2]])
+    >>> tree.pairs().tolist()
+    [[0, 2], [1, 2]]
+    """
+
+    __slots__ = ("_boxes", "_dimensions")
+
+    def __init__(self, mins: ArrayLike, maxs: ArrayLike) -> None:
+        low, high = _table(mins, "mins"), _table(maxs, "maxs")
+        if low.shape != high.shape:
+            raise ValueError(f"maxs: the shape is {high.shape}, that of mins {low.shape}")
+        self._dimensions = int(low.shape[1])
+        make = _core.Boxes3 if self._dimensions == 3 else _core.Boxes2
+        self._boxes: _core.Boxes2 = _core.build(make, low, high)
+
+    def __len__(self) -> int:
+        return len(self._boxes)
+
+    def pairs(self, other: BoxTree | None = None, *, progress: Progress = None) -> Numbers:
+        """(n, 2) the pairs of boxes that overlap, ascending, the lower number first; with `other`,
+        of a box of this tree and one of that.
+
+        >>> import treeform
+        >>> a = treeform.BoxTree([[0, 0, 0]], [[1, 1, 1]])
+        >>> a.pairs(treeform.BoxTree([[5, 5, 5], [1, 1, 1]], [[6, 6, 6], [2, 2, 2]])).tolist()
+        [[0, 1]]
+        """
+        if other is None:
+            return self._boxes.pairs(progress=watched(progress))
+        if other._dimensions != self._dimensions:
+            raise ValueError("other: a tree of other dimensions")
+        return self._boxes.pairs_with(other._boxes, progress=watched(progress))
+
+    def query(self, min: ArrayLike, max: ArrayLike, *, progress: Progress = None) -> Any:
+        """The boxes that overlap the one from `min` (m,) to `max`: (n,) ascending. For many boxes
+        (q, m): (begin, ids), those of box i are `ids[begin[i]:begin[i + 1]]`.
+
+        >>> import treeform
+        >>> tree = treeform.BoxTree([[0, 0], [2, 0], [1, 1]], [[1, 1], [3, 1], [2, 2]])
+        >>> tree.query([0, 0], [0.5, 0.5]).tolist()
+        [0]
+        """
+        low, high = _arrays.floats(min, "min"), _arrays.floats(max, "max")
+        one = low.ndim == 1
+        if one:
+            low, high = low[None], np.atleast_2d(high)
+        if low.shape != high.shape or low.ndim != 2 or low.shape[1] != self._dimensions:
+            raise ValueError(f"min, max: the shapes are {low.shape} and {high.shape}, "
+                             f"not (n, {self._dimensions})")
+        begin, ids = self._boxes.query(low, high, progress=watched(progress))
+        return ids if one else (begin, ids)
+
+    def nearest(self, x: ArrayLike, k: int = 1, *, radius: float = np.inf,
+                progress: Progress = None) -> tuple[Any, Any]:
+        """The k boxes nearest to each query (..., m), as `PointTree.query` gives points: distances,
+        0 inside a box, and numbers.
+
+        >>> import treeform
+        >>> treeform.BoxTree([[0, 0], [2, 0]], [[1, 1], [3, 1]]).nearest([1.25, 0.5])
+        (0.25, 0)
+        """
+        array = _arrays.floats(x, "x")
+        if array.ndim == 0 or array.shape[-1] != self._dimensions:
+            raise ValueError(f"x: the shape is {array.shape}, not (..., {self._dimensions})")
+        if k < 1:
+            raise ValueError("k: less than 1")
+        shape = array.shape[:-1]
+        d, i = self._boxes.nearest(np.ascontiguousarray(array.reshape(-1, self._dimensions)), k,
+                                   radius, progress=watched(progress))
+        if k != 1:
+            shape = shape + (k,)
+        return (d.reshape(shape), i.reshape(shape)) if shape else (float(d[0]), int(i[0]))
+
+    def __repr__(self) -> str:
+        return f"BoxTree({len(self):,} boxes, {self._dimensions} dimensions)"

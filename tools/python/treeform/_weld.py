@@ -1,0 +1,171 @@
+"""Points that are near each other become one: in meshes, clouds, and files larger than memory."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any, Iterable, Mapping, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _arrays, _core
+from ._arrays import Floats, Ids
+from ._files import Path
+from ._mesh import Attributes, Mesh, MeshLike, as_mesh
+from ._progress import Progress, watched
+from ._results import Result
+
+
+@dataclass(frozen=True, repr=False)
+class WeldResult(Result):
+    """A welded mesh or cloud."""
+
+    #: The welded mesh; of a cloud, one without faces.
+    mesh: Mesh
+    #: (n,) the new number of each point.
+    index: Ids
+    #: (m,) the input point that gave each new one its properties.
+    source: Ids
+    #: (F,) the input face that each face was; empty for a cloud.
+    face_source: Ids
+    #: Counts of what was done.
+    statistics: dict[str, Any]
+
+    @property
+    def points(self) -> Floats:
+        """(m, 3) the points that are left."""
+        return self.mesh.vertices
+
+    @property
+    def vertices(self) -> Floats:
+        """The same."""
+        return self.mesh.vertices
+
+    @property
+    def faces(self) -> Ids:
+        """(F, 3) the faces that are left."""
+        return self.mesh.faces
+
+
+_Same = Mapping[str, float]
+
+
+def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
+         rule: str = "first", keep: str = "first", keep_by: str = "", order: str = "given",
+         order_by: str = "", same: _Same | None = None, label: ArrayLike | None = None,
+         keep_seams: bool = False, across: Iterable[str] = (), only_borders: bool = False,
+         keep_manifold: bool = False, keep_degenerate: bool = False,
+         progress: Progress = None) -> WeldResult:
+    """A mesh or cloud with the points merged that are within the tolerance of each other.
+
+    mesh_or_points: a mesh, or points (n, 3).
+    tolerance: a length, inclusive; decided exactly. 0 merges equal coordinates only.
+    rule: 'first' drops a point when an earlier kept one is within the tolerance; 'chain' makes one
+    point of all that steps of at most the tolerance link.
+    keep: which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of the vertex
+    property `keep_by`. order: the order in which 'first' goes through the points: 'given',
+    'lowest' or 'highest' of `order_by`.
+    same: vertex properties that must agree, with the largest difference. label: (n,) numbers;
+    points with different ones are never merged. keep_seams: normals, texture coordinates and colors
+    must agree, except for those in `across`.
+    only_borders: merge only points on edges of one face. keep_manifold: leave apart what would make
+    an edge of three faces. keep_degenerate: keep faces that repeat a corner.
+
+    Raises ValueError naming the element or option. Points that are not finite are left alone.
+
+    >>> import treeform
+    >>> thin = treeform.weld([[0, 0, 0], [0, 0, 0.5], [3, 0, 0]], 1.0)
+    >>> thin.points.tolist(), thin.index.tolist()
+    ([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]], [0, 0, 1])
+    """
+    none: Ids = np.empty(0, np.uint32)
+    settings = _core.WeldSettings(
+        tolerance, rule, keep, keep_by, order, order_by, list((same or {}).items()), list(across),
+        keep_seams, only_borders, keep_manifold, keep_degenerate,
+        none if label is None else _arrays.ids(label, "label"))
+    if _arrays.is_points(mesh_or_points):
+        made = _core.weld_cloud(_arrays.points(mesh_or_points, "points"),  # type: ignore[arg-type]
+                                None, settings, progress=watched(progress))
+        made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
+    else:
+        mesh = as_mesh(mesh_or_points)
+        data = None if mesh._attributes is None else mesh._attributes._data
+        if len(mesh._faces):
+            made = _core.weld_mesh(mesh._held, data, settings, progress=watched(progress))
+        else:
+            made = _core.weld_cloud(mesh._vertices, data, settings, progress=watched(progress))
+            made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
+    extra = made.pop("data")
+    welded = Mesh._of(made.pop("points"), made.pop("faces"), None,
+                      None if extra is None else Attributes(extra))
+    return WeldResult(mesh=welded, **made)
+
+
+def count_nearly_equal(points: ArrayLike, distance: float) -> int:
+    """How many points fewer there would be if points within `distance` of each other were joined,
+    beyond those that are equal to another.
+
+    >>> import treeform
+    >>> treeform.count_nearly_equal([[0, 0, 0], [0, 0, 0], [0, 0, 0.5]], 1.0)
+    1
+    """
+    return _core.count_nearly_equal(_arrays.points(points, "points"), distance)
+
+
+@dataclass(frozen=True, repr=False)
+class WeldStreamResult(Result):
+    """What `weld_stream` has done."""
+
+    #: Points of the inputs.
+    points: int
+    #: Points that are left.
+    kept: int
+    #: Groups of two points or more.
+    groups: int
+    #: The furthest that a point moved.
+    max_displacement: float
+    #: As a length.
+    tolerance: float
+    #: Points that are not finite; all are kept.
+    non_finite: int
+    #: Parts that space was cut into.
+    tiles: int
+    #: Whether the run went on from what an earlier one had left.
+    continued: bool
+    #: What a person should know.
+    warnings: list[str]
+
+
+def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float = 0.0, *,
+                relative: bool = False, rule: str = "first", keep: str = "first",
+                keep_by: str = "", order: str = "given", order_by: str = "",
+                same: _Same | None = None, removed: Path = "", label: str = "", memory: int = 0,
+                folder: Path = "", points_per_tile: int = 0,
+                progress: Progress = None) -> WeldStreamResult:
+    """Welds clouds that may be larger than memory, from files to a file, with the same bytes as
+    `weld` of the whole.
+
+    files: one or several, as one cloud: PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV.
+    relative: `tolerance` is a share of the diagonal of the cloud's box.
+    removed: a file for the dropped points. label: write all points, with the group of each in a
+    property of this name.
+    memory: bytes that the process may take; 0: three quarters of the machine's. folder: for tiles;
+    empty: beside the first input. Where a run was killed, the same call goes on.
+    rule, keep, keep_by, order, order_by, same: as for `weld`.
+
+    Raises FileError, ValueError.
+
+    >>> import os, tempfile, treeform
+    >>> with tempfile.TemporaryDirectory() as home:
+    ...     cloud = os.path.join(home, "cloud.xyz")
+    ...     _ = treeform.write(cloud, ([[0, 0, 0], [0, 0, 0.5], [3, 0, 0]], []))
+    ...     done = treeform.weld_stream(cloud, os.path.join(home, "thin.xyz"), 1.0)
+    >>> done.points, done.kept
+    (3, 2)
+    """
+    paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
+    return WeldStreamResult(**_core.weld_stream(
+        [os.fspath(path) for path in paths], os.fspath(out), os.fspath(removed), label, tolerance,
+        relative, rule, list((same or {}).items()), keep, keep_by, order, order_by, memory,
+        os.fspath(folder), points_per_tile, progress=watched(progress)))
