@@ -224,7 +224,6 @@ int main(int argc, char** argv) {
     tools::add_common_options(
         line, options,
         {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"}, .one_result = true});
-    line.refuse("--html", true, "makes no sense here");
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "cut", "check", "write"}, argc, argv,

@@ -248,7 +248,6 @@ int main(int argc, char** argv) {
     line.group("Common options");
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"}});
-    line.refuse("--html", true, "is not made by this tool yet");
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "check", "repair", "write"}, argc, argv,
