@@ -171,7 +171,9 @@ class packer {
         stream_.put(std::isnan(share) ? 0
                                       : static_cast<std::int64_t>(steps) + (steps >= 0.0 ? 1 : 0));
     }
-    void put_group(std::uint32_t group) { stream_.put(group == no_number ? -1 : std::int64_t{group}); }
+    void put_group(std::uint32_t group) {
+        stream_.put(group == no_number ? -1 : std::int64_t{group});
+    }
     void put_number(std::span<const std::uint32_t> numbers, std::size_t at, std::int64_t& last) {
         std::int64_t number = numbers.empty() ? static_cast<std::int64_t>(at) : numbers[at];
         if (number == no_number) number = -1;
