@@ -30,6 +30,11 @@ struct scene_class {
     bool shown = true;  ///< at first
 };
 
+/// Colors for things of one sort, such as inputs; beyond the last they begin again.
+inline constexpr std::array<const char*, 10> scene_colors{
+    "#4e79a7", "#f28e2b", "#59a14f", "#b07aa1", "#edc948",
+    "#76b7b2", "#ff9da7", "#9c755f", "#e15759", "#3d5a80"};
+
 /// Shown when a face or point is clicked that is in no file.
 inline constexpr std::uint32_t no_number = std::numeric_limits<std::uint32_t>::max();
 

@@ -169,6 +169,7 @@ void write_page(job& work, const dirty_mesh& input, const std::string& verdict, 
             was.before[pair.a] = was.before[pair.b] = meets;
     }
     add_classes(shown, was);
+    if (!after) shown.classes[kept].name = "other";
     scene_mesh first{.mesh = before, .kind = was.before, .name = after ? "the input" : ""};
     for (std::uint32_t f = 0; f < before.faces.size(); ++f)
         first.number.push_back(input.source().stored_face(f));

@@ -2,7 +2,8 @@
 import { make, ofSvg, brief, counted } from './dom.js';
 
 const tableOf = (table, rows) => {
-    const body = make('table', {}, make('tr', {}, ...table.columns.map((c) => make('th', {}, c))));
+    const body = make('table', {}, make('tr', {}, ...table.columns.map((c, i) =>
+        make('th', typeof table.rows[0]?.cells[i] === 'number' ? { className: 'number' } : {}, c))));
     for (const row of table.rows) {
         const made = make('tr', {}, ...row.cells.map((cell) =>
             make('td', typeof cell === 'number' ? { className: 'number' } : {},

@@ -7,7 +7,7 @@ const check = (text, checked, data, ...before) => make('label', {},
 
 /// A class has a switch where something has its color.
 const used = (scene) => {
-    const there = new Set([...scene.lines.map((l) => l.class), ...scene.labels.map((l) => l.class)]);
+    const there = new Set([...scene.lines.filter((l) => l.count).map((l) => l.class), ...scene.labels.map((l) => l.class)]);
     for (const { kinds } of [...scene.meshes, ...scene.dots]) for (const kind of kinds) there.add(kind);
     return there;
 };

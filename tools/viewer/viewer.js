@@ -88,6 +88,7 @@ const show = (canvas, renderer) => {
     };
 
     // ---- what is at a pixel ----
+    const contexts = scene.classes.filter((c) => c.context).length;
     const picked = find('.picked');
     const forget = () => {
         picked.replaceChildren();
@@ -99,7 +100,7 @@ const show = (canvas, renderer) => {
         if (item.arrow) return item.name;
         const kind = scene.classes[item.kinds ? item.kinds[sort === 'face' ? 3 * row : row] : item.class];
         const number = item.numbers[row];
-        const words = [kind.context ? '' : kind.name, item.groups?.[row] >= 0 ? `${item.group_word} ${item.groups[row]}` : ''];
+        const words = [kind.context && contexts < 2 ? '' : kind.name, item.groups?.[row] >= 0 ? `${item.group_word} ${item.groups[row]}` : ''];
         picked.dataset.number = number;
         let at = null, value = null;
         if (sort === 'face') {
