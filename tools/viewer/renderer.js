@@ -172,7 +172,7 @@ export class Renderer {
         const { gl, scene } = this;
         this.dots.set({ ...common });
         for (const dots of scene.dots.filter(shown)) {
-            this.dots.set({ base: dots.base, width: scale * (dots.width + (picking ? 6 : 0)) });
+            this.dots.set({ base: dots.base, width: scale * (dots.width * (dots.count < 3000 ? 1.6 : 1) + (picking ? 6 : 0)) });
             gl.bindVertexArray(dots.array);
             if (!dots.values) gl.vertexAttrib1f(2, noValue);
             gl.drawArrays(gl.POINTS, 0, dots.count);

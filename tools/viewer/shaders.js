@@ -36,7 +36,7 @@ void main() {
     if (through) { pixel = vec4(color, 0.3); return; }
     vec3 normal = normalize(cross(dFdx(ray), dFdy(ray)));
     float light = 0.45 + 0.55 * abs(dot(normal, normalize(ray)));
-    vec3 own = colored(color, at);
+    vec3 own = context == 1 ? colored(color, at) : color;  // findings keep their colors
     if (!gl_FrontFacing) light = cut ? 0.55 : 0.72 * light;
     vec3 wide = fwidth(corner);
     vec3 near = smoothstep(vec3(0.0), 1.2 * wide, corner);
@@ -76,7 +76,7 @@ out vec3 place; out float at; flat out vec3 color; flat out int id;
 void main() {
     vec4 own = entry(0, int(kind));
     gl_Position = own.a > 0.5 ? camera * vec4(position, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
-    gl_Position.z -= 0.0006 * gl_Position.w;
+    gl_Position.z -= 0.002 * gl_Position.w;
     gl_PointSize = width; place = position; at = value; color = own.rgb; id = base + gl_VertexID;
 }`, `
 in vec3 place; in float at; flat in vec3 color; flat in int id;${fragment}${mapColor}
