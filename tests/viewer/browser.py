@@ -18,7 +18,7 @@ CHROMIUM = shutil.which(os.environ.get("CHROMIUM", "chromium"))
 
 
 class Browser:
-    def __init__(self, width=1200, height=900):
+    def __init__(self, width=900, height=640):
         self.profile = tempfile.mkdtemp(prefix="treeform-browser-")
         (ours_in, its_out), (its_in, ours_out) = os.pipe(), os.pipe()
         # The browser has its ends as 3 and 4.

@@ -179,7 +179,8 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     scene shown = scene_of(work, "tf-place");
     shown.title = work.name + ": " + name_of(p.settings.mode);
     shown.verdict = sentence(p);
-    shown.good = static_cast<bool>(p.at);
+    shown.good = p.at && (!p.aligned || p.aligned->converged) &&
+                 p.at.at_place != tf::standing::penetrating;
     shown.classes = classes_of(p);
     const tf::prepared_mesh& shape = p.moving.shapes[0];
     const tf::points_view before = shape.view().points;

@@ -6,7 +6,10 @@
 #include <treeform/tf.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <span>
+#include <vector>
 
 namespace tools {
 namespace {
@@ -28,24 +31,44 @@ std::vector<scene_class> classes_of(const findings& result) {
     return classes;
 }
 
-void add_mesh(scene& shown, const findings& result) {
+void add_mesh(scene& shown, const findings& result, std::span<const tf::curve_segment> segments) {
     scene_mesh mesh{.mesh = result.part.mesh, .kind = result.marks.kind, .group_word = "region"};
     for (std::uint32_t f = 0; f < result.part.mesh.faces.size(); ++f)
         mesh.number.push_back(result.part.face_in_file(f));
     mesh.group.assign(result.marks.region.begin(), result.marks.region.end());
     shown.meshes.push_back(std::move(mesh));
     scene_lines curves{.kind = curve_class};
-    for (const tf::curve_segment& segment :
-         tf::intersection_curves(result.part.mesh, result.found.pairs))
-        curves.ends.push_back(segment.ends);
+    for (const tf::curve_segment& segment : segments) curves.ends.push_back(segment.ends);
     shown.lines.push_back(std::move(curves));
+}
+
+/// [R] The boxes of curves: where long faces meet, rather than where they are.
+std::vector<tf::box3> places_of(const findings& result,
+                                std::span<const tf::curve_segment> segments) {
+    std::vector<std::optional<tf::box3>> boxes(result.regions.regions.size());
+    for (const tf::curve_segment& segment : segments) {
+        auto& box = boxes[result.regions.region_of_pair[segment.pair]];
+        for (const tf::point3& p : segment.ends) {
+            if (!box) box = {p, p};
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                box->min[axis] = std::min(box->min[axis], p[axis]);
+                box->max[axis] = std::max(box->max[axis], p[axis]);
+            }
+        }
+    }
+    std::vector<tf::box3> places;
+    for (std::size_t r = 0; r < boxes.size(); ++r) {
+        const tf::intersection_region& region = result.regions.regions[r];
+        places.push_back(boxes[r].value_or(tf::box3{region.min, region.max}));
+    }
+    return places;
 }
 
 void append(std::string& list, const std::string& word) {
     list += (list.empty() ? "" : ", ") + word;
 }
 
-scene_table regions_of(const findings& result) {
+scene_table regions_of(const findings& result, const std::vector<tf::box3>& places) {
     const std::size_t count = std::min(result.regions.regions.size(), most_regions);
     std::vector<std::set<std::string>> kinds(count);
     for (std::size_t i = 0; i < result.found.pairs.size(); ++i)
@@ -63,7 +86,7 @@ scene_table regions_of(const findings& result) {
         table.rows.push_back(
             {.cells = {id, kinds_text, region.pairs, region.faces.size(), in_words(region.center()),
                        in_words(region.min) + " to " + in_words(region.max), components},
-             .box = tf::box3{region.min, region.max}});
+             .box = places[id]});
     }
     if (result.regions.regions.size() > most_regions)
         table.note = "The first " + grouped(most_regions) + " of " +
@@ -96,8 +119,10 @@ void write_page(const job& work, const findings& result, const search_settings& 
     shown.good = result.found.pairs.empty();
     shown.place_word = "region";
     shown.classes = classes_of(result);
-    add_mesh(shown, result);
-    if (!result.regions.regions.empty()) shown.tables.push_back(regions_of(result));
+    const auto segments = tf::intersection_curves(result.part.mesh, result.found.pairs);
+    add_mesh(shown, result, segments);
+    if (!result.regions.regions.empty())
+        shown.tables.push_back(regions_of(result, places_of(result, segments)));
     add_facts(shown, result, settings);
     write_page(work, shown);
 }

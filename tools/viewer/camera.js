@@ -1,5 +1,5 @@
 // Where one looks from: a target, a distance, a turn about the vertical and a tilt.
-import { add, sub, dot, cross, center, corners, radius } from './vector.js';
+import { add, sub, dot, cross, center, corners, isEmpty, radius } from './vector.js';
 
 const opening = Math.tan(0.35);  // of half the height
 const right = Math.PI / 2;
@@ -79,7 +79,7 @@ export class Camera {
 /// then what was found, with some of what is around it.
 export const boxThatMatters = ({ whole, findings, area }) => {
     const all = 2 * radius(whole);
-    if (!(findings.low[0] <= findings.high[0]) || Math.sqrt(area) > 0.25 * all) return whole;
+    if (isEmpty(findings) || Math.sqrt(area) > 0.25 * all) return whole;
     const room = Math.max(2 * radius(findings), area / all);
     if (room > all / 4) return whole;
     return { low: findings.low.map((v) => v - room), high: findings.high.map((v) => v + room) };

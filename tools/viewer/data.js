@@ -128,11 +128,11 @@ const arrowMesh = (scene, arrow) => {
 };
 
 const boxAndArea = (scene) => {
-    const whole = emptyBox(), findings = emptyBox();
+    const whole = emptyBox(), faces = emptyBox(), marks = emptyBox();
     const context = (kind) => scene.classes[kind].context;
-    const put = (p, i, marked) => {
+    const put = (p, i, found) => {
         grow(whole, p[i], p[i + 1], p[i + 2]);
-        if (marked) grow(findings, p[i], p[i + 1], p[i + 2]);
+        if (found) grow(found, p[i], p[i + 1], p[i + 2]);
     };
     let area = 0;
     const samples = [];  // some of all points, to fit into the picture
@@ -140,23 +140,24 @@ const boxAndArea = (scene) => {
         const step = Math.max(1, Math.ceil(count / 2000));
         for (let i = 0; i < count; i += step) samples.push([p[3 * i], p[3 * i + 1], p[3 * i + 2]]);
     };
-    for (const { positions: p, kinds, faces, ghost } of scene.meshes)
-        for (let f = 0; f < faces; ++f) {
-            const i = 9 * f, marked = !ghost && !context(kinds[3 * f]);
-            for (let k = 0; k < 9; k += 3) put(p, i + k, marked);
+    for (const { positions: p, kinds, faces: count, ghost } of scene.meshes)
+        for (let f = 0; f < count; ++f) {
+            const i = 9 * f, found = !ghost && !context(kinds[3 * f]) && faces;
+            for (let k = 0; k < 9; k += 3) put(p, i + k, found);
             const ux = p[i + 3] - p[i], uy = p[i + 4] - p[i + 1], uz = p[i + 5] - p[i + 2];
             const vx = p[i + 6] - p[i], vy = p[i + 7] - p[i + 1], vz = p[i + 8] - p[i + 2];
             area += Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
         }
-    for (const { positions, faces } of scene.meshes) sample(positions, 3 * faces);
+    for (const { positions, kinds } of scene.meshes) sample(positions, kinds.length);
     for (const { positions, count } of scene.lines) sample(positions, 2 * count);
     for (const { positions, count } of scene.dots) sample(positions, count);
     for (const { positions, count, class: kind } of scene.lines)
-        for (let i = 0; i < 2 * count; ++i) put(positions, 3 * i, !context(kind));
+        for (let i = 0; i < 2 * count; ++i) put(positions, 3 * i, !context(kind) && marks);
     for (const { positions, count, kinds } of scene.dots)
-        for (let i = 0; i < count; ++i) put(positions, 3 * i, !context(kinds[i]));
+        for (let i = 0; i < count; ++i) put(positions, 3 * i, !context(kinds[i]) && marks);
     if (isEmpty(whole)) grow(whole, 0, 0, 0);
-    Object.assign(scene, { whole, findings, area, samples });
+    // Faces that meet may be long; where they meet is what one looks for.
+    Object.assign(scene, { whole, findings: isEmpty(marks) ? faces : marks, area, samples });
 };
 
 export const readScene = (json, base64) => {

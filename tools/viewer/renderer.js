@@ -163,6 +163,7 @@ export class Renderer {
         gl.depthFunc(gl.GREATER);  // what was found shines through what hides it
         this.faces.set({ through: true });
         faces(false);
+        this.drawDots({ ...common, through: true, alpha: 0.35 }, shown, scale, false);
         gl.depthFunc(gl.LESS);
         gl.depthMask(true);
         gl.disable(gl.BLEND);

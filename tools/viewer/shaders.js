@@ -72,16 +72,19 @@ void main() {
 
 export const dotShaders = [`
 in vec3 position; in float kind; in float value; uniform float width;${common}
-out vec3 place; out float at; flat out vec3 color; flat out int id;
+out vec3 place; out float at; flat out vec3 color; flat out int id; flat out int context;
 void main() {
+    context = entry(1, int(kind)).r > 0.5 ? 1 : 0;
     vec4 own = entry(0, int(kind));
     gl_Position = own.a > 0.5 ? camera * vec4(position, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
     gl_Position.z -= 0.002 * gl_Position.w;
     gl_PointSize = width; place = position; at = value; color = own.rgb; id = base + gl_VertexID;
 }`, `
-in vec3 place; in float at; flat in vec3 color; flat in int id;${fragment}${mapColor}
+in vec3 place; in float at; flat in vec3 color; flat in int id; flat in int context;
+uniform bool through; uniform float alpha;${fragment}${mapColor}
 void main() {
     vec2 off = 2.0 * gl_PointCoord - 1.0;
+    if (through && context == 1) discard;
     if (dot(off, off) > 1.0 || dot(plane.xyz, place) > plane.w) discard;
-    pixel = picking ? name(id) : vec4(colored(color, at) * (1.0 - 0.35 * dot(off, off)), 1.0);
+    pixel = picking ? name(id) : vec4(colored(color, at) * (1.0 - 0.35 * dot(off, off)), alpha);
 }`];
