@@ -53,7 +53,6 @@ class Usage(BooleanTest):
             self.refused("union", *both, "-o", "out.obj", *options)
 
     def test_what_is_not_there_is_refused_plainly(self):
-        self.refused("union", "a.obj", "--html", "out.html")
 
     def test_common_options_are_taken(self):
         run = self.run_tool("union", "a.obj", "b.obj", "-o", "out", "--output-format", "ply",

@@ -28,24 +28,17 @@ std::vector<side> sides_of(tf::mesh_view mesh) {
     return sides;
 }
 
-/// Calls `visit` with the sides of each edge.
-template <class Visit>
-void visit_edges(const std::vector<side>& sides, const Visit& visit) {
-    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-        while (end < sides.size() && sides[end].a == sides[i].a && sides[end].b == sides[i].b)
-            ++end;
-        visit(std::span(sides).subspan(i, end - i));
-    }
-}
-
 }  // namespace
 
 open_edges find_open_edges(tf::mesh_view given) {
     const tf::mesh mesh = tf::join_meshes({&given, 1}).mesh;
+    const std::vector<side> sides = sides_of(mesh);
     std::vector<side> open;
-    visit_edges(sides_of(mesh), [&](std::span<const side> edge) {
-        if (edge.size() == 1) open.push_back(edge.front());
-    });
+    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+        while (end < sides.size() && sides[end].a == sides[i].a && sides[end].b == sides[i].b)
+            ++end;
+        if (end - i == 1) open.push_back(sides[i]);
+    }
     std::sort(open.begin(), open.end(),
               [](const side& x, const side& y) { return x.face < y.face; });
     std::vector<std::uint32_t> root(mesh.points.size());
@@ -64,18 +57,6 @@ open_edges find_open_edges(tf::mesh_view given) {
         result.ends.push_back({mesh.points[s.a], mesh.points[s.b]});
         result.hole.push_back(hole);
     }
-    return result;
-}
-
-std::vector<scene_segment> edges_between(tf::mesh_view given,
-                                         std::span<const std::uint32_t> label) {
-    const tf::mesh mesh = tf::join_meshes({&given, 1}).mesh;
-    std::vector<scene_segment> result;
-    visit_edges(sides_of(mesh), [&](std::span<const side> edge) {
-        const auto differs = [&](const side& s) { return label[s.face] != label[edge[0].face]; };
-        if (std::any_of(edge.begin(), edge.end(), differs))
-            result.push_back({mesh.points[edge[0].a], mesh.points[edge[0].b]});
-    });
     return result;
 }
 

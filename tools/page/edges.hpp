@@ -1,13 +1,12 @@
 #pragma once
 /// \file
-/// Lines of pages: where a surface ends, and where what its faces are of changes.
+/// Lines of pages: where a surface ends.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace tools {
@@ -26,9 +25,5 @@ struct open_edges {
 /// \pre  coordinates of faces are finite
 /// \cost O(V + F log F)
 [[nodiscard]] open_edges find_open_edges(tf::mesh_view mesh);
-
-/// The edges between faces with different labels.
-[[nodiscard]] std::vector<scene_segment> edges_between(tf::mesh_view mesh,
-                                                       std::span<const std::uint32_t> label);
 
 }  // namespace tools

@@ -9,11 +9,11 @@
 namespace tools {
 namespace {
 
-/// A script element ends at the first "</": JSON may write the slash with a backslash.
+/// No "<" in it can end or nest a script element: JSON may write one as a number.
 std::string as_script_data(const json& data) {
     std::string text = data.dump(-1, ' ', true, json::error_handler_t::replace);
-    for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
-        text.insert(at + 1, 1, '\\');
+    for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
+        text.replace(at, 1, "\\u003c");
     return text;
 }
 
