@@ -51,7 +51,6 @@ window.only = (kinds) => {
         const wanted = kinds === null || kinds.includes(Number(input.dataset.class));
         if (input.checked !== wanted) input.click();
     });
-    viewer.draw();
 };
 window.drawn = (kind) => {
     viewer.draw();

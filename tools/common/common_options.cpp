@@ -166,8 +166,6 @@ void add_common_options(command_line& line, common_options& target,
     line.output(o.report, {"-r, --report", "FILE", "JSON report; \"-\" = stdout"});
     if (features.page)
         line.output(o.html, {"--html", "FILE", "self-contained HTML page with a 3D view"});
-    else
-        line.refuse("--html", true, "makes no sense here");
     add_run_options(line, o);
 }
 

@@ -171,6 +171,82 @@ void add_contacts(scene& shown, const placing& p) {
                           .width = 6.0});
 }
 
+/// The map of distances, and the value of each point.
+std::vector<double> add_map(scene& shown, const placing& p, const tf::deviation_result& r) {
+    std::vector<double> values = r.distances;
+    if (p.settings.mode == place_mode::measure || p.settings.mode == place_mode::fit) {
+        add_deviation(shown, p, r);
+        return values;
+    }
+    add_clearance(shown, p, r);
+    for (double& v : values) v = std::abs(v);
+    return values;
+}
+
+/// How faces lie; where there is no place, where they are.
+tf::contact_classes classes_at(const placing& p) {
+    if (p.fixed.shapes.empty() || p.settings.mode == place_mode::fit) return {};
+    const tf::prepared_mesh& shape = p.moving.shapes[0];
+    const double clearance = p.used(p.settings.clearance);
+    return tf::classify_contacts(
+        shape, p.fixed.shapes,
+        p.at ? p.at : tf::measure_among(shape, p.fixed.shapes, {.clearance = clearance}));
+}
+
+/// Parts in the colors of their files, with their names above.
+void add_parts(scene& shown, const tf::body_set& parts, const tf::packing& found,
+               std::span<const std::string> labels, std::uint8_t no_place) {
+    scene_table table{.title = "Parts", .columns = {"part", "file", "plate", "place"}};
+    for (std::size_t i = 0; i < parts.bodies.size(); ++i) {
+        const tf::packed_part& at = found.parts[i];
+        const tf::body_file& file = parts.file_of(i);
+        const auto number = std::min<std::size_t>(
+            static_cast<std::size_t>(std::ranges::find(labels, file.label) - labels.begin()),
+            labels.size() - 1);
+        const std::uint8_t kind = at.placed ? static_cast<std::uint8_t>(number) : no_place;
+        scene_mesh mesh{.mesh = {at.points, parts.shapes[i].view().faces},
+                        .kind = {kind},
+                        .name = parts.label(i),
+                        .ghost = !at.placed};
+        for (std::uint32_t f = 0; f < mesh.mesh.faces.size(); ++f)
+            mesh.number.push_back(parts.stored_face(i, f));
+        shown.meshes.push_back(std::move(mesh));
+        const tf::box3 box = tf::bounding_box(at.points).value_or(tf::box3{});
+        tf::point3 top = center_of(box);
+        top.z = box.max.z;
+        shown.labels.push_back({top, stem_of(file.label), kind});
+        table.rows.push_back({.cells = {i, file.label, at.placed ? json(at.plate) : json("none"),
+                                        in_words(box.min) + " to " + in_words(box.max)},
+                              .box = box});
+    }
+    shown.tables.push_back(std::move(table));
+}
+
+/// The rims of plates, and with a height their boxes.
+void add_plates(scene& shown, const tf::pack_options& options, const tf::packing& found,
+                std::uint8_t kind) {
+    scene_lines rim{.kind = kind};
+    for (unsigned k = 0; k < std::max(found.plates_used, 1U); ++k) {
+        const double x = options.corner.x + k * options.plate_step.x;
+        const double y = options.corner.y + k * options.plate_step.y;
+        const double z = found.bed, height = options.size.z;
+        const std::array<tf::point3, 4> corners{{{x, y, z},
+                                                 {x + options.size.x, y, z},
+                                                 {x + options.size.x, y + options.size.y, z},
+                                                 {x, y + options.size.y, z}}};
+        const auto above = [&](tf::point3 p) { return tf::point3{p.x, p.y, p.z + height}; };
+        for (std::size_t i = 0; i < 4; ++i) {
+            const tf::point3 &a = corners[i], &b = corners[(i + 1) % 4];
+            rim.ends.push_back({a, b});
+            if (!std::isfinite(height)) continue;
+            rim.ends.push_back({a, above(a)});
+            rim.ends.push_back({above(a), above(b)});
+        }
+        shown.labels.push_back({corners[0], "plate " + std::to_string(k), kind});
+    }
+    shown.lines.push_back(std::move(rim));
+}
+
 }  // namespace
 
 void write_page(job& work, const placing& p, const tf::deviation_result* known) {
@@ -179,8 +255,8 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     scene shown = scene_of(work, "tf-place");
     shown.title = work.name + ": " + name_of(p.settings.mode);
     shown.verdict = sentence(p);
-    shown.good = p.at && (!p.aligned || p.aligned->converged) &&
-                 p.at.at_place != tf::standing::penetrating;
+    shown.good =
+        p.at && (!p.aligned || p.aligned->converged) && p.at.at_place != tf::standing::penetrating;
     shown.classes = classes_of(p);
     const tf::prepared_mesh& shape = p.moving.shapes[0];
     const tf::points_view before = shape.view().points;
@@ -191,25 +267,9 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     std::optional<tf::deviation_result> found;
     if (p.at && known == nullptr) found = find_distances(work, p, points);
     if (found) known = &*found;
-    const bool deviates = measures || p.settings.mode == place_mode::fit;
     std::vector<double> values;
-    if (known != nullptr) {
-        values = known->distances;
-        if (deviates)
-            add_deviation(shown, p, *known);
-        else
-            add_clearance(shown, p, *known);
-        if (!deviates)
-            for (double& v : values) v = std::abs(v);
-    }
-    tf::contact_classes classes;
-    if (!p.fixed.shapes.empty() && p.settings.mode != place_mode::fit) {
-        // Where there is no place, what is in the way where it is.
-        const double clearance = p.used(p.settings.clearance);
-        const tf::placement here =
-            p.at ? p.at : tf::measure_among(shape, p.fixed.shapes, {.clearance = clearance});
-        classes = tf::classify_contacts(shape, p.fixed.shapes, here);
-    }
+    if (known != nullptr) values = add_map(shown, p, *known);
+    const tf::contact_classes classes = classes_at(p);
     add_body(shown, p.moving, 0, points, moving, classes.moving, std::move(values));
     const tf::box3 from = tf::bounding_box(before).value_or(tf::box3{});
     const tf::box3 to = tf::bounding_box(points).value_or(tf::box3{});
@@ -230,7 +290,6 @@ void write_page(job& work, const place_settings& settings, const tf::body_set& p
                 const tf::packing& found) {
     if (work.options.html.empty()) return;
     const auto timing = work.time("write");
-    const tf::pack_options options = pack_options_of(settings.arrange);
     scene shown = scene_of(work, "tf-place");
     shown.title = work.name + ": arrange";
     shown.verdict = found.message();
@@ -246,50 +305,8 @@ void write_page(job& work, const place_settings& settings, const tf::body_set& p
     const auto plate = static_cast<std::uint8_t>(labels.size() + 1);
     shown.classes.push_back({"without a place", "#7d8590", {}, true});
     shown.classes.push_back({"plates", "#10131a"});
-    scene_table table{.title = "Parts", .columns = {"part", "file", "plate", "place"}};
-    for (std::size_t i = 0; i < parts.bodies.size(); ++i) {
-        const tf::packed_part& at = found.parts[i];
-        const tf::body_file& file = parts.file_of(i);
-        const auto own = static_cast<std::uint8_t>(std::min<std::size_t>(
-            static_cast<std::size_t>(std::ranges::find(labels, file.label) - labels.begin()),
-            labels.size() - 1));
-        scene_mesh mesh{.mesh = {at.points, parts.shapes[i].view().faces},
-                        .kind = {at.placed ? own : no_place},
-                        .name = parts.label(i),
-                        .ghost = !at.placed};
-        for (std::uint32_t f = 0; f < mesh.mesh.faces.size(); ++f)
-            mesh.number.push_back(parts.stored_face(i, f));
-        shown.meshes.push_back(std::move(mesh));
-        const tf::box3 box = tf::bounding_box(at.points).value_or(tf::box3{});
-        tf::point3 top = center_of(box);
-        top.z = box.max.z;
-        shown.labels.push_back({top, stem_of(file.label), at.placed ? own : no_place});
-        table.rows.push_back({.cells = {i, file.label, at.placed ? json(at.plate) : json("none"),
-                                        in_words(box.min) + " to " + in_words(box.max)},
-                              .box = box});
-    }
-    scene_lines rim{.kind = plate};
-    for (unsigned k = 0; k < std::max(found.plates_used, 1U); ++k) {
-        const double x = options.corner.x + k * options.plate_step.x;
-        const double y = options.corner.y + k * options.plate_step.y;
-        const double z = found.bed;
-        const std::array<tf::point3, 4> corners{{{x, y, z},
-                                                 {x + options.size.x, y, z},
-                                                 {x + options.size.x, y + options.size.y, z},
-                                                 {x, y + options.size.y, z}}};
-        for (std::size_t i = 0; i < 4; ++i) {
-            rim.ends.push_back({corners[i], corners[(i + 1) % 4]});
-            if (!std::isfinite(options.size.z)) continue;
-            tf::point3 above = corners[i], next = corners[(i + 1) % 4];
-            above.z += options.size.z;
-            next.z += options.size.z;
-            rim.ends.push_back({corners[i], above});
-            rim.ends.push_back({above, next});
-        }
-        shown.labels.push_back({corners[0], "plate " + std::to_string(k), plate});
-    }
-    shown.lines.push_back(std::move(rim));
-    shown.tables.push_back(std::move(table));
+    add_parts(shown, parts, found, labels, no_place);
+    add_plates(shown, pack_options_of(settings.arrange), found, plate);
     shown.place_word = "part";
     write_page(work, shown);
 }
