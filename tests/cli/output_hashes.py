@@ -117,6 +117,7 @@ inside=odd             pairs   union {a} {b} --matrix 2:{m} --inside odd -o out.
 inside=positive        pairs   difference {a} {b} --matrix 2:{m} --inside positive -o out.ply \
                                --max-move 0
 check/pair             pairs   --check {a} {b} --matrix 2:{m}
+page                   pairs   union {a} {b} --matrix 2:{m} -n --html page.html
 dry                    pairs   xor {a} {b} -n
 self/stl               all     union {f} -o out.stl
 self/ply               small   union {f} -o out.ply --precision double
@@ -356,7 +357,7 @@ tf-boolean union made/box.obj --matrix 2:m.txt -n
 tf-boolean union made/box.obj --matrix 1:none.txt -n
 tf-boolean union made/box.obj --matrix 1:made/flat.txt -n
 tf-boolean --check made/box.obj -o out.obj | tf-boolean split made/box.obj --simplify -n
-tf-boolean union made/box.obj --source s -o out.stl | tf-boolean union made/box.obj --html out.html
+tf-boolean union made/box.obj --source s -o out.stl
 tf-boolean union made/box.obj --in-place | tf-boolean union made/box.obj -o no/out.stl
 tf-boolean union made/box.obj --curves out.stl -n | tf-boolean union - - -n
 tf-boolean union made/open.obj -o out.stl

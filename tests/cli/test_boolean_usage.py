@@ -52,9 +52,6 @@ class Usage(BooleanTest):
                         ["--matrix", "1:m.txt", "--matrix", "1:n.txt"]):
             self.refused("union", *both, "-o", "out.obj", *options)
 
-    def test_what_is_not_there_is_refused_plainly(self):
-        self.refused("union", "a.obj", "--html", "out.html")
-
     def test_common_options_are_taken(self):
         run = self.run_tool("union", "a.obj", "b.obj", "-o", "out", "--output-format", "ply",
                             "--ascii", "--precision", "double", "--units", "mm", "--format", "obj",

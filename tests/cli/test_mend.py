@@ -285,7 +285,7 @@ class Mend(ToolTest):
                         ["--gap", "1", "--no-join", "-n"], ["--strays", "120%", "-n"],
                         ["--max-loss", "-1", "-n"], ["--inside", "even", "-n"],
                         ["--holes", "3", "--sheet", "-n"], ["--source", "s", "-o", "out.stl"],
-                        ["--html", "out.html", "-n"], ["--curves", "out.stl", "-n"],
+                        ["--curves", "out.stl", "-n"],
                         ["--inside", "odd", "--no-resolve", "-n"], ["-o", "out.xyz"]):
             with self.subTest(options=options):
                 run = self.run_tool(part, *options, status=2)

@@ -187,14 +187,13 @@ class Outputs(ToolTest):
 class TextOfPage(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()
-        self.open, self.scripts, self.rows, self.links = None, {}, 0, []
+        self.open, self.scripts, self.links = None, {}, []
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
         if tag == "script":
             self.open = attributes.get("id", "code")
-        self.rows += tag == "tr" and "data-low" in attributes
         self.links += [v for k, v in attributes.items() if k in ("src", "href")]
 
     def handle_endtag(self, tag):
@@ -221,23 +220,26 @@ class Page(ToolTest):
         text, page = self.page(write(self.path("part.obj"), together(TWO_CUBES, PIERCE)))
         self.assertIn("self-intersecting pairs of 26 faces", text)
         scene = json.loads(page.scripts["scene"])
-        self.assertEqual((scene["faces"], scene["points"]), (26, 21))
-        self.assertGreater(scene["segments"], 0)
-        self.assertEqual(page.rows, len(self.report(self.path("part.obj"))["files"][0]["regions"]))
+        mesh = scene["meshes"][0]
+        self.assertEqual((mesh["faces"], mesh["points"]), (26, 21))
+        self.assertGreater(scene["lines"][0]["count"], 0)
+        self.assertEqual(len(scene["tables"][0]["rows"]), len(self.report(self.path("part.obj"))["files"][0]["regions"]))
 
     def test_the_legend_says_what_it_counts(self):
         text, page = self.page(write(self.path("part.obj"), together(TWO_CUBES, PIERCE)))
         counts = self.report(self.path("part.obj"))["files"][0]
-        self.assertIn(f">other ({26 - counts['faces_hit']} faces)<", text.replace("</span>", ">"))
-        self.assertIn(f"crossing ({counts['pairs']['crossing']} pairs)", text)
-        self.assertIn("pierce (1 pair)", text)
+        legend = {c["name"]: c["count"] for c in json.loads(page.scripts["scene"])["classes"]}
+        self.assertEqual(legend["other"], f"{26 - counts['faces_hit']} faces")
+        self.assertEqual(legend["crossing"], f"{counts['pairs']['crossing']} pairs")
+        self.assertEqual(legend["pierce"], "1 pair")
 
     def test_components_are_in_the_order_of_their_numbers(self):
         bar = ([(-1, 0.25, 0.25), (40, 0.25, 0.25), (40, 0.75, 0.25), (-1, 0.5, 0.75)],
                [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
         cubes = [cube((3 * i, 0, 0)) for i in range(12)]
         text, page = self.page(write(self.path("part.obj"), together(*cubes, bar)))
-        self.assertIn("<td>" + ", ".join(map(str, range(13))) + "</td>", text)
+        row = json.loads(page.scripts["scene"])["tables"][0]["rows"][0]
+        self.assertEqual(row["cells"][-1], ", ".join(map(str, range(13))))
         regions = self.report(self.path("part.obj"))["files"][0]["regions"]
         self.assertEqual([r["components"] for r in regions], [list(range(13))])
 
@@ -255,19 +257,19 @@ class Page(ToolTest):
                 value, scale = 0, 1
         stream = iter(numbers)
         last, points = [0, 0, 0], []
-        for _ in range(scene["points"]):
+        for _ in range(scene["meshes"][0]["points"]):
             last = [v + next(stream) for v in last]
             points.append([low + v * scene["step"] for low, v in zip(scene["low"], last)])
         corner = number = 0
-        for expected in range(scene["faces"]):
+        for expected in range(scene["meshes"][0]["faces"]):
             triangle = []
             for _ in range(3):
                 corner += next(stream)
                 triangle.append(points[corner])
             number += next(stream)
             self.assertEqual(number, expected)
-            if next(stream):
-                next(stream)
+            kind, region = next(stream), next(stream)
+            self.assertEqual(region, 0 if kind else -1)
             for got, vertex in zip(triangle, mesh[1][number]):
                 for a, b in zip(got, mesh[0][vertex]):
                     self.assertAlmostEqual(a, b, delta=1e-6)
@@ -282,8 +284,8 @@ class Page(ToolTest):
         mesh = together(grid(360), ([(3.2, 3.3, -1), (3.2, 3.3, 1), (3.4, 3.3, 1)], [(0, 1, 2)]))
         text, page = self.page(write(self.path("part.stl"), mesh))
         scene = json.loads(page.scripts["scene"])
-        self.assertLess(scene["faces"], 201_000)
-        self.assertIn("Not drawn, to keep the page light", text)
+        self.assertLess(scene["meshes"][0]["faces"], 201_000)
+        self.assertGreater(scene["left_out"][0]["count"], 50_000)
         self.assertLess(len(text), 4_000_000)
 
 

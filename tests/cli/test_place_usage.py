@@ -85,7 +85,6 @@ class Usage(PlaceTest):
                      ("--metric", "point"), ("--weights", "welsch")):
             self.refused("measure", "a.obj", *fixed, *fits)
         self.refused("fit", "a.obj", *fixed, *fixed)
-        self.refused("drop", "a.obj", "--html", "out.html")
 
     def test_a_run_that_gives_nothing_back_is_refused(self):
         self.assertIn("-o FILE", self.refused("drop", "a.obj"))

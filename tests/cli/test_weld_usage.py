@@ -25,7 +25,7 @@ class Usage(WeldTest):
                      "--removed", "--label", "--withhold", "--check", "--keep-degenerate",
                      "--keep-manifold", "--in-place"):
             self.assertIn(word, run.text)
-        self.assertNotIn("--html", run.text)
+        self.assertIn("--html FILE", run.text)
 
     def test_version_names_tool_and_build(self):
         self.assertRegex(self.run_tool("--version", status=0).text,
@@ -105,8 +105,9 @@ class Usage(WeldTest):
         self.assertIn("no points without faces", self.run_tool("in.xyz", "-o", "out.stl",
                                                                 status=4).err)
 
-    def test_pages_are_refused_with_a_reason(self):
-        self.assertIn("makes no sense here", self.refused("in.xyz", "--html", "out.html"))
+    def test_pages_are_not_made_in_tiles(self):
+        self.assertIn("--html needs the whole cloud in memory",
+                      self.refused("in.xyz", "--tile-points", "2", "--html", "out.html", "-n"))
 
 
 if __name__ == "__main__":

@@ -5,13 +5,13 @@
 
 std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
     static constexpr std::array<tool_command, 8> all{{
-        {"union @in @other -o @out.ply -r @report.json --curves @curves.obj", kept_promise::solid},
+        {"union @in @other -o @out.ply -r @report.json --html @page.html", kept_promise::solid},
         {"intersection @other @in -o @out.obj --curves @curves.ply", kept_promise::solid},
         {"difference @in @other -o @out.off --simplify", kept_promise::solid},
         {"difference @other @in -o @out.stl --precision float -r @report.json",
          kept_promise::solid},
         {"xor @in @other -o @out.ply --inside odd --no-attributes", kept_promise::solid},
-        {"split @in @other -o @out.glb", kept_promise::clean},
+        {"split @in @other -o @out.glb --html @page.html", kept_promise::clean},
         {"intersection @in @other --accept-open -o @out.ply -r @report.json"},
         {"union @in -o @out.ply --inside positive --precision float", kept_promise::solid},
     }};

@@ -8,12 +8,12 @@ std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
         {"drop @in -o @out.ply --matrix @matrix.txt"},
         {"drop @in --fixed @other -o @out.stl --precision float -r @report.json"},
         {"lay @in -o @out.obj"},
-        {"slide @in --fixed @other -d 1,0.5,0 --clearance 0.01 -o @out.glb --scene"},
+        {"slide @in --fixed @other -d 1,0.5,0 --clearance 0.01 --html @page.html"},
         {"mate @other --fixed @in -o @out.off --matrix @matrix.txt"},
         {"clear @in --fixed @other -o @out.ply -r @report.json"},
-        {"arrange @in @other -o @out.ply --size 100,100 --matrix @matrix.txt"},
+        {"arrange @in @other -o @out.ply --size 100,100 --html @page.html"},
         {"fit @in --fixed @other -o @out.xyz --matrix @matrix.txt"},
-        {"measure @in --fixed @other -o @out.ply -r @report.json"},
+        {"measure @in --fixed @other --html @page.html -r @report.json"},
     }};
     return all;
 }

@@ -5,7 +5,7 @@
 
 std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
     static constexpr std::array<tool_command, 9> all{{
-        {"@in -o @out.ply -r @report.json --curves @curves.obj", kept_promise::solid},
+        {"@in -o @out.ply -r @report.json --html @page.html", kept_promise::solid},
         {"@in -o @out.stl --accept-loss", kept_promise::solid},
         {"@in -o @out.obj --gap 1% --strays 50% --max-loss 100%", kept_promise::solids},
         {"@in -o @out.3mf --inside nonzero --accept-loss -r @report.json", kept_promise::solids},
@@ -13,7 +13,7 @@ std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
         {"@in -o @out.glb --inside odd --no-join --holes 10", kept_promise::solid},
         {"@in -o @out.ply --source from --no-orient --no-detach", kept_promise::solid},
         {"@in --wrap 15% -o @out.stl -r @report.json", kept_promise::solid},
-        {"@in --check -r @report.json --curves @curves.ply"},
+        {"@in --check --html @page.html --curves @curves.ply"},
     }};
     return all;
 }

@@ -111,6 +111,7 @@ std::optional<int> run_assembly(int argc, const char* const* argv) {
     line.group("Common options");
     common_features features;
     features.one_result = true;
+    features.page = false;
     if (clash) features.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"};
     add_common_options(line, options, features);
     line.refuse("--html", true, "makes no sense here");

@@ -3,7 +3,6 @@
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
 #include "tools/common/parse_value.hpp"
-#include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/write.hpp>
 
@@ -126,12 +125,11 @@ void add_deviation_options(command_line& line, deviation_settings& settings) {
 
 exit_status enter_measured(job& work, const deviation_settings& settings,
                            const tf::body_set& moving, const tf::body_set& fixed,
-                           const tf::placement& at) {
+                           const tf::placement& at, std::optional<tf::deviation_result>& found) {
     enter_points(work, moving, fixed);
     enter_depth(work, moving, fixed, at);
     if (!settings.wanted()) return done;
     check_output(settings.distances, work.options.force);
-    std::optional<tf::deviation_result> found;
     {
         const auto timing = work.time("search");
         found = tf::deviation(moving.shapes[0], fixed.shapes,

@@ -6,6 +6,7 @@
 #include "tools/common/command_line.hpp"
 #include "tools/common/exit_status.hpp"
 #include "tools/common/run.hpp"
+#include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/tf.hpp>
 
@@ -25,9 +26,11 @@ struct deviation_settings {
 void add_deviation_options(command_line& line, deviation_settings& settings);
 
 /// Enters depth, points inside and deviation, where there are any or they are asked for, says them,
-/// and writes the distances. \returns found where a point is out of the tolerance band
+/// and writes the distances. `found` is the deviation, where it was asked for.
+/// \returns found where a point is out of the tolerance band
 [[nodiscard]] exit_status enter_measured(job& work, const deviation_settings& settings,
                                          const tf::body_set& moving, const tf::body_set& fixed,
-                                         const tf::placement& at);
+                                         const tf::placement& at,
+                                         std::optional<tf::deviation_result>& found);
 
 }  // namespace tools

@@ -164,6 +164,8 @@ void add_common_options(command_line& line, common_options& target,
             o.unit = one_of("--units", value, {"mm", "cm", "m", "in", "ft"});
         });
     line.output(o.report, {"-r, --report", "FILE", "JSON report; \"-\" = stdout"});
+    if (features.page)
+        line.output(o.html, {"--html", "FILE", "self-contained HTML page with a 3D view"});
     add_run_options(line, o);
 }
 

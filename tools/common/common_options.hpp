@@ -53,6 +53,7 @@ struct common_options {
 struct common_features {
     std::vector<std::string> output_formats;  ///< extensions; empty: writes no mesh
     bool one_result = false;                  ///< of all inputs: then --output-dir makes none
+    bool page = true;                         ///< --html
 };
 
 /// What most tools read.

@@ -61,6 +61,7 @@ void check_outputs(const job& work, std::initializer_list<std::filesystem::path>
         if (!path.empty()) check_output(path, o.force);
     };
     std::for_each(always.begin(), always.end(), check);
+    check(o.html);
     if (o.dry_run) return;
     std::for_each(also.begin(), also.end(), check);
     if (const auto path = mesh_output(o, work.path)) check_output(*path, o.force || o.in_place);

@@ -148,15 +148,19 @@ exit_status check_only(tools::job& work, const std::vector<tools::solid>& solids
     const std::size_t open = open_ones.size();
     tools::warn_of_open(work, solids, open_ones);
     const char* const sound = solids.size() == 1 ? "bounds a solid" : "all bound solids";
-    work.out.result(work.name + ": " + (open == 0 ? sound : open_in_words(open, solids.size())));
+    const std::string verdict = open == 0 ? sound : open_in_words(open, solids.size());
+    work.out.result(work.name + ": " + verdict);
+    tools::write_page(work, solids, verdict, open == 0);
     return open == 0 ? tools::done : tools::found;
 }
 
 exit_status refuse_open(tools::job& work, const std::vector<tools::solid>& solids,
                         const std::vector<std::uint32_t>& open, const std::string& remark) {
     tools::warn_of_open(work, solids, open);
-    work.out.result(work.name + ": " + open_in_words(open.size(), solids.size()) + "; " + remark +
-                    "nothing written");
+    const std::string verdict =
+        open_in_words(open.size(), solids.size()) + "; " + remark + "nothing written";
+    work.out.result(work.name + ": " + verdict);
+    tools::write_page(work, solids, verdict, false);
     return tools::found;
 }
 
@@ -185,6 +189,8 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
     tools::enter_result(work, result, bounds_solid);
     work.out.result(work.name + ": " + tools::verdict(work, s, result));
     tools::write_curves(work, s, solids);
+    tools::write_page(work, solids, tools::verdict(work, s, result),
+                      static_cast<bool>(result.certificate), &result);
     tools::say_details(work, result);
     tools::warn_of_surprises(work, s, solids, result);
     if (!result.certificate) {
@@ -224,7 +230,6 @@ int main(int argc, char** argv) {
     tools::add_common_options(
         line, options,
         {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"}, .one_result = true});
-    line.refuse("--html", true, "makes no sense here");
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "cut", "check", "write"}, argc, argv,

@@ -118,18 +118,24 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     write_certified(work, file, form, o.output, result.certificate.max_displacement);
 }
 
+meetings meetings_of(job& work, const std::vector<solid>& solids) {
+    meetings all{.joined = tf::join_meshes(views_of(solids))};
+    auto found = tf::self_intersections(all.joined.mesh, {.vertices = tf::vertex_identity::by_index,
+                                                          .progress = work.progress("curves")});
+    work.call_ended(found.cancelled);
+    all.pairs = std::move(found.pairs);
+    return all;
+}
+
 void write_curves(job& work, const boolean_settings& settings, const std::vector<solid>& solids) {
     if (settings.curves.empty() || work.options.dry_run) return;
-    const tf::joined_meshes all = tf::join_meshes(views_of(solids));
-    const auto found = tf::self_intersections(
-        all.mesh, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("curves")});
-    work.call_ended(found.cancelled);
+    const meetings all = meetings_of(work, solids);
     tf::pair_numbers first{settings.source + "_mesh1", {}}, second{settings.source + "_mesh2", {}};
-    for (const tf::face_pair& pair : found.pairs) {
-        first.of_pair.push_back(all.mesh_of_face[pair.a]);
-        second.of_pair.push_back(all.mesh_of_face[pair.b]);
+    for (const tf::face_pair& pair : all.pairs) {
+        first.of_pair.push_back(all.joined.mesh_of_face[pair.a]);
+        second.of_pair.push_back(all.joined.mesh_of_face[pair.b]);
     }
-    write_curves(work, settings.curves, all.mesh, found.pairs,
+    write_curves(work, settings.curves, all.joined.mesh, all.pairs,
                  {std::move(first), std::move(second)});
 }
 

@@ -4,9 +4,12 @@
 
 #include "tools/tf-boolean/settings.hpp"
 #include "tools/tf-boolean/solids.hpp"
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 
 #include <string>
+#include <vector>
 
 namespace tools {
 
@@ -18,6 +21,18 @@ void enter_blank_report(job& work, const boolean_settings& settings);
 
 /// The facts of the result; an open one, or one of many pieces, has no volume.
 void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid);
+
+/// All inputs as one mesh, and its faces that meet. \throws failure (stopped)
+struct meetings {
+    tf::joined_meshes joined{};
+    std::vector<tf::face_pair> pairs{};
+};
+[[nodiscard]] meetings meetings_of(job& work, const std::vector<solid>& solids);
+
+/// The page, where --html asks for one: the result by the inputs that its faces come from, or the
+/// inputs alone and where they are open.
+void write_page(job& work, const std::vector<solid>& solids, const std::string& verdict, bool good,
+                const tf::boolean_result* made = nullptr);
 
 /// The lines along which faces of the inputs meet each other or themselves, where asked for.
 void write_curves(job& work, const boolean_settings& settings, const std::vector<solid>& solids);

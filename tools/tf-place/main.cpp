@@ -68,7 +68,6 @@ int main(int argc, char** argv) {
     line.group("Common options");
     tools::add_common_options(
         line, options, {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf", "xyz"}});
-    line.refuse("--html", true, "makes no sense here; measure -o file.ply shows the faces");
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "search", "settle", "write"}, argc, argv,

@@ -252,10 +252,15 @@ exit_status place_one(job& work, const place_settings& settings, fixed_meshes& f
     p.matrix = tf::after(p.at.matrix, start);
     enter_place(work.entry, p);
     say_place(work, p);
-    if (!p.at) return found;
+    if (!p.at) {
+        write_page(work, p);
+        return found;
+    }
     exit_status status = p.aligned && !p.aligned->converged ? found : done;
+    std::optional<tf::deviation_result> distances;
     if (settings.mode == place_mode::measure)
-        status = enter_measured(work, settings.deviation, p.moving, p.fixed, p.at);
+        status = enter_measured(work, settings.deviation, p.moving, p.fixed, p.at, distances);
+    write_page(work, p, distances ? &*distances : nullptr);
     const auto timing = work.time("write");
     write_matrix(work, settings.matrix, matrix_text(p.matrix));
     write_result(work, settings, p.moving, {{0, p.at.points, p.at.matrix, p.matrix}}, p.fixed,
@@ -268,6 +273,7 @@ exit_status arrange_all(job& work, const place_settings& settings) {
     tf::body_set parts = read_all(work, settings, start);
     const tf::packing plate = find_places(work, parts, settings);
     enter_places(work, settings, parts, plate);
+    write_page(work, settings, parts, plate);
     std::vector<placed_body> placed;
     std::string matrix_lines;
     for (std::size_t i = 0; i < parts.bodies.size(); ++i) {

@@ -11,6 +11,8 @@
 #include "tools/placing/lay_options.hpp"
 #include "tools/placing/motion_options.hpp"
 #include <treeform/mesh/align.hpp>
+#include <treeform/mesh/deviation.hpp>
+#include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/tf.hpp>
 
@@ -94,8 +96,17 @@ void enter_blank_report(job& work, const place_settings& settings);
 void enter_inputs(json& entry, const tf::body_file& moving, const fixed_meshes& fixed);
 void enter_place(json& entry, const placing& p);
 
-/// "dropped by 4.5; touching bed.stl (4 contacts)", and what -v adds to it.
+/// What has become of MOVING: "dropped by 4.5; touching bed.stl (4 contacts)".
+[[nodiscard]] std::string sentence(const placing& p);
+/// Says that, and what -v adds to it.
 void say_place(job& work, const placing& p);
+
+/// The page, where --html asks for one: MOVING where it is and was, what it meets, and how far it is
+/// from that: `known`, where that was asked for.
+void write_page(job& work, const placing& p, const tf::deviation_result* known = nullptr);
+/// The page of plates and parts.
+void write_page(job& work, const place_settings& settings, const tf::body_set& parts,
+                const tf::packing& found);
 
 /// A body that goes somewhere, and by what it was moved in all: normals turn as that.
 struct placed_body {

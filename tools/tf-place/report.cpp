@@ -65,34 +65,6 @@ void enter_skipped(json& entry, const placing& p) {
                              {"exact_calls", p.at.statistics.predicates.undecided}});
 }
 
-/// What has become of MOVING.
-std::string sentence(const placing& p) {
-    const tf::placement& at = p.at;
-    std::string relation = tf::relation_in_words(at, p.moving, p.fixed);
-    if (!at) {
-        std::string text = "not placed: " + p.reason;
-        if (at.at_place != tf::standing::penetrating || !at.nearest) return text;
-        const std::string seen = "penetrating " + p.fixed.label(at.nearest->fixed);
-        constexpr std::string_view where = " where it is";
-        const std::size_t at_end = std::min(text.find(where), text.size() - where.size());
-        return text.insert(at_end + where.size(),
-                           relation.substr(std::min(seen.size(), relation.size())));
-    }
-    if (p.settings.mode == place_mode::measure) return relation;
-    if (p.aligned) return align_sentence(*p.aligned);
-    if (p.laid) return "laid " + p.laid->message() + "; " + relation;
-    if (p.turned && p.turned->angle > 0.0)
-        return "turned by " + brief(p.turned->angle) + " degrees; " + relation;
-    if (p.mated) return "mated; " + relation;
-    if (at.travel == 0.0) return "stays where it is; " + relation;
-    const bool drops = p.settings.mode == place_mode::drop;
-    const char* const moved = drops && at.direction.z > 0.0          ? "lifted by "
-                              : drops                                ? "dropped by "
-                              : p.settings.mode == place_mode::slide ? "slid by "
-                                                                     : "moved by ";
-    return moved + brief(at.travel) + "; " + relation;
-}
-
 }  // namespace
 
 void enter_blank_report(job& work, const place_settings& settings) {
@@ -142,6 +114,33 @@ void enter_place(json& entry, const placing& p) {
     entry["matrix"] = p.matrix;
     if (p.laid) enter_lay(entry, p);
     if (p.aligned) enter_fit(entry, *p.aligned);
+}
+
+std::string sentence(const placing& p) {
+    const tf::placement& at = p.at;
+    std::string relation = tf::relation_in_words(at, p.moving, p.fixed);
+    if (!at) {
+        std::string text = "not placed: " + p.reason;
+        if (at.at_place != tf::standing::penetrating || !at.nearest) return text;
+        const std::string seen = "penetrating " + p.fixed.label(at.nearest->fixed);
+        constexpr std::string_view where = " where it is";
+        const std::size_t at_end = std::min(text.find(where), text.size() - where.size());
+        return text.insert(at_end + where.size(),
+                           relation.substr(std::min(seen.size(), relation.size())));
+    }
+    if (p.settings.mode == place_mode::measure) return relation;
+    if (p.aligned) return align_sentence(*p.aligned);
+    if (p.laid) return "laid " + p.laid->message() + "; " + relation;
+    if (p.turned && p.turned->angle > 0.0)
+        return "turned by " + brief(p.turned->angle) + " degrees; " + relation;
+    if (p.mated) return "mated; " + relation;
+    if (at.travel == 0.0) return "stays where it is; " + relation;
+    const bool drops = p.settings.mode == place_mode::drop;
+    const char* const moved = drops && at.direction.z > 0.0          ? "lifted by "
+                              : drops                                ? "dropped by "
+                              : p.settings.mode == place_mode::slide ? "slid by "
+                                                                     : "moved by ";
+    return moved + brief(at.travel) + "; " + relation;
 }
 
 void say_place(job& work, const placing& p) {

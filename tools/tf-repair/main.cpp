@@ -176,6 +176,7 @@ exit_status check_only(tools::job& work, const tools::dirty_mesh& input) {
         tf::find_solid_defects(input.source(), tf::repair_scope::each_part, work.progress("check"));
     work.call_ended(found.cancelled);
     tools::say_defects(work, input, found);
+    tools::write_page(work, input, found.message(), !found.any());
     return found.any() || input.left_out > 0 ? tools::found : tools::done;
 }
 
@@ -221,11 +222,15 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
     if (why.empty()) why = too_far;
     if (!why.empty()) {
         work.out.result(work.name + ": not written: " + why);
+        tools::write_page(work, input, "not written: " + why, false, made.file.mesh,
+                          made.face_source);
         return tools::found;
     }
-    work.out.result(work.name + ": " + tools::verdict(input, made));
+    const std::string verdict = tools::verdict(input, made);
+    work.out.result(work.name + ": " + verdict);
     tools::warn_of_surprises(work, made);
     tools::warn_of_moves(work, made.file.mesh.points, made.certificate);
+    tools::write_page(work, input, verdict, true, made.file.mesh, made.face_source);
     if (output && !o.dry_run) tools::write_solid(work, input, s, made, *output);
     return tools::done;
 }
@@ -248,7 +253,6 @@ int main(int argc, char** argv) {
     line.group("Common options");
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"}});
-    line.refuse("--html", true, "is not made by this tool yet");
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "check", "repair", "write"}, argc, argv,

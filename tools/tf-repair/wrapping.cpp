@@ -99,10 +99,13 @@ exit_status wrap(job& work, const dirty_mesh& input, const wrap_settings& settin
     enter(work, input, made, volume);
     if (!made.certificate)
         throw std::logic_error("the wrap is no solid: " + made.certificate.message());
-    work.out.result(work.name + ": wrap, " + counted(made.mesh.faces.size(), "face", "faces") +
-                    ", volume " + brief(volume) + " (was " + brief(input.volume) + "), " +
-                    brief(made.statistics.offset) + " from the faces");
+    const std::string verdict = "wrap, " + counted(made.mesh.faces.size(), "face", "faces") +
+                                ", volume " + brief(volume) + " (was " + brief(input.volume) +
+                                "), " + brief(made.statistics.offset) + " from the faces";
+    work.out.result(work.name + ": " + verdict);
     warn_of_skin(work, input, made, volume);
+    write_page(work, input, verdict, true, made.mesh,
+               std::vector(made.mesh.faces.size(), tf::repair_result::none));
     if (!output || work.options.dry_run) return done;
     const auto timing = work.time("write");
     tf::mesh_file file = file_of(std::move(made.mesh), made.certificate);

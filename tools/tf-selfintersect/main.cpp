@@ -74,7 +74,6 @@ void add_what_to_give_back(command_line& line, request& r, common_options& optio
                           "10000"});
     line.output(r.pairs, {"--pairs", "FILE", "all pairs as CSV: face,face,kind,region"});
     line.output(r.curves, {"--curves", "FILE", "intersection curves as OBJ or PLY lines"});
-    line.output(options.html, {"--html", "FILE", "self-contained HTML page with a 3D view"});
     line.output(options.output, {"-o, --output", "FILE",
                                  "the mesh with the faces colored by kind, and its\n"
                                  "properties tf_class and tf_region (PLY, GLB); the\n"
@@ -159,7 +158,7 @@ void check_request(const command_line& line, request& r, common_options& options
 
 exit_status look_at(tools::job& work, const request& r) {
     const common_options& o = work.options;
-    tools::check_outputs(work, {r.pairs, o.html}, {r.curves});
+    tools::check_outputs(work, {r.pairs}, {r.curves});
     const auto output = tools::mesh_output(o, work.path);
     const bool keeps_mesh = r.repairs || (output && !o.dry_run);
     tf::mesh_file file;

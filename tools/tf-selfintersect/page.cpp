@@ -1,115 +1,130 @@
 #include "tools/page/page.hpp"
 
 #include "tools/common/console.hpp"
-#include "tools/common/output_file.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
 #include <treeform/mesh/curves.hpp>
 #include <treeform/tf.hpp>
-#include <treeform/tree/version.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <span>
+#include <vector>
 
 namespace tools {
 namespace {
 
 constexpr std::size_t most_regions = 1000;
+constexpr std::uint8_t curve_class = 1 + tf::pair_kind_count;
 
-std::vector<face_kind> kinds_of(const findings& result) {
+std::vector<scene_class> classes_of(const findings& result) {
     const std::uint64_t others = result.searched - result.marks.marked();
-    std::vector<face_kind> kinds{{"other", tf::mark_colors[0], others}};
-    for (std::size_t k = 0; k < tf::pair_kind_count; ++k)
-        kinds.push_back({name_of(static_cast<tf::pair_kind>(k)), tf::mark_colors[k + 1], 0});
+    std::vector<scene_class> classes{
+        {"other", tf::mark_colors[0], counted(others, "face", "faces"), true}};
+    std::array<std::uint64_t, tf::pair_kind_count> counts{};
     for (const tf::face_pair& pair : result.found.pairs)
-        ++kinds[static_cast<std::size_t>(pair.kind) + 1].count;
-    return kinds;
+        ++counts[static_cast<std::size_t>(pair.kind)];
+    for (std::size_t k = 0; k < tf::pair_kind_count; ++k)
+        classes.push_back({name_of(static_cast<tf::pair_kind>(k)), tf::mark_colors[k + 1],
+                           counted(counts[k], "pair", "pairs")});
+    classes.push_back({"curves", "#10131a"});
+    return classes;
 }
 
-packed_scene scene_of(const findings& result) {
-    std::vector<std::uint32_t> numbers(result.part.mesh.faces.size());
-    for (std::uint32_t f = 0; f < numbers.size(); ++f) numbers[f] = result.part.face_in_file(f);
-    const auto curves = tf::intersection_curves(result.part.mesh, result.found.pairs);
-    return pack({.mesh = result.part.mesh,
-                 .kind = result.marks.kind,
-                 .region = result.marks.region,
-                 .number = std::move(numbers),
-                 .curves = curves});
+void add_mesh(scene& shown, const findings& result, std::span<const tf::curve_segment> segments) {
+    scene_mesh mesh{.mesh = result.part.mesh, .kind = result.marks.kind, .group_word = "region"};
+    for (std::uint32_t f = 0; f < result.part.mesh.faces.size(); ++f)
+        mesh.number.push_back(result.part.face_in_file(f));
+    mesh.group.assign(result.marks.region.begin(), result.marks.region.end());
+    shown.meshes.push_back(std::move(mesh));
+    scene_lines curves{.kind = curve_class};
+    for (const tf::curve_segment& segment : segments) curves.ends.push_back(segment.ends);
+    shown.lines.push_back(std::move(curves));
+}
+
+/// [R] The boxes of curves: where long faces meet, rather than where they are.
+std::vector<tf::box3> places_of(const findings& result,
+                                std::span<const tf::curve_segment> segments) {
+    std::vector<std::optional<tf::box3>> boxes(result.regions.regions.size());
+    for (const tf::curve_segment& segment : segments) {
+        auto& box = boxes[result.regions.region_of_pair[segment.pair]];
+        for (const tf::point3& p : segment.ends) {
+            if (!box) box = {p, p};
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                box->min[axis] = std::min(box->min[axis], p[axis]);
+                box->max[axis] = std::max(box->max[axis], p[axis]);
+            }
+        }
+    }
+    std::vector<tf::box3> places;
+    for (std::size_t r = 0; r < boxes.size(); ++r) {
+        const tf::intersection_region& region = result.regions.regions[r];
+        places.push_back(boxes[r].value_or(tf::box3{region.min, region.max}));
+    }
+    return places;
 }
 
 void append(std::string& list, const std::string& word) {
     list += (list.empty() ? "" : ", ") + word;
 }
 
-std::vector<place_row> rows_of(const findings& result) {
+scene_table regions_of(const findings& result, const std::vector<tf::box3>& places) {
     const std::size_t count = std::min(result.regions.regions.size(), most_regions);
     std::vector<std::set<std::string>> kinds(count);
     for (std::size_t i = 0; i < result.found.pairs.size(); ++i)
         if (const std::uint32_t r = result.regions.region_of_pair[i]; r < count)
             kinds[r].insert(name_of(result.found.pairs[i].kind));
-    std::vector<place_row> rows;
+    scene_table table{
+        .title = "Regions",
+        .columns = {"region", "kinds", "pairs", "faces", "center", "box", "components"}};
     for (std::size_t id = 0; id < count; ++id) {
         const tf::intersection_region& region = result.regions.regions[id];
         std::string kinds_text, components;
         for (const std::string& kind : kinds[id]) append(kinds_text, kind);
         for (const std::uint32_t c : result.components_of(region))
             append(components, std::to_string(c));
-        rows.push_back({.cells = {{std::to_string(id), true},
-                                  {kinds_text},
-                                  {grouped(region.pairs), true},
-                                  {grouped(region.faces.size()), true},
-                                  {in_words(region.center())},
-                                  {in_words(region.min) + " to " + in_words(region.max)},
-                                  {components}},
-                        .low = region.min,
-                        .high = region.max});
+        table.rows.push_back(
+            {.cells = {id, kinds_text, region.pairs, region.faces.size(), in_words(region.center()),
+                       in_words(region.min) + " to " + in_words(region.max), components},
+             .box = places[id]});
     }
-    return rows;
+    if (result.regions.regions.size() > most_regions)
+        table.note = "The first " + grouped(most_regions) + " of " +
+                     grouped(result.regions.regions.size()) + "; the JSON report (-r) lists all.";
+    return table;
 }
 
-std::vector<std::pair<std::string, std::string>> facts_of(const job& work, const findings& result,
-                                                          const search_settings& settings) {
-    const auto text_of = [&](const char* key) {
-        const auto at = work.entry.find(key);
-        return at != work.entry.end() && at->is_string() ? at->get<std::string>() : std::string();
-    };
+void add_facts(scene& shown, const findings& result, const search_settings& settings) {
     const auto degenerate = static_cast<std::size_t>(tf::pair_kind::degenerate);
-    return {{"file", work.name + ", " + text_of("format")},
-            {"sha256", text_of("sha256")},
-            {"coordinates", text_of("precision_in") + ", unit " + work.options.unit},
-            {"faces", grouped(result.faces_stored) + " stored, " + grouped(result.triangles) +
-                          " triangles, " + grouped(result.searched) + " searched"},
-            {"vertices", grouped(result.points_stored) + " stored, " +
-                             grouped(result.part.distinct.value_or(0)) + " distinct"},
-            {"box", in_words(result.box->min) + " to " + in_words(result.box->max)},
-            {"left out", counted(result.part.dropped, "face", "faces") + " not finite"},
-            {"degenerate", counted(result.part.degenerate, "face", "faces") + ", " +
-                               counted(result.found.counts[degenerate], "pair", "pairs")},
-            {"tolerance",
-             settings.tolerance.given + " (" + brief(result.tolerance_used) + " in file units)"},
-            {"program", std::string("tf-selfintersect ") + tf::version_string()}};
+    shown.facts.insert(
+        shown.facts.end() - 1,
+        {{"faces", grouped(result.faces_stored) + " stored, " + grouped(result.triangles) +
+                       " triangles, " + grouped(result.searched) + " searched"},
+         {"vertices", grouped(result.points_stored) + " stored, " +
+                          grouped(result.part.distinct.value_or(0)) + " distinct"},
+         {"box", in_words(result.box->min) + " to " + in_words(result.box->max)},
+         {"left out", counted(result.part.dropped, "face", "faces") + " not finite"},
+         {"degenerate", counted(result.part.degenerate, "face", "faces") + ", " +
+                            counted(result.found.counts[degenerate], "pair", "pairs")},
+         {"tolerance",
+          settings.tolerance.given + " (" + brief(result.tolerance_used) + " in file units)"}});
 }
 
 }  // namespace
 
 void write_page(const job& work, const findings& result, const search_settings& settings) {
     if (work.options.html.empty()) return;
-    page contents;
-    contents.title = work.name;
-    contents.verdict = verdict(result, settings);
-    contents.good = result.found.pairs.empty();
-    contents.kinds = kinds_of(result);
-    contents.scene = scene_of(result);
-    const std::string format = work.entry.value("format", std::string());
-    contents.y_is_up = format.starts_with("obj") || format.starts_with("gl");
-    contents.place_columns = {"region", "kinds", "pairs", "faces", "center", "box", "components"};
-    contents.places = rows_of(result);
-    if (result.regions.regions.size() > most_regions)
-        contents.places_note = "The first " + grouped(most_regions) + " of " +
-                               grouped(result.regions.regions.size()) +
-                               "; the JSON report (-r) lists all.";
-    contents.facts = facts_of(work, result, settings);
-    write_file(work.options.html, work.options.force, work.keeper,
-               [&](output_file& file) { file.write(html(contents)); });
+    scene shown = scene_of(work, "tf-selfintersect");
+    shown.verdict = verdict(result, settings);
+    shown.good = result.found.pairs.empty();
+    shown.place_word = "region";
+    shown.classes = classes_of(result);
+    const auto segments = tf::intersection_curves(result.part.mesh, result.found.pairs);
+    add_mesh(shown, result, segments);
+    if (!result.regions.regions.empty())
+        shown.tables.push_back(regions_of(result, places_of(result, segments)));
+    add_facts(shown, result, settings);
+    write_page(work, shown);
 }
 
 }  // namespace tools

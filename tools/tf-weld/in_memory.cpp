@@ -99,6 +99,7 @@ exit_status weld_in_memory(job& work, const weld_request& request, const std::st
     say_details(work, w);
     enter_report(work, w, request);
     warn_of_defects(work, w);
+    write_page(work, file, w, request);
 
     const job::timer timing = work.time("write");
     pending_outputs outputs(work);

@@ -181,7 +181,6 @@ int run(int argc, char** argv, const tf::weld_team& team) {
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf", "pcd",
                                                   "las", "laz", "xyz", "csv"}});
-    line.refuse("--html", true, "makes no sense here: pages show faces; -o file.ply shows points");
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "weld", "write"}, argc, argv,

@@ -55,6 +55,11 @@ void write_map(output_file& file, const welding& w, bool as_csv);
 void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& file, const welding& w,
                    const std::filesystem::path& path);
 
+/// The page, where --html asks for one: points by the sizes of their groups, where the dropped ones
+/// went, and how far points are apart.
+void write_page(job& work, const tf::mesh_file& file, const welding& w,
+                const weld_request& request);
+
 /// What files are not as they were.
 void warn_of_replaced(job& work, const std::string& label);
 void warn_of_las_grid(job& work, const std::string& what, double moved);

@@ -4,18 +4,22 @@
 #include "tools/common/help_text.hpp"
 #include "tools/common/parse_value.hpp"
 #include "tools/common/sha256.hpp"
+#include "tools/page/edges.hpp"
+#include "tools/page/pack.hpp"
 #include "tools/page/page.hpp"
 #include "tools/page/scene.hpp"
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -166,53 +170,99 @@ TEST_CASE("help: texts start in their column, defaults end in theirs") {
           "                                                                        [10000]\n");
 }
 
-TEST_CASE("scene: thins out plain faces and keeps marked ones") {
+namespace {
+
+/// Faces of a square grid of n x n cells, two each.
+tf::mesh grid_of(std::uint32_t n) {
     tf::mesh mesh;
-    constexpr std::uint32_t n = 60;
     for (std::uint32_t j = 0; j <= n; ++j)
         for (std::uint32_t i = 0; i <= n; ++i)
             mesh.points.push_back({static_cast<double>(i), static_cast<double>(j), 0.0});
     for (std::uint32_t j = 0; j < n; ++j)
         for (std::uint32_t i = 0; i < n; ++i)
             mesh.faces.push_back({j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i});
-    std::vector<std::uint8_t> kind(mesh.faces.size(), 0);
-    std::vector<std::int32_t> region(mesh.faces.size(), 0);
-    std::vector<std::uint32_t> number(mesh.faces.size());
-    for (std::uint32_t f = 0; f < 10; ++f) kind[7 * f] = 1;
-    const tools::scene_input input{mesh, kind, region, number, {}};
-
-    const auto whole = tools::pack(input);
-    CHECK(whole.faces == mesh.faces.size());
-    CHECK(whole.plain_left_out + whole.marked_left_out == 0);
-    CHECK(whole.steps == 1U << 22);
-
-    const auto thin = tools::pack(input, {.plain = 500, .marked = 10});
-    CHECK(thin.marked_left_out == 0);
-    CHECK(thin.faces <= 510);
-    CHECK(thin.faces > 10);
-    CHECK(thin.faces + thin.plain_left_out == mesh.faces.size());
-
-    const auto few = tools::pack(input, {.plain = 0, .marked = 4});
-    CHECK(few.faces == 4);
-    CHECK(few.marked_left_out == 6);
+    return mesh;
 }
 
-TEST_CASE("scene: one point, coordinates at the ends of the range") {
-    const std::vector<std::uint8_t> kind(1, 0);
-    const std::vector<std::int32_t> region(1, 0);
-    const std::vector<std::uint32_t> number(1, 0);
+tools::scene scene_with(tools::scene_mesh mesh) {
+    tools::scene shown;
+    shown.classes = {{"other", "#b4bac2", {}, true}, {"found", "#e02020"}};
+    shown.meshes = {std::move(mesh)};
+    return shown;
+}
+
+}  // namespace
+
+TEST_CASE("scene: thins out context and keeps what was found") {
+    const tf::mesh mesh = grid_of(60);
+    std::vector<std::uint8_t> kind(mesh.faces.size(), 0);
+    for (std::uint32_t f = 0; f < 10; ++f) kind[7 * f] = 1;
+    const tools::scene shown = scene_with({.mesh = mesh, .kind = kind});
+
+    const auto whole = tools::pack(shown);
+    CHECK(whole.header["meshes"][0]["faces"] == mesh.faces.size());
+    CHECK(whole.header["left_out"].empty());
+    CHECK(whole.header["steps"] == 1U << 22);
+
+    const auto thin = tools::pack(shown, {.faces = 500});
+    const std::size_t faces = thin.header["meshes"][0]["faces"];
+    CHECK(faces <= 510);
+    CHECK(faces > 10);
+    CHECK(faces + thin.header["left_out"][0]["count"].get<std::size_t>() == mesh.faces.size());
+
+    const auto few = tools::pack(shown, {.faces = 0});
+    CHECK(few.header["meshes"][0]["faces"] == 10);
+}
+
+TEST_CASE("scene: faces with values are no context, and points are thinned out") {
+    const tf::mesh mesh = grid_of(20);
+    tools::scene shown =
+        scene_with({.mesh = mesh, .kind = {0}, .value = std::vector(mesh.points.size(), 0.5)});
+    shown.map = {.name = "height", .colors = {"#000000", "#ffffff"}};
+    CHECK(tools::pack(shown, {.faces = 10}).header["meshes"][0]["faces"] == mesh.faces.size());
+
+    std::vector<tf::point3> points(1000, tf::point3{1, 2, 3});
+    points[5].x = std::numeric_limits<double>::quiet_NaN();
+    shown.dots = {{.points = points, .kind = {1}}, {.points = points, .kind = {0}}};
+    const auto thin = tools::pack(shown, {.faces = 10, .dots = 100}).header;
+    CHECK(thin["dots"][0]["count"] == 999);
+    CHECK(thin["dots"][1]["count"] == 50);
+    CHECK(thin["left_out"][0]["count"] == 951);
+}
+
+TEST_CASE("scene: nothing, one point, coordinates at the ends of the range") {
+    CHECK(tools::pack({}).header["steps"] == 1);
     const tf::mesh point{{{1, 2, 3}}, {{0, 0, 0}}};
-    CHECK(tools::pack({point, kind, region, number, {}}).steps == 1);
-    const tf::mesh large{{{-1.7e308, 0, 0}, {1.7e308, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
-    CHECK(tools::pack({large, kind, region, number, {}}).size[0] == 1U << 22);
+    CHECK(tools::pack(scene_with({.mesh = point, .kind = {0}})).header["steps"] == 1);
+    const double most = 1.7e308, nan = std::numeric_limits<double>::quiet_NaN();
+    const tf::mesh large{{{-most, 0, 0}, {most, 0, 0}, {0, 1, 0}, {nan, nan, nan}}, {{0, 1, 2}}};
+    CHECK(tools::pack(scene_with({.mesh = large, .kind = {0}})).header["size"][0] == 1U << 22);
+}
+
+TEST_CASE("scene: open edges are numbered by hole; points with equal coordinates are one") {
+    tf::mesh two{{{0, 0, 0},
+                  {1, 0, 0},
+                  {0, 1, 0},
+                  {5, 0, 0},
+                  {6, 0, 0},
+                  {5, 1, 0},
+                  {1, 0, 0},
+                  {0, 1, 0},
+                  {1, 1, 0}},
+                 {{0, 1, 2}, {3, 4, 5}, {6, 8, 7}}};
+    const tools::open_edges open = tools::find_open_edges(two);
+    CHECK(open.holes == 2);
+    CHECK(open.ends.size() == 7);
+    CHECK(std::count(open.hole.begin(), open.hole.end(), 0U) == 4);
 }
 
 TEST_CASE("pages: texts cannot break out of their place") {
     CHECK(tools::escaped("<a href=\"x\">'&'") == "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;");
-    tools::page page;
-    page.title = "</title><script>";
-    page.kinds = {{"</script>", "#000000", 1}};
-    const std::string text = tools::html(page);
+    tools::scene shown;
+    shown.title = "</title><script>";
+    shown.classes = {{"</script><!--<script>", "#000000"}};
+    const std::string text = tools::html(shown);
     CHECK(text.find("</title><script>") == std::string::npos);
-    CHECK(text.find("[\"</script>") == std::string::npos);
+    CHECK(text.find("<!--") == std::string::npos);
+    CHECK(text.find("\"</script>") == std::string::npos);
 }
