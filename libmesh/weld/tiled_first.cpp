@@ -147,10 +147,10 @@ std::vector<std::uint32_t> tiled_leaders(points_view points, const weld_options&
     }
     std::sort(border.begin(), border.end(),
               [](const border_point& a, const border_point& b) { return a.tag < b.tag; });
-    border_weld weld(weld_rule::first, options.tolerance);
-    std::vector<tile_drop> dropped;
-    weld.add(border, dropped);
-    for (const tile_drop& drop : dropped)
+    border_weld weld(options.tolerance);
+    tile_result found;
+    for (const border_point& point : border) weld.add(point, {}, false, found);
+    for (const tile_drop& drop : found.dropped)
         leader_of[drop.id] = static_cast<std::uint32_t>(drop.leader);
     return leader_of;
 }
