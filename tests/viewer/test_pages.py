@@ -523,6 +523,18 @@ class Framing(PageTest):
             self.assertGreater(min(rows[:4]), 0, name)
             self.assertLess(rows[0] + rows[1], 0.5 * rows[4], name)
 
+    def test_coordinates_may_be_huge_or_far_away(self):
+        self.tool = TOOL
+        for name, scale, shift in (("huge.obj", 1e300, 0), ("far.obj", 1, 4512345.25)):
+            points, faces = support.TWO_CUBES
+            write(self.path(name), ([tuple(scale * v + shift for v in p) for p in points], faces))
+            self.run_tool(name, "--html", self.path("page.html"), "-f", status=1)
+            self.open(self.path("page.html"))
+            self.assertGreater(self.run_js("drawn(null)")["opaque"], 20_000)
+            self.run_js("viewer.pick(...project(viewer.scene.toFile([0, 0, 0])))")
+            self.assertRegex(self.run_js("document.querySelector('.picked').textContent"), r"^face \d+ ")
+            self.quiet()
+
     def test_much_context_is_thinned_out_and_findings_never(self):
         write(self.path("big.stl"), together(support.grid(350), support.grid(40, 0.5),
                                              rod((3.2, 3.2, -1), (0.5, 0.5, 3))))
