@@ -54,8 +54,8 @@ void look_behind(bool more, warnings& said) {
 /// Rows of bytes, which are those of the machines that write such files: little endian.
 [[nodiscard]] auto row_runs(const source& in, const pcd_header& header, std::uint64_t first) {
     if (header.vertices.rows > bytes_of_body(in, header) / header.row_size) fail_short(in, header);
-    return [&in, at = header.body + first * header.row_size,
-            row_size = header.row_size, offsets = header.places,
+    return [&in, at = header.body + first * header.row_size, row_size = header.row_size,
+            offsets = header.places,
             left = header.vertices.rows - first](std::vector<point3>& points, element& vertices,
                                                  std::size_t most, warnings& said) mutable {
         constexpr std::size_t megabyte = std::size_t{1} << 20;

@@ -58,8 +58,7 @@ class tile_steps::border_passes {
                 pass(upper, both, "border." + std::to_string(step), [&] {
                     std::vector<row_reader> rows;
                     for (const std::size_t r : {rank, rank + step})
-                        rows.push_back(
-                            steps.border_rows(hands_on_[r].path, hands_on_[r].count));
+                        rows.push_back(steps.border_rows(hands_on_[r].path, hands_on_[r].count));
                     return rows;
                 });
             }

@@ -19,9 +19,8 @@ void copy_bytes(const fs::path& from, std::uint64_t first, const fs::path& to, s
                 std::uint64_t count) {
     std::vector<std::byte> some(piece);
     for (std::uint64_t done = 0; done < count;) {
-        const std::span<std::byte> block =
-            std::span(some).first(static_cast<std::size_t>(std::min<std::uint64_t>(
-                piece, count - done)));
+        const std::span<std::byte> block = std::span(some).first(
+            static_cast<std::size_t>(std::min<std::uint64_t>(piece, count - done)));
         if (read_from(from, first + done, block) != block.size()) fail_damaged(from);
         write_to(to, at + done, block);
         done += block.size();
@@ -35,8 +34,9 @@ class points_out {
     points_out(const weld_stream_outputs::file& to, const mesh_file& header, std::uint64_t count,
                const team* all, const fs::path& part)
         : target_(to.path),
-          path_(all == nullptr ? to.path
-                               : (all->leads() ? fs::path(to.path.string() + ".unfinished") : part)),
+          path_(all == nullptr
+                    ? to.path
+                    : (all->leads() ? fs::path(to.path.string() + ".unfinished") : part)),
           all_(all),
           writer_(path_, header, count, options_of(to)) {}
 
@@ -128,9 +128,9 @@ class giving_back {
     /// which depends on all points before it.
     [[nodiscard]] bool may_divide() const {
         const auto has_parts = [&](const std::optional<weld_stream_outputs::file>& to) {
-            return !to || (to->path != "-" && point_writer(part("none"), head_, 0,
-                                                           points_out::options_of(*to))
-                                                  .has_parts());
+            return !to ||
+                   (to->path != "-" &&
+                    point_writer(part("none"), head_, 0, points_out::options_of(*to)).has_parts());
         };
         return !all_.is_alone() && steps_.is_divided() && !asked_.map && asked_.label.empty() &&
                !asked_.withhold && has_parts(asked_.welded) && has_parts(asked_.removed);
@@ -180,8 +180,8 @@ class giving_back {
         while (source.read(block, points_a_block)) {
             give(block);
             first_ += block.points.size();
-            pace_.show("write", static_cast<double>(first_ - mine.first) /
-                                    static_cast<double>(mine.size()));
+            pace_.show("write",
+                       static_cast<double>(first_ - mine.first) / static_cast<double>(mine.size()));
         }
         steps_.step_done();
         const fs::path& input = task_.inputs.paths.front();

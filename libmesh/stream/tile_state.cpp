@@ -42,8 +42,7 @@ tile_cuts load_cuts(state_reader& state, double tolerance) {
 
 template <class Record>
 bool is_there(const std::filesystem::path& path, const record_count& count, bool check) {
-    return check ? is_whole<Record>(path, count)
-                 : size_of(path) == count.records * sizeof(Record);
+    return check ? is_whole<Record>(path, count) : size_of(path) == count.records * sizeof(Record);
 }
 
 std::string name_of_done(std::size_t t) { return std::to_string(t) + ".done"; }

@@ -126,19 +126,22 @@ share tile_steps::read_by(std::size_t rank) const {
     return team_.share_of(*count, rank);
 }
 
-share tile_steps::tiles_of(std::size_t rank) const {
+share tile_steps::tiles_of(std::size_t rank, bool unfinished) const {
+    const auto weight_of = [&](const tile& t) {
+        return unfinished && t.finished ? 0 : points_of(t);
+    };
     std::uint64_t all = 1;
-    for (const tile& t : tiles_) all += points_of(t);
+    for (const tile& t : tiles_) all += weight_of(t);
     share mine{0, 0};
     std::uint64_t before = 0;
     for (const tile& t : tiles_) {
-        const std::uint64_t middle = before + points_of(t) / 2;
-        const auto owner = static_cast<std::size_t>(static_cast<double>(team_.size()) *
-                                                    static_cast<double>(middle) /
-                                                    static_cast<double>(all));
+        const std::uint64_t middle = before + weight_of(t) / 2;
+        const auto owner =
+            static_cast<std::size_t>(static_cast<double>(team_.size()) *
+                                     static_cast<double>(middle) / static_cast<double>(all));
         mine.first += owner < rank ? 1 : 0;
         mine.last += owner <= rank ? 1 : 0;
-        before += points_of(t);
+        before += weight_of(t);
     }
     return mine;
 }
@@ -194,8 +197,7 @@ void tile_steps::rank_points() {
         }
         store_count(by_rank.finish(), mine);
         row_writer ranks(folder_.file(ranks_name), piece);
-        for (row_merge all = by_number.sorted(); !all.empty(); all.pop())
-            ranks.put(all.front()[1]);
+        for (row_merge all = by_number.sorted(); !all.empty(); all.pop()) ranks.put(all.front()[1]);
         store_count(ranks.finish(), mine);
     }
     std::vector<state_reader> told = team_.exchange(mine);
@@ -290,7 +292,7 @@ std::size_t tile_steps::at_a_time() const {
 /// Tiles throw into their own slots, and those that come later are then left undone.
 void tile_steps::weld_tiles() {
     pace_.show("weld", 0.0);
-    const share mine = tiles_of(team_.rank());
+    const share mine = tiles_of(team_.rank(), true);
     const auto count = static_cast<std::size_t>(mine.size());
     std::mutex one_at_a_time;
     std::size_t finished = 0;
@@ -441,8 +443,7 @@ void tile_steps::weld_tile(std::size_t t) {
     store_tile(t);
     mine.finished = true;
     if (task_.options.shared) return;  // others may weld it, too
-    for (std::size_t r = 0; r < mine.points.size(); ++r)
-        std::filesystem::remove(points_file(t, r));
+    for (std::size_t r = 0; r < mine.points.size(); ++r) std::filesystem::remove(points_file(t, r));
 }
 
 void tile_steps::weld_held(std::size_t t, tile_files& files) {

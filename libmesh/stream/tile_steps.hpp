@@ -140,8 +140,9 @@ class tile_steps {
     [[nodiscard]] std::filesystem::path points_file(std::size_t t, std::size_t part) const;
     /// Of the points of files, those that a process reads.
     [[nodiscard]] share read_by(std::size_t rank) const;
-    /// Tiles of a process, which has about as many points as the others.
-    [[nodiscard]] share tiles_of(std::size_t rank) const;
+    /// Tiles of a process, which have about as many points as those of others; or as many of those
+    /// that are not finished.
+    [[nodiscard]] share tiles_of(std::size_t rank, bool unfinished = false) const;
 
     struct cut_sizes;
     [[nodiscard]] tile_cuts plan();

@@ -143,8 +143,7 @@ struct stream_weld::state {
         again.folder += ".again";
         again.step_done = {};
         again.shared = false;
-        const cloud_inputs input{.paths = {path},
-                                 .format = outputs.welded->options.format};
+        const cloud_inputs input{.paths = {path}, .format = outputs.welded->options.format};
         const weld_stream_result result = weld_stream(input, {}, again);
         if (result.status == status::cancelled) throw detail::stream::cancelled{};
         written.still_within = result.survey.points - result.counts.kept;
@@ -156,7 +155,8 @@ struct stream_weld::state {
     detail::stream::point_keys keys;
     detail::stream::pacer pace;
     work_folder folder;
-    std::optional<detail::stream::held_alone> alone{};  ///< while the tiles of a shared one are made
+    std::optional<detail::stream::held_alone>
+        alone{};  ///< while the tiles of a shared one are made
     detail::stream::tile_steps steps;
     std::optional<detail::stream::tiles_welded> welded{};
     std::optional<detail::stream::kept_rows> rows{};

@@ -15,7 +15,11 @@ namespace treeform::detail::stream {
 /// call can go on.
 class work_folder {
   public:
-    enum class use : std::uint8_t { alone, shared, member };  ///< of a team, whose first one holds it
+    enum class use : std::uint8_t {
+        alone,
+        shared,
+        member
+    };  ///< of a team, whose first one holds it
 
     /// Makes the folder, or takes over what an earlier run has left. `job` is one word for what is
     /// done there.

@@ -366,8 +366,7 @@ void tile_weld::add(std::span<const tile_point> points, tile_result& out,
 bool tile_weld::finish(tile_result& out) { return state_->chain && state_->chain->finish(out); }
 
 struct border_weld::state {
-    state(double tolerance, agreement asked)
-        : agree(std::move(asked)), first(tolerance, agree) {}
+    state(double tolerance, agreement asked) : agree(std::move(asked)), first(tolerance, agree) {}
 
     agreement agree;
     first_pass first;

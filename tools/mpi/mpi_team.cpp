@@ -26,8 +26,8 @@ std::vector<std::string> exchange(const std::string& told) {
         std::string& one = all[rank];
         if (one = told; lengths[rank] != told.size()) one.assign(lengths[rank], '\0');
         for (std::uint64_t at = 0; at < lengths[rank]; at += most)
-            MPI_Bcast(one.data() + at, static_cast<int>(std::min(most, lengths[rank] - at)), MPI_BYTE,
-                      static_cast<int>(rank), MPI_COMM_WORLD);
+            MPI_Bcast(one.data() + at, static_cast<int>(std::min(most, lengths[rank] - at)),
+                      MPI_BYTE, static_cast<int>(rank), MPI_COMM_WORLD);
     }
     return all;
 }

@@ -47,7 +47,8 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
     options.order_by = asked.order_by;
     const auto path = mesh_output(work.options, work.path);
     const std::string& format = work.options.output_format;
-    options.as_las = path ? form_of(work, header, *path).is_las() : format == "las" || format == "laz";
+    options.as_las =
+        path ? form_of(work, header, *path).is_las() : format == "las" || format == "laz";
     options.memory = work.options.memory;
     options.folder = folder_for(work, request, tiles);
     options.points_per_tile = tiles.per_tile;
@@ -118,11 +119,7 @@ class stream_files {
   public:
     stream_files(job& work, const weld_request& request, const tile_options& tiles,
                  const tf::mesh_file& header)
-        : work_(work),
-          request_(request),
-          tiles_(tiles),
-          asked_(request.outputs),
-          outputs_(work) {
+        : work_(work), request_(request), tiles_(tiles), asked_(request.outputs), outputs_(work) {
         const common_options& o = work.options;
         // Of a team, the first one has the files.
         const auto add = [&](const fs::path& path, bool force) {

@@ -102,6 +102,7 @@ const char* const epilogue =
     "  tf-weld scan.ply -t 0.5 -o thin.ply --removed gone.ply --map map.csv\n"
     "  tf-weld tile*.ply --join -t 0.001 --order min:range -o all.ply\n"
     "  tf-weld scan.laz -t 0.05 --order max:intensity --withhold -o marked.laz\n"
+    "  mpirun -n 16 tf-weld huge.ply -t 0.001 --work /scratch/tiles -o thin.ply\n"
     "  tf-weld part.obj -t 0.01% --borders --keep-manifold -o stitched.obj\n"
     "  gen | tf-weld --format stl - -o - --output-format ply | view -\n"
     "\n"

@@ -109,8 +109,9 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
         cloud = cloud_at(inputs);
     }
     if (!cloud && asked && tiles.per_tile == 0)
-        throw failure(bad_input, "read",
-                      work.name + ": is no cloud that can be read by blocks, as several processes do");
+        throw failure(
+            bad_input, "read",
+            work.name + ": is no cloud that can be read by blocks, as several processes do");
     if (!cloud) return weld_mesh(work, request, size);
     const std::uint64_t needed =
         (std::uint64_t{32} << 20) +

@@ -113,8 +113,7 @@ void check_equal(const tf::detail::weld::tile_result& a, const tf::detail::weld:
         return p.at == q.at && p.lowest == q.lowest && p.lowest_at == q.lowest_at;
     };
     const auto same_border = [&](const border_point& p, const border_point& q) {
-        return p.tag == q.tag && p.at == q.at && p.leader == q.leader &&
-               p.leader_at == q.leader_at;
+        return p.tag == q.tag && p.at == q.at && p.leader == q.leader && p.leader_at == q.leader_at;
     };
     CHECK(a.dropped == b.dropped);
     CHECK(std::ranges::equal(a.border, b.border, same_border));
@@ -241,8 +240,9 @@ void check_same(const cloud& points, double tolerance, test::random& random) {
             CAPTURE(static_cast<int>(rule));
             CAPTURE(count);
             for (const bool one_by_one : {false, true})
-                CHECK(weld_in_tiles(points, rule, tolerance, count, random, {}, one_by_one)
-                          .leader == expected);
+                CHECK(
+                    weld_in_tiles(points, rule, tolerance, count, random, {}, one_by_one).leader ==
+                    expected);
         }
         if (rule != weld_rule::first) continue;
         const auto tiled = tf::detail::weld::tiled_leaders(points, {.tolerance = tolerance},
@@ -271,8 +271,7 @@ TEST_CASE("tile_weld: a tolerance that is no length is refused") {
     for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(),
                              std::numeric_limits<double>::infinity()}) {
         CHECK_THROWS_AS(tf::detail::weld::tile_weld(weld_rule::first, bad), std::invalid_argument);
-        CHECK_THROWS_AS(tf::detail::weld::border_weld{bad},
-                        std::invalid_argument);
+        CHECK_THROWS_AS(tf::detail::weld::border_weld{bad}, std::invalid_argument);
         CHECK_THROWS_AS(tf::detail::weld::crowded_chain{bad}, std::invalid_argument);
         CHECK_THROWS_AS(tf::detail::weld::tile_cuts({}, bad, 1), std::invalid_argument);
     }
@@ -452,9 +451,9 @@ TEST_CASE("tile_weld: points whose values do not agree stay apart, as in the who
                     expected.push_back(groups.first_of_group[g]);
                 for (const std::size_t count : {1U, 2U, 7U, 50U})
                     for (const bool one_by_one : {false, true})
-                        CHECK(weld_in_tiles(points, rule, tolerance, count, random, more,
-                                            one_by_one)
-                                  .leader == expected);
+                        CHECK(
+                            weld_in_tiles(points, rule, tolerance, count, random, more, one_by_one)
+                                .leader == expected);
             }
     }
 }

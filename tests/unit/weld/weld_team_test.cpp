@@ -163,12 +163,12 @@ std::vector<std::vector<tf::point3>> families(std::size_t count, test::random& r
     for (std::size_t i = 0; i < count; ++i) {
         const tf::point3 p{random.unit(), random.unit(), random.unit()};
         const auto x = static_cast<double>(i) / static_cast<double>(count);
-        all[0].push_back(p);                                                      // shuffled
-        all[1].push_back({x, 0.1 * p.y, 0.1 * p.z});                              // sorted
+        all[0].push_back(p);                          // shuffled
+        all[1].push_back({x, 0.1 * p.y, 0.1 * p.z});  // sorted
         all[2].push_back(i % 2 == 0 ? p : tf::point3{0.5 + 0.02 * p.x, 0.5, p.z * 0.02});
-        all[3].push_back({2 * p.x, 0.001 * p.y, 0.0});                            // a line
-        all[4].push_back({p.x, p.y, 0.25});                                       // a plane
-        all[5].push_back(i % 3 == 0 ? p : tf::point3{0.5, 0.5, 0.5});             // equal points
+        all[3].push_back({2 * p.x, 0.001 * p.y, 0.0});                 // a line
+        all[4].push_back({p.x, p.y, 0.25});                            // a plane
+        all[5].push_back(i % 3 == 0 ? p : tf::point3{0.5, 0.5, 0.5});  // equal points
         all[6].push_back({0.05 * static_cast<double>(random.below(12)),
                           0.05 * static_cast<double>(random.below(12)),
                           i % 50 == 0 ? std::numeric_limits<double>::quiet_NaN() : 0.0});
@@ -195,9 +195,7 @@ class team_folder : public test::own_folder {
             tf::write(input(second), file);
         }
     }
-    [[nodiscard]] fs::path input(bool second) const {
-        return path / (second ? "b.ply" : "a.ply");
-    }
+    [[nodiscard]] fs::path input(bool second) const { return path / (second ? "b.ply" : "a.ply"); }
     [[nodiscard]] job work(const std::string& format) const {
         job work;
         work.inputs.paths = {input(false), input(true)};
@@ -232,8 +230,7 @@ void check_counts(const tf::weld_stream_result& a, const tf::weld_stream_result&
 
 using change = std::function<void(tf::weld_stream_options&)>;
 const std::vector<change> choices{
-    [](auto&) {},
-    [](auto& o) { o.same = {{.property = "shade", .tolerance = 0.25}}; },
+    [](auto&) {}, [](auto& o) { o.same = {{.property = "shade", .tolerance = 0.25}}; },
     [](auto& o) {
         o.order = tf::weld_order::highest;
         o.order_by = "shade";

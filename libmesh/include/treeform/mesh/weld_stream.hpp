@@ -148,8 +148,7 @@ struct weld_stream_result {
     treeform::status status = status::ok;  ///< or cancelled: nothing is written, the folder stays
 };
 
-/// A problem with the files that work in tiles takes: `weld_stream`, `self_intersections_of_file`.
-/// `what()` names the path.
+/// A problem with the files that work in tiles takes. `what()` names the path.
 class TREEFORM_API stream_error : public std::runtime_error {
   public:
     enum class reason : std::uint8_t {
@@ -213,9 +212,10 @@ class TREEFORM_API stream_weld {
     [[nodiscard]] const cloud_survey& survey() const;
     /// Gives each tile its points.
     [[nodiscard]] status scatter();
-    /// Shared: knows the tiles. \throws stream_error before `scatter` has ended, here or elsewhere
+    /// Shared: knows the tiles.
+    /// \throws stream_error before `scatter` has ended, here or elsewhere
     void check_tiles();
-    /// Shared. \throws stream_error as `check_tiles`; std::out_of_range for a tile that is not there
+    /// \throws stream_error as `check_tiles`; std::out_of_range for a tile that is not there
     [[nodiscard]] status weld_tile(std::size_t tile);
     /// Welds the tiles that are not finished, and what lies along their borders.
     /// \throws stream_error naming a tile that is not finished; that is, where they are shared
