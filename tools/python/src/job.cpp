@@ -249,6 +249,8 @@ treeform::progress_callback report_of_job() {
     };
 }
 
+const std::atomic<bool>* stop_of_job() { return current == nullptr ? nullptr : &current->stop; }
+
 void without_lock(const std::function<void()>& body) {
     const py::gil_scoped_release others_run;
     body();

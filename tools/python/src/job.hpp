@@ -7,6 +7,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -28,6 +29,9 @@ void make_job(const py::object& scope, const char* name, bool long_work = false)
 
 /// The job that runs on this thread: `progress_callback` for it; empty where there is none.
 treeform::progress_callback report_of_job();
+
+/// Whether the job that runs on this thread is to stop; null where there is none.
+const std::atomic<bool>* stop_of_job();
 
 /// Does `body` without the interpreter's lock.
 void without_lock(const std::function<void()>& body);

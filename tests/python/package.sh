@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# package.sh: makes a source distribution of the Python package and a wheel of it, without a package
+# index; installs the wheel in a virtual environment, and as root, where there is mmdebstrap, in a
+# bare Debian that has python3 and NumPy alone; runs the tests there. Fails if something does.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+python=${TREEFORM_PYTHON:-/usr/bin/python3}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+(cd tools/python && "$python" -m build --sdist --no-isolation --outdir "$work" .) | tail -n 1
+mkdir "$work/source"
+tar -xzf "$work"/treeform-*.tar.gz -C "$work/source" --strip-components 1
+(cd "$work/source" && "$python" -m build --wheel --no-isolation --outdir "$work" .) | tail -n 1
+
+"$python" -m venv --system-site-packages "$work/venv"
+"$work/venv/bin/pip" install -q --no-index --no-deps "$work"/treeform-*.whl
+"$work/venv/bin/python" -B -m pytest -q -p no:cacheprovider tests/python
+
+if ((EUID == 0)) && command -v mmdebstrap >/dev/null; then
+    mmdebstrap --quiet --variant=minbase --include=python3-numpy bookworm "$work/root"
+    "$work/venv/bin/python" -m zipfile -e "$work"/treeform-*.whl "$work/root/opt"
+    cp data/two_spheres.stl "$work/root/opt"
+    chroot "$work/root" env PYTHONPATH=/opt python3 -c '
+import treeform
+mesh = treeform.read("/opt/two_spheres.stl")
+assert len(treeform.self_intersections(mesh)) == 78 and treeform.union(mesh).mesh.is_solid
+print("1 passed in a bare system")'
+fi
