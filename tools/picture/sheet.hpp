@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// A scene as one picture: a title, a pane for each view, the legend of the page.
+
+#include "tools/page/scene.hpp"
+#include "tools/picture/canvas.hpp"
+#include "tools/picture/view.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace tools {
+
+/// What a picture may measure on a side.
+inline constexpr std::size_t least_side = 16;
+inline constexpr std::size_t most_side = 16384;
+
+struct picture_options {
+    std::size_t width = 1600;
+    std::size_t height = 1200;
+    std::vector<view> views{view::iso};  ///< one or more, each a pane; before and after: two each
+};
+
+/// The picture of a scene. Its colors, legend and title are those of the page; all panes have one
+/// scale, which a bar shows. Below 320 x 240 there is no room for words, and none are drawn.
+///
+/// \cost O(V + F log F) a view, and O(width height) for a few surfaces behind each other
+/// \same on any number of threads, and on any machine with IEEE arithmetic
+[[nodiscard]] picture draw(const scene& shown, const picture_options& options = {});
+
+}  // namespace tools
