@@ -42,6 +42,10 @@ std::vector<scene_class> classes_of(const placing& p) {
         {"bed", "#8fae8b", {}, true}};
 }
 
+std::string in_unit(const scene& shown, double value) {
+    return brief(value) + (shown.unit.empty() ? "" : " " + shown.unit);
+}
+
 /// A body as faces, or as dots where it is a cloud. Its points may be elsewhere.
 void add_body(scene& shown, const tf::body_set& set, std::size_t body, tf::points_view points,
               mark plain, std::span<const tf::contact_class> classes,
@@ -141,11 +145,11 @@ void add_travel(scene& shown, const job& work, const placing& p, const tf::box3&
         const json& move = depth["move"];
         end = {begin.x + move[0].get<double>(), begin.y + move[1].get<double>(),
                begin.z + move[2].get<double>()};
-        words = "out by " + brief(depth["at_most"].get<double>());
+        words = "out by " + in_unit(shown, depth["at_most"].get<double>());
     }
     const double way = std::hypot(end.x - begin.x, end.y - begin.y, end.z - begin.z);
     if (!(way > 0.0)) return;
-    if (words.empty()) words = brief(p.at.travel > 0.0 ? p.at.travel : way);
+    if (words.empty()) words = in_unit(shown, p.at.travel > 0.0 ? p.at.travel : way);
     shown.arrows.push_back({begin, end, words, travel});
 }
 
@@ -164,6 +168,7 @@ void add_contacts(scene& shown, const placing& p) {
                            .ends = {{how.on_a.point, how.on_b.point}},
                            .word = "nearest points",
                            .labeled = "length",
+                           .text = in_unit(shown, how.surface_distance),
                            .width = 3.0});
     shown.dots.push_back({.points = {how.on_a.point, how.on_b.point},
                           .kind = {shortest_way},

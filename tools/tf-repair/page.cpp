@@ -121,11 +121,13 @@ void add_rows(scene_table& table, const std::string& step, const json& entry) {
         table.rows.push_back({.cells = {step, "left out", ""}});
         return;
     }
+    const std::size_t before = table.rows.size();
     for (const auto& [what, value] : entry.items()) {
         std::string words = what;
         std::replace(words.begin(), words.end(), '_', ' ');
-        if (value.is_number()) table.rows.push_back({.cells = {step, words, value}});
+        if (value.is_number() && value != 0) table.rows.push_back({.cells = {step, words, value}});
     }
+    if (table.rows.size() == before) table.rows.push_back({.cells = {step, "nothing", ""}});
 }
 
 void add_tables(scene& shown, const job& work) {
