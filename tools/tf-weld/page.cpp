@@ -1,4 +1,4 @@
-#include "tools/page/page.hpp"
+#include "tools/shown/shown.hpp"
 
 #include "tools/common/console.hpp"
 #include "tools/tf-weld/outputs.hpp"
@@ -113,7 +113,7 @@ void add_distances(scene& shown, const tf::mesh_file& file, const welding& w) {
 
 void write_page(job& work, const tf::mesh_file& file, const welding& w,
                 const weld_request& request) {
-    if (work.options.html.empty()) return;
+    if (!work.options.shows()) return;
     const auto timing = work.time("write");
     scene shown = scene_of(work, "tf-weld");
     shown.verdict = verdict(w, request);
