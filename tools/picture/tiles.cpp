@@ -45,7 +45,7 @@ face_look look_of(const std::array<sample_point, 3>& t) {
 double light_of(const face_look& look) {
     const auto& [x, y, z] = look.normal;
     const double lamp = std::max(0.0, -0.36 * double{x} + 0.56 * double{y} + 0.745 * double{z});
-    const double light = 0.42 + 0.4 * lamp + 0.18 * double{z};
+    const double light = 0.48 + 0.36 * lamp + 0.18 * double{z};
     return look.inside ? 0.72 * light : light;
 }
 
