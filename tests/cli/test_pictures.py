@@ -9,7 +9,7 @@ import zlib
 KEPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "pictures")
 # name of the picture: tool, arguments with models by their place in TREEFORM_MODELS_DIR
 MODELS_SHOWN = {
-    "meet": (TOOL, "selfint/frog_legs_18k.obj"),
+    "meet": (TOOL, "selfint/scorpion_100k.obj"),
     "duplicates": (TOOL, "nonmanifold/truck_5k.obj", "--view", "front"),
     "sound": (TOOL, "clean/fandisk_14k.off"),
     "mended": (MEND, "open/camelhead_23k.off", "-n", "--view", "left"),

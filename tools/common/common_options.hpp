@@ -3,7 +3,7 @@
 /// The options that all tools share.
 
 #include "tools/common/command_line.hpp"
-#include "tools/picture/sheet.hpp"
+#include "tools/picture/options.hpp"
 #include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 

@@ -10,7 +10,7 @@ namespace {
 /// A letter is paths with spaces between them; a path is points of two hexadecimal digits, x and y.
 /// Lines stand at y = 3, small letters reach 9 and capitals 12. Of a path after "~", the points pull
 /// at a curve, which is closed where they are.
-constexpr std::array<const char*, 95> letters{
+constexpr std::array<const char*, 95> glyphs{
     "",                                      // space
     "0c06 0304",                             // !
     "0c0a 2c2a",                             // "
@@ -114,7 +114,7 @@ constexpr double gap = 2.4;
 constexpr double space = 3.0;
 constexpr double line_width = 1.25;
 
-const char* glyph_of(unsigned char c) { return c >= 32 && c < 127 ? letters[c - 32U] : unknown; }
+const char* glyph_of(unsigned char c) { return c >= 32 && c < 127 ? glyphs[c - 32U] : unknown; }
 
 double step_of(char c) { return c >= 'a' ? c - 'a' + 10 : c - '0'; }
 

@@ -5,7 +5,7 @@
 namespace tools {
 namespace {
 
-constexpr unsigned share = 140;  // of 256
+constexpr unsigned halo_share = 140;  // of 256
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void add_halos(picture& on, const std::vector<std::uint8_t>& found,
         }
     for (std::size_t i = 0; i < halo.size(); ++i)
         if (halo[i] != 0 && found[i] == 0)
-            on.pixels[i] = blended(on.pixels[i], colors[halo[i] - 1U], share);
+            on.pixels[i] = blended(on.pixels[i], colors[halo[i] - 1U], halo_share);
 }
 
 }  // namespace tools

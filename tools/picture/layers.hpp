@@ -98,6 +98,15 @@ struct edge_side {
     }
     [[nodiscard]] double row(double py) const { return wx * (py - y); }
     [[nodiscard]] double at(double px, double row_value) const { return row_value - wy * (px - x); }
+    /// Leaves of a range of x what may be on the inner side, and a little more.
+    void narrow(double row_value, double& low, double& high) const {
+        if (std::abs(wy) < 1e-9) return;
+        const double meets = x + row_value / wy;
+        if (wy > 0.0)
+            high = std::min(high, meets + 1.0);
+        else
+            low = std::max(low, meets - 1.0);
+    }
     double x, y, wx, wy;
 };
 
@@ -118,7 +127,17 @@ void for_samples(const std::array<sample_point, 3>& t, const sample_grid& grid, 
     for (long row = y0; row < y1; ++row) {
         const double y = static_cast<double>(grid.y + row) + 0.5;
         const double ra = a.row(y), rb = b.row(y), rc = c.row(y);
-        for (long column = x0; column < x1; ++column) {
+        long begin = x0, end = x1;
+        if (x1 - x0 > 8) {  // long and thin ones are mostly not in their boxes
+            double low = static_cast<double>(grid.x), high = low + static_cast<double>(grid.size);
+            a.narrow(ra, low, high);
+            b.narrow(rb, low, high);
+            c.narrow(rc, low, high);
+            const auto [first, last] = grid.range(low, high, grid.x);
+            begin = std::max(x0, first);
+            end = std::min(x1, last);
+        }
+        for (long column = begin; column < end; ++column) {
             const double x = static_cast<double>(grid.x + column) + 0.5;
             if (a.at(x, ra) >= 0.0 && b.at(x, rb) >= 0.0 && c.at(x, rc) >= 0.0)
                 put(static_cast<std::size_t>(row * grid.size + column), plane.at(x, y));
@@ -135,16 +154,26 @@ void for_samples(const std::array<sample_point, 2>& ends, double reach, const sa
     const auto [y0, y1] =
         grid.range(std::min(a.y, b.y) - reach, std::max(a.y, b.y) + reach, grid.y);
     const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-    for (long row = y0; row < y1; ++row)
-        for (long column = x0; column < x1; ++column) {
+    for (long row = y0; row < y1; ++row) {
+        const double py = static_cast<double>(grid.y + row) + 0.5 - a.y;
+        // Of the segment, only what is at most `reach` above or below can be near enough.
+        double from = 0.0, to = 1.0;
+        if (std::abs(dy) > 1e-9) {
+            from = std::clamp((dy > 0.0 ? py - reach : py + reach) / dy, 0.0, 1.0);
+            to = std::clamp((dy > 0.0 ? py + reach : py - reach) / dy, 0.0, 1.0);
+        }
+        const double left = a.x + std::min(from * dx, to * dx) - reach - 1.0;
+        const double right = a.x + std::max(from * dx, to * dx) + reach + 1.0;
+        const auto [begin, end] = grid.range(left, right, grid.x);
+        for (long column = std::max(begin, x0); column < std::min(end, x1); ++column) {
             const double px = static_cast<double>(grid.x + column) + 0.5 - a.x;
-            const double py = static_cast<double>(grid.y + row) + 0.5 - a.y;
             const double t =
                 square > 0.0 ? std::clamp((px * dx + py * dy) / square, 0.0, 1.0) : 0.0;
             const double ox = px - t * dx, oy = py - t * dy;
             if (ox * ox + oy * oy <= reach * reach)
                 put(static_cast<std::size_t>(row * grid.size + column), a.z + t * (b.z - a.z));
         }
+    }
 }
 
 }  // namespace tools

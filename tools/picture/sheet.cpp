@@ -3,11 +3,13 @@
 #include "tools/picture/drawing.hpp"
 #include "tools/picture/legend.hpp"
 #include "tools/picture/tiles.hpp"
+#include "tools/picture/view.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace tools {
 namespace {

@@ -4,22 +4,9 @@
 
 #include "tools/page/scene.hpp"
 #include "tools/picture/canvas.hpp"
-#include "tools/picture/view.hpp"
-
-#include <cstddef>
-#include <vector>
+#include "tools/picture/options.hpp"
 
 namespace tools {
-
-/// What a picture may measure on a side.
-inline constexpr std::size_t least_side = 16;
-inline constexpr std::size_t most_side = 16384;
-
-struct picture_options {
-    std::size_t width = 1600;
-    std::size_t height = 1200;
-    std::vector<view> views{view::iso};  ///< one or more, each a pane; before and after: two each
-};
 
 /// The picture of a scene. Its colors, legend and title are those of the page; all panes have one
 /// scale, which a bar shows. Below 320 x 240 there is no room for words, and none are drawn.

@@ -22,7 +22,7 @@ constexpr double crease = 0.82;          // cosine of the angle between faces th
 /// How a face looks at the eye.
 struct face_look {
     std::array<float, 3> normal{};  ///< of length 1: right, up, toward the eye
-    float size = 0.0F;              ///< a side of the square of its area on the screen
+    float height = 0.0F;            ///< the least, on the screen
     bool inside = false;            ///< one sees its back
 };
 
@@ -37,7 +37,9 @@ face_look look_of(const std::array<sample_point, 3>& t) {
     const double turn = look.inside ? -1.0 / length : 1.0 / length;
     look.normal = {static_cast<float>(nx * turn), static_cast<float>(ny * turn),
                    static_cast<float>(nz * turn)};
-    look.size = static_cast<float>(std::sqrt(0.5 * std::abs(nz)));
+    const double wx = vx - ux, wy = vy - uy;
+    const double longest = std::max({ux * ux + uy * uy, vx * vx + vy * vy, wx * wx + wy * wy});
+    look.height = static_cast<float>(std::abs(nz) / std::sqrt(std::max(longest, 1e-300)));
     return look;
 }
 
@@ -164,8 +166,8 @@ double tile::contour_towards(std::size_t at, std::size_t next, double dx, double
                           double{own.normal[1]} * double{other.normal[1]} +
                           double{own.normal[2]} * double{other.normal[2]};
     if (cosine < crease || own.inside != other.inside) return 0.4;
-    const double size = double{std::min(own.size, other.size)};
-    return 0.16 * std::clamp((size - 14.0) / 40.0, 0.0, 1.0);
+    const double height = double{std::min(own.height, other.height)};
+    return 0.16 * std::clamp((height - 12.0) / 40.0, 0.0, 1.0);
 }
 
 double tile::contour(std::size_t at) const {

@@ -7,9 +7,9 @@
 namespace tools {
 namespace {
 
-using rows = std::array<std::array<double, 3>, 3>;  // right, up, toward the eye
+using view_rows = std::array<std::array<double, 3>, 3>;  // right, up, toward the eye
 
-rows rows_of(view from) {
+view_rows rows_of(view from) {
     switch (from) {
         case view::top:
             return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

@@ -3,21 +3,16 @@
 /// Where one looks from, and where things are then in the picture.
 
 #include "tools/page/scene.hpp"
-#include "tools/picture/canvas.hpp"
+#include "tools/picture/options.hpp"
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <array>
-#include <string>
-#include <string_view>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace tools {
-
-/// Views are parallel: lengths across are true to one scale, and what is near hides what is far.
-enum class view : std::uint8_t { iso, top, bottom, front, back, left, right };
-inline constexpr std::array<const char*, 7> view_names{"iso",  "top",  "bottom", "front",
-                                                       "back", "left", "right"};
 
 /// Points to the right, up and toward the eye, in shares of the scene's longest side: neither
 /// huge nor tiny coordinates overflow. Points that are not finite give what is not.
