@@ -1,7 +1,6 @@
-#include "tools/shown/shown.hpp"
-
 #include "tools/common/console.hpp"
 #include "tools/page/edges.hpp"
+#include "tools/shown/shown.hpp"
 #include "tools/tf-boolean/outputs.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/curves.hpp>

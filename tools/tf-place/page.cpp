@@ -1,6 +1,5 @@
-#include "tools/shown/shown.hpp"
-
 #include "tools/common/console.hpp"
+#include "tools/shown/shown.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/tf.hpp>

@@ -1,6 +1,5 @@
-#include "tools/shown/shown.hpp"
-
 #include "tools/common/console.hpp"
+#include "tools/shown/shown.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
 #include <treeform/mesh/curves.hpp>
 #include <treeform/tf.hpp>
