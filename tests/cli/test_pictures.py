@@ -35,12 +35,11 @@ def read_png(data):
     assert form == [8, 2, 0, 0, 0]
     raw = zlib.decompress(chunks[b"IDAT"])
     assert len(raw) == height * (3 * width + 1)
-    above, rows = bytes(3 * width), []
+    rows = []
     for y in range(height):
         line = raw[y * (3 * width + 1):(y + 1) * (3 * width + 1)]
-        assert line[0] == 2
-        above = bytes((a + b) & 255 for a, b in zip(line[1:], above))
-        rows.append([tuple(above[3 * x:3 * x + 3]) for x in range(width)])
+        assert line[0] == 0
+        rows.append([tuple(line[3 * x + 1:3 * x + 4]) for x in range(width)])
     return width, height, rows
 
 

@@ -30,17 +30,14 @@ void put_chunk(std::string& to, const std::string& name_and_data) {
     put_number(to, checksum(name_and_data));
 }
 
-/// Rows, each as its difference to the one above: most of a picture is like that one.
-std::string differences(const picture& drawn, std::size_t begin, std::size_t end) {
+/// Rows as they are: even colors pack better than differences, as which PNG can store rows, too.
+std::string rows_of(const picture& drawn, std::size_t begin, std::size_t end) {
     std::string bytes;
     bytes.reserve((end - begin) * (3 * drawn.width + 1));
     for (std::size_t y = begin; y < end; ++y) {
-        bytes += static_cast<char>(2);  // "up"
+        bytes += '\0';  // no differences
         for (std::size_t x = 0; x < drawn.width; ++x)
-            for (std::size_t i = 0; i < 3; ++i) {
-                const int above = y > 0 ? drawn.at(x, y - 1)[i] : 0;
-                bytes += static_cast<char>(drawn.at(x, y)[i] - above);
-            }
+            for (const std::uint8_t c : drawn.at(x, y)) bytes += static_cast<char>(c);
     }
     return bytes;
 }
@@ -81,7 +78,7 @@ std::string png(const picture& drawn) {
     std::vector<piece> pieces(tf::chunk_count(drawn.height, rows_a_chunk));
     tf::for_chunks(drawn.height, rows_a_chunk,
                    [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                       const std::string bytes = differences(drawn, begin, end);
+                       const std::string bytes = rows_of(drawn, begin, end);
                        pieces[chunk] = {deflated(bytes, chunk + 1 == pieces.size()),
                                         adler32(1, reinterpret_cast<const Bytef*>(bytes.data()),
                                                 static_cast<uInt>(bytes.size())),
