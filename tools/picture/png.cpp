@@ -31,7 +31,7 @@ void put_chunk(std::string& to, const std::string& name_and_data) {
 }
 
 /// Rows as they are: even colors pack better than differences, as which PNG can store rows, too.
-std::string rows_of(const picture& drawn, std::size_t begin, std::size_t end) {
+std::string bytes_of_rows(const picture& drawn, std::size_t begin, std::size_t end) {
     std::string bytes;
     bytes.reserve((end - begin) * (3 * drawn.width + 1));
     for (std::size_t y = begin; y < end; ++y) {
@@ -78,7 +78,7 @@ std::string png(const picture& drawn) {
     std::vector<piece> pieces(tf::chunk_count(drawn.height, rows_a_chunk));
     tf::for_chunks(drawn.height, rows_a_chunk,
                    [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                       const std::string bytes = rows_of(drawn, begin, end);
+                       const std::string bytes = bytes_of_rows(drawn, begin, end);
                        pieces[chunk] = {deflated(bytes, chunk + 1 == pieces.size()),
                                         adler32(1, reinterpret_cast<const Bytef*>(bytes.data()),
                                                 static_cast<uInt>(bytes.size())),
