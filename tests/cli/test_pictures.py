@@ -7,6 +7,7 @@ from support import *
 import zlib
 
 KEPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "pictures")
+KEPT_SIZE = ("--png-size", "140x105")
 # name of the picture: tool, arguments with models by their place in TREEFORM_MODELS_DIR
 MODELS_SHOWN = {
     "meet": (TOOL, "selfint/scorpion_100k.obj"),
@@ -15,7 +16,7 @@ MODELS_SHOWN = {
     "mended": (MEND, "open/camelhead_23k.off", "-n", "--view", "left"),
     "open": (MEND, "nonmanifold/beetle_2k.obj", "--check", "--view", "iso,top"),
     "union": (BOOLEAN, "union", "pairs/xcylinder.obj", "pairs/zcylinder.obj", "-n"),
-    "points": (WELD, "cloud/terrain_samp11_38k.ply", "-t", "1%", "-n"),
+    "points": (WELD, "cloud/las_color_1k.xyz", "-t", "1%", "-n"),
     "dropped": (PLACE, "drop", "clean/spot_23k.obj", "-n", "--view", "all"),
 }
 
@@ -173,7 +174,7 @@ class RealModels(ToolTest):
         for name in MODELS_SHOWN:
             with self.subTest(picture=name):
                 self.tool, *arguments = command_of(name)
-                run = self.run_tool(*arguments, "--png", "p.png", "--png-size", "160x120", "-f")
+                run = self.run_tool(*arguments, "--png", "p.png", *KEPT_SIZE, "-f")
                 self.assertIn(run.status, (0, 1), msg=run.err)
                 rows = read_png(self.read_bytes("p.png"))[2]
                 with open(os.path.join(KEPT, name + ".png"), "rb") as file:
@@ -188,7 +189,7 @@ class RealModels(ToolTest):
             kept = read_png(file.read())[2]
         self.tool, *arguments = command_of("duplicates")
         arguments[arguments.index("front")] = "back"
-        self.run_tool(*arguments, "--png", "p.png", "--png-size", "160x120")
+        self.run_tool(*arguments, "--png", "p.png", *KEPT_SIZE)
         mean, far = difference(read_png(self.read_bytes("p.png"))[2], kept)
         self.assertGreater(mean, 2.0)
         self.assertGreater(far, 0.01)
@@ -224,6 +225,6 @@ if __name__ == "__main__":
     if sys.argv[1:] == ["--keep"]:
         for picture in MODELS_SHOWN:
             subprocess.run(command_of(picture) + ["--png", os.path.join(KEPT, picture + ".png"),
-                                                  "--png-size", "160x120", "-f"])
+                                                  *KEPT_SIZE, "-f"])
     else:
         main()
