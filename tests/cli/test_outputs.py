@@ -143,7 +143,7 @@ class Outputs(ToolTest):
     def test_existing_files_are_not_overwritten_without_force(self):
         part = write(self.path("part.obj"), CROSSING)
         for option, name in (("-o", "m.ply"), ("-r", "r.json"), ("--pairs", "p.csv"),
-                             ("--curves", "c.obj"), ("--html", "h.html")):
+                             ("--curves", "c.obj"), ("--html", "h.html"), ("--png", "h.png")):
             with open(self.path(name), "w") as file:
                 file.write("mine")
             run = self.run_tool(part, option, name, status=4)
@@ -153,7 +153,7 @@ class Outputs(ToolTest):
             self.run_tool(part, option, name, "-f", status=1)
             self.assertNotEqual(self.read_bytes(name), b"mine")
         self.assertEqual(self.listing(),
-                         ["c.obj", "h.html", "m.ply", "p.csv", "part.obj", "r.json"])
+                         ["c.obj", "h.html", "h.png", "m.ply", "p.csv", "part.obj", "r.json"])
 
     def test_a_dry_run_writes_reports_but_no_mesh(self):
         part = write(self.path("part.obj"), CROSSING)

@@ -73,7 +73,7 @@ class Usage(ToolTest):
         before = self.listing()
         for one, other in (("m.ply", "./m.ply"), ("m.ply", self.path("m.ply")),
                            ("m.ply", "sub/../m.ply"), ("sub/m.ply", "link/m.ply")):
-            for option in ("-r", "--html", "--pairs", "--log"):
+            for option in ("-r", "--html", "--png", "--pairs", "--log"):
                 err = self.refused("part.obj", "-o", one, option, other, "-f")
                 self.assertIn("two outputs", err)
         self.assertIn("two outputs", self.refused("part.obj", "--output-dir", "sub", "--suffix", "",
@@ -84,7 +84,8 @@ class Usage(ToolTest):
 
     def test_one_output_for_several_inputs_is_refused(self):
         other = write(self.path("other.obj"), CLEAN)
-        for option, name in (("-o", "m.ply"), ("--pairs", "p.csv"), ("--html", "h.html")):
+        for option, name in (("-o", "m.ply"), ("--pairs", "p.csv"), ("--html", "h.html"),
+                             ("--png", "h.png")):
             self.refused(self.part, other, option, name)
 
     def test_a_folder_stands_for_the_models_in_it(self):

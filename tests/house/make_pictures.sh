@@ -1,14 +1,29 @@
 #!/usr/bin/env bash
-# make_pictures.sh TF_SELFINTERSECT: makes data/pictures/self_intersections.png, which README.md
-# shows: the page that `tf-selfintersect --html` writes for data/two_spheres.stl, as a browser
-# draws it. Needs chromium (apt-get install chromium). Run it again when the page changes.
+# make_pictures.sh TOOLS: makes the pictures that README.md and tools/README.md show, with the tools
+# in the folder TOOLS, build/release/tools. First those in tools/pictures, by the commands that stand
+# there; cli_pictures says when they are no longer what the tools draw. Then
+# data/pictures/self_intersections.png: the page that `tf-selfintersect --html` writes for
+# data/two_spheres.stl, as a browser draws it. That needs chromium (apt-get install chromium). Run it
+# again when the page changes.
 set -euo pipefail
-tool=$(realpath "${1?make_pictures.sh: name the tool, build/release/tools/tf-selfintersect/tf-selfintersect}")
+tools=$(realpath "${1?make_pictures.sh: name the folder of the tools, build/release/tools}")
+tool=$tools/tf-selfintersect/tf-selfintersect
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 picture=data/pictures/self_intersections.png
 mkdir -p data/pictures
+
+grep -hE '^    (\$ )?tf-.* --png [a-z_]+\.png --png-size ' README.md tools/README.md |
+    while read -r line; do
+        read -ra words <<<"${line#\$ }"
+        name=${words[0]} status=0
+        for i in "${!words[@]}"; do
+            [[ ${words[i]} != *.png ]] || words[i]=tools/pictures/${words[i]}
+        done
+        "$tools/$name/$name" "${words[@]:1}" -f || status=$?
+        ((status < 2)) || { echo "$name ended with status $status" >&2; exit 1; }
+    done
 
 # 1: the tool has found something, which it should.
 status=0

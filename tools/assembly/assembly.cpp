@@ -114,7 +114,8 @@ std::optional<int> run_assembly(int argc, const char* const* argv) {
     features.page = false;
     if (clash) features.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"};
     add_common_options(line, options, features);
-    line.refuse("--html", true, "makes no sense here");
+    for (const char* name : {"--html", "--png", "--view", "--png-size"})
+        line.refuse(name, true, "makes no sense here");
     line.epilogue(clash ? clash_epilogue : check_epilogue);
     return run(
         line, options, {"read", "prepare", "search", "write"}, argc, argv,

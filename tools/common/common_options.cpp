@@ -67,6 +67,47 @@ void add_format_options(command_line& line, common_options& o, const common_feat
     });
 }
 
+/// "iso,top": all is iso and the three of a drawing.
+std::vector<view> parse_views(std::string_view text) {
+    if (text == "all") return {view::iso, view::top, view::front, view::right};
+    std::vector<view> views;
+    while (true) {
+        const std::size_t comma = text.find(',');
+        views.push_back(
+            static_cast<view>(parse_choice("--view", text.substr(0, comma), view_names)));
+        if (views.size() > 16) refuse("--view: at most 16");
+        if (comma == std::string_view::npos) return views;
+        text.remove_prefix(comma + 1);
+    }
+}
+
+/// "1600x1200"
+void parse_picture_size(std::string_view text, picture_options& target) {
+    const std::size_t cross = text.find('x');
+    if (cross == std::string_view::npos)
+        refuse("--png-size " + std::string(text) + ": expected WxH, such as 1600x1200");
+    target.width = parse_count("--png-size", text.substr(0, cross));
+    target.height = parse_count("--png-size", text.substr(cross + 1));
+    for (const std::size_t side : {target.width, target.height})
+        if (side < least_side || side > most_side)
+            refuse("--png-size " + std::string(text) + ": a side has " +
+                   std::to_string(least_side) + " to " + std::to_string(most_side) + " pixels");
+}
+
+void add_picture_options(command_line& line, common_options& o) {
+    line.output(o.html, {"--html", "FILE", "self-contained HTML page with a 3D view"});
+    line.output(o.png, {"--png", "FILE",
+                        "a picture, with what was found in the colors of the page;\n"
+                        "needs no display and no browser"});
+    line.option({"--view", "V,...",
+                 "of --png: iso top bottom front back left right; several\n"
+                 "are side by side in one FILE; all: iso,top,front,right",
+                 "iso"},
+                [&o](std::string_view value) { o.picture.views = parse_views(value); });
+    line.option({"--png-size", "WxH", "of --png, in pixels", "1600x1200"},
+                [&o](std::string_view value) { parse_picture_size(value, o.picture); });
+}
+
 void add_run_options(command_line& line, common_options& o) {
     line.option({"-j, --threads", "N", "worker threads; results do not depend on N", "all"},
                 [&o](std::string_view value) {
@@ -164,8 +205,7 @@ void add_common_options(command_line& line, common_options& target,
             o.unit = one_of("--units", value, {"mm", "cm", "m", "in", "ft"});
         });
     line.output(o.report, {"-r, --report", "FILE", "JSON report; \"-\" = stdout"});
-    if (features.page)
-        line.output(o.html, {"--html", "FILE", "self-contained HTML page with a 3D view"});
+    if (features.page) add_picture_options(line, o);
     add_run_options(line, o);
 }
 
@@ -190,6 +230,8 @@ void check_common_options(const command_line& line, const common_options& option
     if (options.output == "-" && options.output_format.empty())
         refuse("-o - needs --output-format");
     if (!options.output.empty()) static_cast<void>(mesh_format(options, options.output));
+    for (const char* name : {"--view", "--png-size"})
+        if (options.png.empty() && line.given(name)) refuse(std::string(name) + " needs --png");
     check_format(options);
     check_outputs(line, options);
     check_output_folder(options);

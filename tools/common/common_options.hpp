@@ -3,6 +3,7 @@
 /// The options that all tools share.
 
 #include "tools/common/command_line.hpp"
+#include "tools/picture/options.hpp"
 #include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 
@@ -34,6 +35,8 @@ struct common_options {
     std::string unit = "unknown";
     std::filesystem::path report;
     std::filesystem::path html;
+    std::filesystem::path png;
+    picture_options picture;
     unsigned threads = 0;      ///< 0: all
     std::uint64_t memory = 0;  ///< as asked for; 0: not asked
     bool all_memory = false;   ///< --memory none
@@ -46,14 +49,16 @@ struct common_options {
     std::vector<std::string> mesh_formats;  ///< that the tool writes, the preferred one first
 
     /// Whether a report of some kind wants every fact.
-    [[nodiscard]] bool detailed() const { return !report.empty() || !html.empty(); }
+    [[nodiscard]] bool detailed() const { return !report.empty() || shows(); }
+    /// Whether a page or a picture is asked for.
+    [[nodiscard]] bool shows() const { return !html.empty() || !png.empty(); }
 };
 
 /// What of the common options a tool offers.
 struct common_features {
     std::vector<std::string> output_formats;  ///< extensions; empty: writes no mesh
     bool one_result = false;                  ///< of all inputs: then --output-dir makes none
-    bool page = true;                         ///< --html
+    bool page = true;                         ///< --html and --png
 };
 
 /// What most tools read.

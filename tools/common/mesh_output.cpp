@@ -62,6 +62,7 @@ void check_outputs(const job& work, std::initializer_list<std::filesystem::path>
     };
     std::for_each(always.begin(), always.end(), check);
     check(o.html);
+    check(o.png);
     if (o.dry_run) return;
     std::for_each(also.begin(), also.end(), check);
     if (const auto path = mesh_output(o, work.path)) check_output(*path, o.force || o.in_place);

@@ -1,17 +1,15 @@
 #include "tools/page/page.hpp"
 
-#include "tools/common/output_file.hpp"
 #include "tools/page/assets.hpp"
 #include "tools/page/pack.hpp"
 #include <treeform/tf.hpp>
-#include <treeform/tree/version.hpp>
 
 namespace tools {
 namespace {
 
 /// No "<" in it can end or nest a script element: JSON may write one as a number.
-std::string as_script_data(const json& data) {
-    std::string text = data.dump(-1, ' ', true, json::error_handler_t::replace);
+std::string as_script_data(const nlohmann::ordered_json& data) {
+    std::string text = data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
     for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
         text.replace(at, 1, "\\u003c");
     return text;
@@ -64,30 +62,6 @@ std::string html(const scene& shown) {
         packed.geometry + "</script>\n<script>\n";
     text += viewer_js;
     return text + "</script>\n</body>\n</html>\n";
-}
-
-scene scene_of(const job& work, const char* tool) {
-    scene shown;
-    shown.title = work.name;
-    if (work.options.unit != "unknown") shown.unit = work.options.unit;
-    const auto text_of = [&](const char* key) {
-        const auto at = work.entry.find(key);
-        return at != work.entry.end() && at->is_string() ? at->get<std::string>() : std::string();
-    };
-    const std::string format = text_of("format");
-    shown.y_is_up = format.starts_with("obj") || format.starts_with("gl");
-    shown.facts.emplace_back("file", work.name + (format.empty() ? "" : ", " + format));
-    if (!text_of("sha256").empty()) shown.facts.emplace_back("sha256", text_of("sha256"));
-    if (!text_of("precision_in").empty())
-        shown.facts.emplace_back("coordinates",
-                                 text_of("precision_in") + ", unit " + work.options.unit);
-    shown.facts.emplace_back("program", std::string(tool) + " " + tf::version_string());
-    return shown;
-}
-
-void write_page(const job& work, const scene& shown) {
-    write_file(work.options.html, work.options.force, work.keeper,
-               [&](output_file& file) { file.write(html(shown)); });
 }
 
 }  // namespace tools

@@ -1,7 +1,6 @@
-#include "tools/page/page.hpp"
-
 #include "tools/common/console.hpp"
 #include "tools/page/edges.hpp"
+#include "tools/shown/shown.hpp"
 #include "tools/tf-boolean/outputs.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/curves.hpp>
@@ -82,7 +81,7 @@ void add_tables(scene& shown, const json& entry) {
 
 void write_page(job& work, const std::vector<solid>& solids, const std::string& verdict, bool good,
                 const tf::boolean_result* made) {
-    if (work.options.html.empty()) return;
+    if (!work.options.shows()) return;
     const auto timing = work.time("write");
     scene shown = scene_of(work, "tf-boolean");
     shown.verdict = verdict;

@@ -1,6 +1,5 @@
-#include "tools/page/page.hpp"
-
 #include "tools/common/console.hpp"
+#include "tools/shown/shown.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/tf.hpp>
@@ -259,7 +258,7 @@ void add_plates(scene& shown, const tf::pack_options& options, const tf::packing
 }  // namespace
 
 void write_page(job& work, const placing& p, const tf::deviation_result* known) {
-    if (work.options.html.empty()) return;
+    if (!work.options.shows()) return;
     const auto timing = work.time("write");
     scene shown = scene_of(work, "tf-place");
     shown.title = work.name + ": " + name_of(p.settings.mode);
@@ -298,7 +297,7 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
 
 void write_page(job& work, const place_settings& settings, const tf::body_set& parts,
                 const tf::packing& found) {
-    if (work.options.html.empty()) return;
+    if (!work.options.shows()) return;
     const auto timing = work.time("write");
     scene shown = scene_of(work, "tf-place");
     shown.title = work.name + ": arrange";

@@ -101,7 +101,7 @@ void enter_place(json& entry, const placing& p);
 /// Says that, and what -v adds to it.
 void say_place(job& work, const placing& p);
 
-/// The page, where --html asks for one: MOVING where it is and was, what it meets, and how far it is
+/// Page and picture, where they are asked for: MOVING where it is and was, what it meets, and how far it is
 /// from that: `known`, where that was asked for.
 void write_page(job& work, const placing& p, const tf::deviation_result* known = nullptr);
 /// The page of plates and parts.

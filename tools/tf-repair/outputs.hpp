@@ -66,7 +66,7 @@ void warn_of_surprises(job& work, const tf::repaired_file& made);
 void write_solid(job& work, const dirty_mesh& input, const repair_settings& settings,
                  tf::repaired_file& made, const std::filesystem::path& path);
 
-/// The page, where --html asks for one: before and after with what became of each face, or the input
+/// Page and picture, where they are asked for: before and after with what became of each face, or the input
 /// alone where nothing was `made`. `face_source` is as in `repaired_file`.
 void write_page(job& work, const dirty_mesh& input, const std::string& verdict, bool good,
                 const tf::mesh& made = {}, const std::vector<std::uint32_t>& face_source = {});

@@ -1,7 +1,6 @@
-#include "tools/page/page.hpp"
-
 #include "tools/common/console.hpp"
 #include "tools/page/edges.hpp"
+#include "tools/shown/shown.hpp"
 #include "tools/tf-repair/outputs.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/repair.hpp>
@@ -155,7 +154,7 @@ void add_tables(scene& shown, const job& work) {
 
 void write_page(job& work, const dirty_mesh& input, const std::string& verdict, bool good,
                 const tf::mesh& made, const std::vector<std::uint32_t>& face_source) {
-    if (work.options.html.empty()) return;
+    if (!work.options.shows()) return;
     const auto timing = work.time("write");
     scene shown = scene_of(work, "tf-repair");
     shown.verdict = verdict;

@@ -170,7 +170,8 @@ exit_status look_at(tools::job& work, const request& r) {
         }
         result = tools::search_in_tiles(
             work, r.search, r.tiles,
-            r.tiles.folder_for(work, "tf-selfintersect", {r.pairs, r.curves, o.html, o.report}));
+            r.tiles.folder_for(work, "tf-selfintersect",
+                               {r.pairs, r.curves, o.html, o.png, o.report}));
     } else {
         file = work.read();
         result = tools::search(work, file, r.search, keeps_mesh);

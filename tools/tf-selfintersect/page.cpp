@@ -1,6 +1,5 @@
-#include "tools/page/page.hpp"
-
 #include "tools/common/console.hpp"
+#include "tools/shown/shown.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
 #include <treeform/mesh/curves.hpp>
 #include <treeform/tf.hpp>
@@ -113,7 +112,7 @@ void add_facts(scene& shown, const findings& result, const search_settings& sett
 }  // namespace
 
 void write_page(const job& work, const findings& result, const search_settings& settings) {
-    if (work.options.html.empty()) return;
+    if (!work.options.shows()) return;
     scene shown = scene_of(work, "tf-selfintersect");
     shown.verdict = verdict(result, settings);
     shown.good = result.found.pairs.empty();

@@ -30,7 +30,7 @@ bool has_lists(const tf::mesh_file& header) {
 std::string what_needs_memory(const job& work, const weld_request& request,
                               const tf::mesh_file& header) {
     const tf::weld_options& o = request.settings.options;
-    if (!work.options.html.empty()) return "--html";
+    if (work.options.shows()) return work.options.html.empty() ? "--png" : "--html";
     if (o.only_borders) return "--borders";
     if (o.keep_manifold) return "--keep-manifold";
     const bool chooses = o.keep != tf::weld_keep::first;

@@ -1,6 +1,5 @@
-#include "tools/page/page.hpp"
-
 #include "tools/common/console.hpp"
+#include "tools/shown/shown.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/words.hpp"
 #include <treeform/mesh/as_mesh.hpp>
@@ -116,7 +115,7 @@ void add_distances(scene& shown, const tf::mesh_file& file, const welding& w) {
 
 void write_page(job& work, const tf::mesh_file& file, const welding& w,
                 const weld_request& request) {
-    if (work.options.html.empty()) return;
+    if (!work.options.shows()) return;
     const auto timing = work.time("write");
     scene shown = scene_of(work, "tf-weld");
     shown.verdict = verdict(w, request);

@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// What a tool shows of a job: a scene, as a page and as a picture.
+
+#include "tools/common/run.hpp"
+#include "tools/page/scene.hpp"
+#include <treeform/tf.hpp>
+
+namespace tools {
+
+/// A scene with what all tools say of the job: the file, its digest, the program and its version.
+[[nodiscard]] scene scene_of(const job& work, const char* tool);
+
+/// Writes the page to where --html says, and the picture to where --png does.
+/// \throws failure (bad_output)
+void write_page(const job& work, const scene& shown);
+
+}  // namespace tools
