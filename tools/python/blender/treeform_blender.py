@@ -367,8 +367,8 @@ class TREEFORM_OT_check(Operator):
             return ""
         how = ", ".join(f"{count:,} {treeform.KINDS[kind]}"
                         for kind, count in zip(*np.unique(kinds, return_counts=True)))
-        return (f"{object.name}: {len(pairs):,} {'pair' if len(pairs) == 1 else 'pairs'} of faces "
-                f"meet ({how})")
+        meet = "1 pair of faces meets" if len(pairs) == 1 else f"{len(pairs):,} pairs of faces meet"
+        return f"{object.name}: {meet} ({how})"
 
 
 class TREEFORM_OT_repair(Operator):
