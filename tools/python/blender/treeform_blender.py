@@ -43,25 +43,29 @@ def column(rows, name, width=1, kind=np.float32):
 
 
 class Triangles:
-    """The triangles of a mesh, and what goes with their corners."""
+    """The triangles of a mesh, the polygons that they are parts of, and what goes with them."""
 
     def __init__(self, mesh, move=None):
         """move: (4, 4) float64, applied to the vertices."""
         mesh.calc_loop_triangles()
-        triangles = mesh.loop_triangles
+        triangles, polygons = mesh.loop_triangles, mesh.polygons
         self.vertices = column(mesh.vertices, "co", 3).astype(np.float64)
         self.faces = column(triangles, "vertices", 3, np.int32).astype(np.uint32)
-        loops = column(triangles, "loops", 3, np.int32)
+        self.loops = column(triangles, "loops", 3, np.int32)
+        self.mirrored = move is not None and np.linalg.det(move[:3, :3]) < 0
         if move is not None:
             self.vertices = np.ascontiguousarray(self.vertices @ move[:3, :3].T + move[:3, 3])
-            if np.linalg.det(move[:3, :3]) < 0:  # mirrored: still counter-clockwise from outside
-                self.faces, loops = self.faces[:, ::-1].copy(), loops[:, ::-1]
+        if self.mirrored:  # still counter-clockwise from outside
+            self.faces, self.loops = self.faces[:, ::-1].copy(), self.loops[:, ::-1].copy()
         if not (finite := np.isfinite(self.vertices).all(axis=1)).all():
             raise Refused(f"vertex {finite.argmin()} is not at a finite place")
         self.polygon = column(triangles, "polygon_index", 1, np.int32)
-        self.material = column(triangles, "material_index", 1, np.int32)
-        self.smooth = column(mesh.polygons, "use_smooth", 1, bool)[self.polygon]
-        self.uvs = {layer.name: column(layer.data, "uv", 2)[loops] for layer in mesh.uv_layers}
+        self.start = column(polygons, "loop_start", 1, np.int32)
+        self.total = column(polygons, "loop_total", 1, np.int32)
+        self.material = column(polygons, "material_index", 1, np.int32)
+        self.smooth = column(polygons, "use_smooth", 1, bool)
+        self.uvs = {layer.name: column(layer.data, "uv", 2) for layer in mesh.uv_layers}
+        self.cut = self.total == 3  # polygons that are triangles in results
 
     def arrays(self):
         return self.vertices, self.faces
@@ -109,89 +113,170 @@ def weights_in_source(corners, triangle):
     return weights / weights.sum(axis=-1, keepdims=True)
 
 
-class Kept:
-    """Materials, smoothness and UVs of the faces of a result."""
+def whole_polygons(operand, source, faces, same):
+    """Polygons that a result has as they were.
 
-    def __init__(self, mesh, face_source, vertex_source, operands, layers):
+    source (n,): the triangle that each of `faces` lies in; same (n, 3, 3): which of its corners is
+    which of that one. Returns the polygons, whether they are turned over, and the vertex of the result
+    that is at each loop."""
+    corner = same.argmax(axis=-1)
+    loops = np.take_along_axis(operand.loops[source], corner, axis=1)
+    whole = same.any(axis=-1).all(axis=-1)
+    vertex = np.zeros(operand.total.sum(), np.int64)
+    vertex[loops[whole]] = faces[whole]
+    whole &= (vertex[loops] == faces).all(axis=1)
+    turned = (corner[:, 1] - corner[:, 0]) % 3 == 2
+    found = []
+    for side in (False, True):
+        count = np.bincount(operand.polygon[source[whole & (turned == side)]],
+                            minlength=len(operand.total))
+        found.append(np.flatnonzero((count == operand.total - 2) & ~operand.cut))
+    return np.concatenate(found), np.repeat([False, True], [len(one) for one in found]), vertex
+
+
+class Faces:
+    """Faces of a result, with what they keep of their operands."""
+
+    def __init__(self, mesh, face_source, vertex_source, operands):
         """face_source, vertex_source: (n, 2), an operand and its face or vertex. Faces without a source
         have material 0 and UV 0."""
-        count = len(mesh.faces)
-        self.material = np.zeros(count, np.int32)
-        self.smooth = np.zeros(count, bool)
-        self.uvs = {name: np.zeros((count, 3, 2), np.float32) for name in layers}
+        names = dict.fromkeys(name for one in operands for name in one.uvs)
+        self.uvs = {name: [] for name in list(names)[:MOST_UV_LAYERS]}
+        self.corners, self.totals, self.operand, self.polygon = [], [], [], []
+        self.material, self.smooth = [], []
+        self.add_lost(mesh.faces[face_source[:, 1] == NONE])
         for k, operand in enumerate(operands):
             rows = np.flatnonzero((face_source[:, 0] == k) & (face_source[:, 1] != NONE))
-            source = face_source[rows, 1]
-            self.material[rows] = operand.material[source]
-            self.smooth[rows] = operand.smooth[source]
-            if not operand.uvs or not len(rows):
-                continue
-            faces, old = mesh.faces[rows], operand.faces[source]
-            weights = weights_in_source(mesh.vertices[faces], operand.vertices[old])
-            came = vertex_source[faces]
+            source, faces = face_source[rows, 1], mesh.faces[rows]
+            old, came = operand.faces[source], vertex_source[faces]
             same = (came[:, :, :1] == k) & (came[:, :, 1:] == old[:, None, :])
+            polygons, turned, vertex = whole_polygons(operand, source, faces, same)
+            rest = ~np.isin(operand.polygon[source], polygons)
+            source, faces, old, same = (one[rest] for one in (source, faces, old, same))
+            weights = weights_in_source(mesh.vertices[faces], operand.vertices[old])
             weights = np.where(same.any(axis=-1, keepdims=True), same, weights)
-            for name in self.uvs.keys() & operand.uvs.keys():
-                self.uvs[name][rows] = weights @ operand.uvs[name][source]
+            self.add(k, operand, operand.polygon[source], faces.ravel(), np.full(len(faces), 3),
+                     lambda uv: (weights @ uv[operand.loops[source]]).reshape(-1, 2))
+            loops = self.loops_of(operand, polygons, turned != operand.mirrored)
+            self.add(k, operand, polygons, vertex[loops], operand.total[polygons],
+                     lambda uv: uv[loops])
+        for name, values in vars(self).items():
+            if name != "uvs":
+                setattr(self, name, np.concatenate(values).astype(np.int32))
+        self.uvs = {name: np.concatenate(values) for name, values in self.uvs.items()}
 
+    @staticmethod
+    def loops_of(operand, polygons, turned):
+        """Loops of polygons; those of the turned ones backward, from the same one on, so that Blender
+        cuts quads by the same diagonal."""
+        total = operand.total[polygons]
+        place = np.arange(total.sum()) - np.repeat(np.cumsum(total) - total, total)
+        size = np.repeat(total, total)
+        place = np.where(np.repeat(turned, total), (size - place) % size, place)
+        return np.repeat(operand.start[polygons], total) + place
 
-def layers_of(operands):
-    """Names of UV layers, those of the first operand first."""
-    return list(dict.fromkeys(name for one in operands for name in one.uvs))
+    def add_lost(self, faces):
+        """Those that lie in no face of an operand."""
+        zeros = np.zeros(len(faces))
+        for values, more in ((self.corners, faces.ravel()), (self.totals, zeros + 3),
+                             (self.operand, zeros), (self.polygon, zeros - 1),
+                             (self.material, zeros), (self.smooth, zeros)):
+            values.append(more)
+        for values in self.uvs.values():
+            values.append(np.zeros((faces.size, 2)))
 
+    def add(self, k, operand, polygons, corners, totals, uvs_of):
+        """Those that lie in these polygons."""
+        for values, more in ((self.corners, corners), (self.totals, totals),
+                             (self.operand, np.full(len(polygons), k)), (self.polygon, polygons),
+                             (self.material, operand.material[polygons]),
+                             (self.smooth, operand.smooth[polygons])):
+            values.append(more)
+        for name, values in self.uvs.items():
+            uv = operand.uvs.get(name)
+            values.append(np.zeros((len(corners), 2)) if uv is None else uvs_of(uv))
 
-def common_materials(face_source, kept, slots_of_operands):
-    """Renumbers the materials of `kept` by the slots of the first operand, and those that others bring
-    along, which are returned."""
-    all_slots = list(slots_of_operands[0])
-    last = np.array([len(slots) - 1 for slots in slots_of_operands])[face_source[:, 0]]
-    number = np.clip(kept.material, 0, last)  # as Blender shows numbers of no slot
-    for k, slots in enumerate(slots_of_operands):
-        rows = face_source[:, 0] == k
-        for old in np.unique(number[rows]):
-            if k > 0 and slots[old] not in all_slots:
-                all_slots.append(slots[old])
-            new = old if k == 0 else all_slots.index(slots[old])
-            kept.material[rows & (number == old)] = new
-    return all_slots
-
-
-# ---- to Blender ----
-
-def store(object, mesh, kept, materials):
-    """Makes `mesh` that of the object, in place of what it has and of its modifiers."""
-    if object.data.users > 1:
-        object.data = object.data.copy()
-    if object.data.shape_keys:
-        object.shape_key_clear()
-    object.modifiers.clear()
-    data = object.data
-    if materials != [None]:
-        for material in materials[len(data.materials):]:
-            data.materials.append(material)
-    active_layer = data.uv_layers.active.name if data.uv_layers.active else ""
-    data.clear_geometry()
-    count = len(mesh.faces)
-    data.vertices.add(len(mesh.vertices))
-    data.loops.add(3 * count)
-    data.polygons.add(count)
-    data.vertices.foreach_set("co", mesh.vertices.astype(np.float32).ravel())
-    data.loops.foreach_set("vertex_index", mesh.faces.astype(np.int32).ravel())
-    data.polygons.foreach_set("loop_start", np.arange(0, 3 * count, 3, dtype=np.int32))
-    data.polygons.foreach_set("loop_total", np.full(count, 3, np.int32))
-    data.polygons.foreach_set("material_index", kept.material)
-    data.polygons.foreach_set("use_smooth", kept.smooth)
-    for name in list(kept.uvs)[:MOST_UV_LAYERS]:
-        layer = data.uv_layers.new(name=name, do_init=False)
-        layer.data.foreach_set("uv", kept.uvs[name].ravel())
-    if active_layer in data.uv_layers:
-        data.uv_layers.active = data.uv_layers[active_layer]
-    data.update(calc_edges=True)
+    def give_slots(self, slots_of_operands):
+        """Renumbers materials by the slots of the first operand, and those that others bring along.
+        Returns them all."""
+        all_slots = list(slots_of_operands[0])
+        for k, slots in enumerate(slots_of_operands):
+            rows = self.operand == k
+            # Blender, too, takes the last slot for numbers beyond it.
+            number = np.clip(self.material, 0, len(slots) - 1)
+            for old in np.unique(number[rows]):
+                if k > 0 and slots[old] not in all_slots:
+                    all_slots.append(slots[old])
+                new = old if k == 0 else all_slots.index(slots[old])
+                self.material[rows & (number == old)] = new
+        return all_slots
 
 
 def changeable(object):
     if object.library or object.data.library:
         raise Refused(f"{object.name} is linked from another file and cannot be changed")
+
+
+def own_mesh(object):
+    """The mesh of the object, its own, without shape keys and modifiers."""
+    if object.data.users > 1:
+        object.data = object.data.copy()
+    if object.data.shape_keys:
+        object.shape_key_clear()
+    object.modifiers.clear()
+    return object.data
+
+
+def fill(data, vertices, faces):
+    """Gives a mesh new vertices and faces."""
+    data.clear_geometry()
+    data.vertices.add(len(vertices))
+    data.loops.add(len(faces.corners))
+    data.polygons.add(len(faces.totals))
+    data.vertices.foreach_set("co", vertices.astype(np.float32).ravel())
+    data.loops.foreach_set("vertex_index", faces.corners)
+    data.polygons.foreach_set("loop_start", np.cumsum(faces.totals, dtype=np.int32) - faces.totals)
+    data.polygons.foreach_set("loop_total", faces.totals)
+    data.polygons.foreach_set("material_index", faces.material)
+    data.polygons.foreach_set("use_smooth", faces.smooth.astype(bool))
+    for name, values in faces.uvs.items():
+        layer = data.uv_layers.new(name=name, do_init=False)
+        layer.data.foreach_set("uv", values.astype(np.float32).ravel())
+    data.update(calc_edges=True)
+
+
+def rows_as_numbers(*tables):
+    """For each table of triangles, a number for each; the same for those with the same corners in the
+    same order around."""
+    turned = []
+    for table in tables:
+        first = table.argmin(axis=1)[:, None]
+        turned.append(np.take_along_axis(table, (first + np.arange(3)) % 3, axis=1))
+    numbers = np.unique(np.concatenate(turned), axis=0, return_inverse=True)[1].ravel()
+    return np.split(numbers, np.cumsum([len(one) for one in turned])[:-1])
+
+
+def store(object, made, sources, operands, slots):
+    """Makes the mesh of `made` that of the object, in place of what it has and of its modifiers.
+
+    Polygons that are whole stay, if Blender cuts them into the triangles that were checked."""
+    data = own_mesh(object)
+    layer = data.uv_layers.active.name if data.uv_layers.active else ""
+    while True:
+        faces = Faces(made.mesh, *sources, operands)
+        materials = faces.give_slots(slots)
+        fill(data, made.vertices, faces)
+        stored = Triangles(data)
+        other = ~np.isin(*rows_as_numbers(stored.faces, made.faces))
+        if not other.any():
+            break
+        for face in np.unique(stored.polygon[other]):
+            operands[faces.operand[face]].cut[faces.polygon[face]] = True
+    if materials != [None]:
+        for material in materials[len(data.materials):]:
+            data.materials.append(material)
+    if layer in data.uv_layers:
+        data.uv_layers.active = data.uv_layers[layer]
 
 
 def select_faces(mesh, polygons):
@@ -221,9 +306,8 @@ def combine(context, operation, active, others, progress=None):
         names = " and ".join(objects[k].name for k in np.unique(error.faces[:, 0]))
         raise Refused(f"Not closed, {error.certificate.open_count} open edges: {names}. "
                       "Close the surface, or use Repair first") from None
-    kept = Kept(made.mesh, made.face_source, made.vertex_source, operands, layers_of(operands))
-    slots = common_materials(made.face_source, kept, [materials_of(one) for one in objects])
-    store(active, made.mesh, kept, slots)
+    store(active, made, (made.face_source, made.vertex_source), operands,
+          [materials_of(one) for one in objects])
     return made
 
 
@@ -246,8 +330,7 @@ def mend(context, object, sheet=False, progress=None):
         return None
     sources = [np.stack([np.zeros_like(one), one], axis=1)
                for one in (made.face_source, made.vertex_source)]
-    kept = Kept(made.mesh, *sources, [before], layers_of([before]))
-    store(object, made.mesh, kept, materials_of(object))
+    store(object, made, sources, [before], [materials_of(object)])
     return made
 
 
@@ -328,8 +411,8 @@ class TREEFORM_OT_boolean(Operator):
         if not len(made.faces):
             self.say(context, f"Nothing is left of {active.name}", "WARNING")
         else:
-            self.say(context, f"{active.name} has {len(made.faces):,} triangles: closed, and no two "
-                              "meet; checked as stored")
+            self.say(context, f"{active.name} has {len(active.data.polygons):,} faces: closed, and no "
+                              "two meet; checked as stored")
         return {"FINISHED"}
 
 
