@@ -60,6 +60,7 @@ class Triangles:
         if not (finite := np.isfinite(self.vertices).all(axis=1)).all():
             raise Refused(f"vertex {finite.argmin()} is not at a finite place")
         self.polygon = column(triangles, "polygon_index", 1, np.int32)
+        self.loop_count = len(mesh.loops)
         self.start = column(polygons, "loop_start", 1, np.int32)
         self.total = column(polygons, "loop_total", 1, np.int32)
         self.material = column(polygons, "material_index", 1, np.int32)
@@ -122,7 +123,7 @@ def whole_polygons(operand, source, faces, same):
     corner = same.argmax(axis=-1)
     loops = np.take_along_axis(operand.loops[source], corner, axis=1)
     whole = same.any(axis=-1).all(axis=-1)
-    vertex = np.zeros(operand.total.sum(), np.int64)
+    vertex = np.zeros(operand.loop_count, np.int64)
     vertex[loops[whole]] = faces[whole]
     whole &= (vertex[loops] == faces).all(axis=1)
     turned = (corner[:, 1] - corner[:, 0]) % 3 == 2
