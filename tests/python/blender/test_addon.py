@@ -305,17 +305,22 @@ class KeptThings(Case):
         self.assertLess(self.assert_certified(a).volume, 1)
         self.assertGreater(sum(len(one.vertices) == 4 for one in a.data.polygons), 400)
 
-    def test_polygons_that_blender_would_cut_otherwise(self):
-        """Quads that are not flat, in another place: what is stored is still what was checked."""
+    def test_the_triangles_that_are_stored_are_those_that_were_checked(self):
+        """Also where Blender cuts polygons otherwise: a side turned over, quads that are not flat."""
         rng = np.random.default_rng(1)
-        a, b = add(location=(0.2, 0.1, 1)), add("uv_sphere", segments=24, ring_count=12)
-        for one in b.data.vertices:
+        a, b = add(scale=(4, 4, 4)), add("cylinder", vertices=64, depth=1, rotation=(1, 2, 3))
+        c, d = add(location=(0.2, 0.1, 1)), add("uv_sphere", segments=24, ring_count=12)
+        for one in d.data.vertices:
             one.co += type(one.co)(rng.normal(0, 0.01, 3))
-        b.rotation_euler = (1, 2, 3)
+        d.rotation_euler = (1, 2, 3)
         bpy.context.view_layer.update()
-        combined("union", a, b)
-        self.assert_certified(a)
-        self.assertGreater(sum(len(one.vertices) == 4 for one in a.data.polygons), 100)
+        for operation, active, other, quads in (("difference", a, b, 70), ("union", c, d, 150)):
+            made = addon.combine(bpy.context, operation, active, [other])
+            stored = self.assert_certified(active)
+            np.testing.assert_array_equal(stored.vertices, made.vertices)
+            self.assertEqual(*({min((x, y, z), (y, z, x), (z, x, y)) for x, y, z in one.faces.tolist()}
+                               for one in (stored, made)))
+            self.assertGreaterEqual(sum(len(one.vertices) == 4 for one in active.data.polygons), quads)
 
     def test_layers_are_matched_by_name(self):
         a, b = add(), add(location=(0.5, 0.5, 0.5))

@@ -246,15 +246,21 @@ def fill(data, vertices, faces):
     data.update(calc_edges=True)
 
 
-def rows_as_numbers(*tables):
-    """For each table of triangles, a number for each; the same for those with the same corners in the
-    same order around."""
-    turned = []
-    for table in tables:
-        first = table.argmin(axis=1)[:, None]
-        turned.append(np.take_along_axis(table, (first + np.arange(3)) % 3, axis=1))
-    numbers = np.unique(np.concatenate(turned), axis=0, return_inverse=True)[1].ravel()
-    return np.split(numbers, np.cumsum([len(one) for one in turned])[:-1])
+def edge_and_corner(triangles, vertices):
+    """A number for the edge that starts at the lowest corner of each triangle, and the third corner."""
+    first = triangles.argmin(axis=1)[:, None]
+    a, b, c = np.take_along_axis(triangles, (first + np.arange(3)) % 3, axis=1).astype(np.uint64).T
+    return a * np.uint64(vertices) + b, c
+
+
+def are_missing(some, triangles, vertices):
+    """(n,) whether each of some triangles is none of `triangles`, of which only one has an edge in the
+    same direction."""
+    edges, corners = edge_and_corner(triangles, vertices)
+    order = np.argsort(edges)
+    wanted, corner = edge_and_corner(some, vertices)
+    at = order[np.minimum(np.searchsorted(edges, wanted, sorter=order), len(order) - 1)]
+    return (edges[at] != wanted) | (corners[at] != corner)
 
 
 def store(object, made, sources, operands, slots):
@@ -268,10 +274,11 @@ def store(object, made, sources, operands, slots):
         materials = faces.give_slots(slots)
         fill(data, made.vertices, faces)
         stored = Triangles(data)
-        other = ~np.isin(*rows_as_numbers(stored.faces, made.faces))
-        if not other.any():
+        whole = np.flatnonzero(faces.totals[stored.polygon] > 3)
+        missing = are_missing(stored.faces[whole], made.faces, len(made.vertices))
+        if not missing.any():
             break
-        for face in np.unique(stored.polygon[other]):
+        for face in np.unique(stored.polygon[whole[missing]]):
             operands[faces.operand[face]].cut[faces.polygon[face]] = True
     if materials != [None]:
         for material in materials[len(data.materials):]:
