@@ -2,6 +2,7 @@
 
 import itertools
 import sys
+import tempfile
 import unittest
 
 import addon_utils
@@ -212,6 +213,14 @@ class Booleans(Case):
         b.data.vertices[2].co.x = float("nan")
         select(a, b)
         self.refused(f"{b.name}: vertex 2 is not at a finite place", union, a)
+        with tempfile.TemporaryDirectory() as folder:
+            bpy.data.libraries.write(f"{folder}/other.blend", {a})
+            with bpy.data.libraries.load(f"{folder}/other.blend", link=True) as (_, linked):
+                linked.objects = [a.name]
+        bpy.context.collection.objects.link(linked.objects[0])
+        select(linked.objects[0], a)
+        self.refused(f"{a.name} is linked from another file", union, a)
+        select(a, b)
         a.scale.x = 0
         bpy.context.view_layer.update()
         self.refused(f"{a.name} is scaled to nothing", union, a)
@@ -317,6 +326,7 @@ class KeptThings(Case):
         for operation, active, other, quads in (("difference", a, b, 70), ("union", c, d, 150)):
             made = addon.combine(bpy.context, operation, active, [other])
             stored = self.assert_certified(active)
+            self.assertEqual((bool(made.certificate), made.certificate.precision), (True, "float32"))
             np.testing.assert_array_equal(stored.vertices, made.vertices)
             self.assertEqual(*({min((x, y, z), (y, z, x), (z, x, y)) for x, y, z in one.faces.tolist()}
                                for one in (stored, made)))

@@ -479,7 +479,7 @@ class TREEFORM_OT_repair(Operator):
                 try:
                     if mend(context, one, self.sheet, progress):
                         done.append(one.name)
-                except (Refused, ValueError, treeform.Error) as error:
+                except (Refused, ValueError, MemoryError, treeform.Error) as error:
                     failed.append(self.why(one, error))
         if failed and not done:
             return self.fail(context, "; ".join(failed))
@@ -491,7 +491,7 @@ class TREEFORM_OT_repair(Operator):
     def why(object, error):
         if isinstance(error, treeform.NotSolidError):
             return f"{object.name}: {error.certificate.open_count} edges stay open"
-        text = str(error)
+        text = "not enough memory" if isinstance(error, MemoryError) else str(error)
         return text if text.startswith(object.name) else f"{object.name}: {text}"
 
 
