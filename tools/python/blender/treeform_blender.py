@@ -4,6 +4,7 @@
 Blender's coordinates are float32, so results are asked for in float32: what has been checked is what
 is stored. See README.md."""
 
+import textwrap
 from contextlib import contextmanager
 
 import bpy
@@ -388,9 +389,9 @@ class Operator(bpy.types.Operator):
 
 
 OPERATIONS = (
-    ("union", "Union", "What is in any of the selected objects"),
-    ("difference", "Difference", "What is in the active object and in no other selected one"),
-    ("intersection", "Intersection", "What is in all of the selected objects"),
+    ("union", "Union", "The active object becomes what is in any of the selected ones"),
+    ("difference", "Difference", "The active object becomes what of it is in no other selected one"),
+    ("intersection", "Intersection", "The active object becomes what is in all of the selected ones"),
 )
 
 
@@ -403,6 +404,10 @@ class TREEFORM_OT_boolean(Operator):
     operation: EnumProperty(name="Operation", items=OPERATIONS)
     keep: BoolProperty(name="Keep the others", default=False,
                        description="Leave the other objects in the scene")
+
+    @classmethod
+    def description(cls, _, properties):
+        return next(text for name, _, text in OPERATIONS if name == properties.operation)
 
     def work(self, context):
         active = context.active_object
@@ -516,9 +521,10 @@ class TREEFORM_PT_panel(bpy.types.Panel):
         if treeform is None:
             self.layout.label(text="The Python package treeform is missing", icon="ERROR")
         draw_operators(self.layout.column(align=True))
-        if said := context.window_manager.treeform_said:
-            for text in said.split("; "):
-                self.layout.label(text=text)
+        lines = self.layout.column(align=True)
+        letters = max(20, context.region.width // 9)
+        for text in textwrap.wrap(context.window_manager.treeform_said, letters):
+            lines.label(text=text)
 
 
 class TREEFORM_MT_menu(bpy.types.Menu):
