@@ -14,4 +14,4 @@ mkdir -p "$work/addons/modules"
 ln -s "$package" "$work/addons/modules/"
 cp tools/python/blender/treeform_blender.py "$work/addons/"
 BLENDER_USER_SCRIPTS=$work PYTHONDONTWRITEBYTECODE=1 blender -b --factory-startup -noaudio \
-    --python-exit-code 1 --python tests/python/blender/test_addon.py
+    --python-exit-code 1 --python tests/python/blender/in_blender.py

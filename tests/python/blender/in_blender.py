@@ -1,4 +1,4 @@
-"""The add-on as it is used, in Blender without a window: run.sh starts it."""
+"""The add-on as it is used, in Blender without a window: run.sh starts it, not pytest."""
 
 import itertools
 import sys
