@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 
 namespace tools {
@@ -40,6 +42,16 @@ std::string command_line::names_of(const option_text& text) const {
 void command_line::mention(option_text text) {
     if (groups_.empty()) groups_.emplace_back();
     groups_.back().options.push_back(std::move(text));
+}
+
+void command_line::mode(mode_text text) {
+    mention({.names = text.names, .text = text.text});
+    modes_.push_back(std::move(text));
+}
+
+void command_line::mode(mode_text text, const command_line& own) {
+    own_lines_.emplace_back(text.names, &own);
+    mode(std::move(text));
 }
 
 void command_line::group(std::string title) { groups_.push_back({.title = std::move(title)}); }
@@ -156,7 +168,11 @@ command_line::outcome command_line::parse(int argc, const char* const* argv) {
     try {
         parser_->app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        std::fputs(help().c_str(), stdout);
+        const auto is_mode = [&](std::string_view word) {
+            return std::ranges::any_of(modes_, [&](auto& mode) { return is_named(mode, word); });
+        };
+        const char* const* const at = std::find_if(argv + 1, argv + argc, is_mode);
+        std::fputs((at == argv + argc ? help() : help(*at)).c_str(), stdout);
         return outcome::help_shown;
     } catch (const CLI::CallForVersion& version) {
         std::puts(version.what());
@@ -167,12 +183,26 @@ command_line::outcome command_line::parse(int argc, const char* const* argv) {
     return outcome::run;
 }
 
-std::string command_line::help() const {
-    std::string text = "Usage: " + name_ + " " + usage_ + "\n\n" + purpose_ + "\n\n";
+std::string command_line::help() const { return help(usage_, purpose_, groups_) + epilogue_; }
+
+std::string command_line::help(std::string_view word) const {
+    for (const auto& [names, own] : own_lines_)
+        if (std::ranges::count(words_of(names), word) > 0) return own->help();
+    const auto at = std::ranges::find_if(modes_, [&](auto& mode) { return is_named(mode, word); });
+    if (at == modes_.end()) return help();
+    std::string purpose = at->text + ".";
+    purpose[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(purpose[0])));
+    return help(at->usage, purpose, groups_for(*at, groups_, modes_)) + at->more + "\n" +
+           epilogue_.substr(std::min(epilogue_.find("Exit status:"), epilogue_.size()));
+}
+
+std::string command_line::help(const std::string& usage, const std::string& purpose,
+                               const std::vector<option_group>& groups) const {
+    std::string text = "Usage: " + name_ + " " + usage + "\n\n" + purpose + "\n\n";
     text +=
         lay_out(option_group{.options = {{.names = inputs_name_ + "...", .text = inputs_text_}}});
-    for (const option_group& group : groups_) text += lay_out(group);
-    return text + "\n" + epilogue_;
+    for (const option_group& group : groups) text += lay_out(group);
+    return text + "\n";
 }
 
 std::vector<std::filesystem::path> command_line::outputs() const {

@@ -2,8 +2,8 @@
 /// \file
 /// The command line of a tool: what it accepts, and how --help describes it.
 
-#include "tools/common/help_text.hpp"
 #include "tools/common/parse_value.hpp"
+#include "tools/manual/help_text.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -25,6 +25,10 @@ class command_line {
     command_line(const command_line&) = delete;
     command_line& operator=(const command_line&) = delete;
 
+    /// One of the words that may stand ahead of the inputs, with a help of its own.
+    void mode(mode_text text);
+    /// The same; `own` is all of its command line, and must outlive this one.
+    void mode(mode_text text, const command_line& own);
     /// Options that follow are listed under `title`.
     void group(std::string title);
     void flag(bool& target, option_text text);
@@ -72,6 +76,8 @@ class command_line {
     outcome parse(int argc, const char* const* argv);
 
     [[nodiscard]] std::string help() const;
+    /// That of a mode; of the whole tool where `word` is none.
+    [[nodiscard]] std::string help(std::string_view word) const;
     [[nodiscard]] const std::string& name() const { return name_; }
     /// Files that options ask to write, where given.
     [[nodiscard]] std::vector<std::filesystem::path> outputs() const;
@@ -79,6 +85,8 @@ class command_line {
   private:
     struct parser;
     std::string names_of(const option_text& text) const;
+    std::string help(const std::string& usage, const std::string& purpose,
+                     const std::vector<option_group>& groups) const;
 
     std::string name_;
     std::string usage_;
@@ -87,6 +95,8 @@ class command_line {
     std::string inputs_text_;
     std::string epilogue_;
     std::vector<option_group> groups_;
+    std::vector<mode_text> modes_;
+    std::vector<std::pair<std::string, const command_line*>> own_lines_;  ///< by names of modes
     std::vector<const std::filesystem::path*> outputs_;
     std::vector<std::pair<std::string, std::string>> values_apart_;  ///< "--name", "VALUE"
     std::unique_ptr<parser> parser_;
