@@ -14,7 +14,7 @@ packages=(g++ cmake ninja-build pkg-config ccache clang clang-format libclang-rt
     libtbb-dev libhwy-dev libassimp-dev libcli11-dev nlohmann-json3-dev
     libpugixml-dev libminizip-dev libssl-dev zlib1g-dev
     admesh doctest-dev libfmt-dev libcgal-dev libgmp-dev libmpfr-dev libeigen3-dev python3
-    chromium esbuild)
+    chromium doxygen esbuild fish groff man-db zsh)
 
 # build PRESET [CONFIGURE OPTION...]: in build/PRESET; what does not build counts as failed.
 build() {
