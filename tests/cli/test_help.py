@@ -18,7 +18,7 @@ VALUES = {"X,Y,Z": "0,0,-1", "X,Y[,Z]": "9,9", "DIST": "1", "SEC": "1", "DEG": "
           "F": "0.5", "LO,HI": "0,1", "Z": "0", "FILE": "f.ply", "FILE:N": "a.obj:1", "U": "mm",
           "SIZE": "none", "DIR": "dir", "TEXT": "text", "A:B": "a:b", "RULE": "odd", "P": "p",
           "FACE|X,Y,Z": "1", "KIND": "plane", "EXT": "ply", "SET": "90", "EXPR": "a+b",
-          "N:FILE": "1:m", "SHARE": "1%"}
+          "N:FILE": "1:m", "SHARE": "1%", "WHEN": "never"}
 WORDS = {"--precision": "float", "--weights": "welsch", "--metric": "plane"}
 # Options that are refused without others, or beside -o.
 WITH = {"--pick": ["--feature", "plane"], "--pick-fixed": ["--feature", "plane"],
@@ -46,7 +46,10 @@ class Help(ToolTest):
     def help_of(self, tool, *words):
         run = self.say(tool, *words, "--help")
         self.assertEqual((run.returncode, run.stderr), (0, ""))
-        self.assertEqual([line for line in run.stdout.splitlines() if len(line) > 80], [])
+        said = False  # what a tool prints may be longer
+        for line in run.stdout.splitlines():
+            self.assertTrue(len(line) <= 80 or said, msg=line)
+            said = line.startswith("  $ ")
         return run.stdout
 
     def test_each_mode_has_a_help_of_its_own(self):
@@ -57,7 +60,7 @@ class Help(ToolTest):
                 self.assertTrue(text.startswith(f"Usage: tf-{tool} {mode} "), msg=text)
                 self.assertEqual(text, self.help_of(tool, other))
                 self.assertEqual(text, self.say(tool, "--help", mode).stdout)
-                self.assertIn(f"tf-{tool} {other} ", text[text.index("Examples:"):])
+                self.assertRegex(text[text.index("Examples:"):], rf"tf-{tool} ({mode}|{other}) ")
                 self.assertIn("Exit status: ", text)
                 if mode not in ("clash", "check"):
                     self.assertLess(set(options_of(text)), set(whole))
@@ -79,17 +82,20 @@ class Help(ToolTest):
         tried = 0
         for tool, modes in MODES.items():
             whole = options_of(self.help_of(tool))
-            for mode in modes:
-                listed = options_of(self.help_of(tool, mode))
+            lists = {mode: options_of(self.help_of(tool, mode)) for mode in modes}
+            of_all = set.intersection(*map(set, lists.values()))
+            for mode, listed in lists.items():
                 for name, value in {**whole, **listed}.items():
-                    if name in ("--help", "--version", "--quiet", "--accept-open"):
+                    if name in ("--help", "--version", "--quiet", "--accept-open", "--package-dir"):
+                        continue
+                    if name in of_all and mode not in ("measure", "split"):  # one will do
                         continue
                     with self.subTest(mode=mode, option=name):
                         run = self.try_option(tool, mode, name, value)
                         accepted = run.returncode != 2
                         self.assertEqual(accepted, name in listed, msg=run.stderr)
                         tried += 1
-        self.assertGreater(tried, 500)
+        self.assertGreater(tried, 300)
 
     def test_examples_are_what_is_said(self):
         os.symlink(os.path.join(os.path.abspath(HOME), "data"), self.path("data"))

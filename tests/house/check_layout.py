@@ -16,7 +16,7 @@ FUNCTION_LINES = 60   # from the opening brace to the closing one
 TOOL_LINES = 900      # of C++ in the folder of a tool: what more it needs belongs in the library
 PAGE_LINES = 330      # of the page of a tool, page.cpp, which counts apart
 MORE_TOOL_LINES = {"tf-weld": 1500, "tf-selfintersect": 1150, "tf-boolean": 1000, "tf-place": 950,
-                   "common": 3500, "assembly": 1200}
+                   "common": 3800, "assembly": 1200}
 
 # Rooms of libmesh, top down; an include points down this list, and not across a line of it.
 FLOORS = [

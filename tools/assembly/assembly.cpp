@@ -73,8 +73,8 @@ void add_check_options(command_line& line, assembly_settings& s) {
                             "where package://... of a URDF file is (repeatable);\n"
                             "else the file's folder and those above it"});
     line.group("What to give back");
-    line.output(s.results,
-                {"--results", "FILE", "a line of JSON for each pose: its clashes; \"-\" = stdout"});
+    line.output(s.results, {"--results", "FILE",
+                            "a line of JSON for each pose: its clashes;\n\"-\" = stdout"});
 }
 
 /// "bolts" of "dir/bolts.stl", and a part's name behind it.

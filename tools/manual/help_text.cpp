@@ -1,6 +1,7 @@
 #include "tools/manual/help_text.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 
 namespace tools {
@@ -38,6 +39,14 @@ std::string lay_out(const option_text& option) {
         out += note;
     }
     return out + '\n';
+}
+
+std::string page(const command_text& command, const std::string& usage, const std::string& purpose,
+                 const std::vector<option_group>& groups) {
+    std::string text = "Usage: " + command.name + " " + usage + "\n\n" + purpose + "\n\n";
+    text += lay_out(option_text{.names = command.inputs_name + "...", .text = command.inputs_text});
+    for (const option_group& group : groups) text += tools::lay_out(group);
+    return text + "\n";
 }
 
 }  // namespace
@@ -96,6 +105,17 @@ std::string lay_out(const option_group& group) {
     for (const option_text& option : group.options)
         if (!option.text.empty()) out += lay_out(option);
     return out;
+}
+
+std::string help_of(const command_text& c, std::string_view word) {
+    for (const auto& [names, own] : c.own)
+        if (std::ranges::count(words_of(names), word) > 0) return help_of(*own);
+    const auto at = std::ranges::find_if(c.modes, [&](auto& mode) { return is_named(mode, word); });
+    if (at == c.modes.end()) return page(c, c.usage, c.purpose, c.groups) + c.epilogue;
+    std::string purpose = at->text + ".";
+    purpose[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(purpose[0])));
+    return page(c, at->usage, purpose, groups_for(*at, c.groups, c.modes)) + at->more + "\n" +
+           c.epilogue.substr(std::min(c.epilogue.find("Exit status:"), c.epilogue.size()));
 }
 
 }  // namespace tools

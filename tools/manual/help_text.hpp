@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tools {
@@ -18,6 +19,8 @@ struct option_text {
     std::string fallback{};  ///< what holds without the option; shown in brackets at the right
     std::string label{};     ///< shown in place of `names`, where not empty
     std::string aliases{};   ///< further names, not shown: "--eps,--threshold"
+    /// For completion: the words that the value may be, or the extensions that a FILE may have.
+    std::vector<std::string> offered{};
 };
 
 struct option_group {
@@ -34,6 +37,22 @@ struct mode_text {
     std::vector<std::string> without{};  ///< "--matrix": options that are not for it either
 };
 
+/// All that a command line says of itself.
+struct command_text {
+    std::string name{};     ///< "tf-place"
+    std::string usage{};    ///< what follows the name
+    std::string purpose{};  ///< one or two lines
+    std::string inputs_name = "INPUT";
+    std::string inputs_text{};
+    std::vector<std::string> input_extensions{};  ///< for completion
+    bool needs_mode = false;                      ///< ahead of the inputs
+    std::vector<option_group> groups{};
+    std::vector<mode_text> modes{};
+    std::string epilogue{};  ///< "Examples:" and "Exit status:" begin paragraphs of it
+    /// Of modes that are command lines of their own.
+    std::vector<std::pair<std::string, const command_text*>> own{};
+};
+
 /// "arrange", "pack" of "arrange, pack".
 [[nodiscard]] std::vector<std::string> words_of(std::string_view list);
 
@@ -48,6 +67,9 @@ struct mode_text {
 [[nodiscard]] std::vector<option_group> groups_for(const mode_text& mode,
                                                    const std::vector<option_group>& groups,
                                                    const std::vector<mode_text>& modes);
+
+/// What --help prints; for `word`, if it is one of the modes.
+[[nodiscard]] std::string help_of(const command_text& command, std::string_view word = {});
 
 /// The group's title and options, at most 80 columns wide where the texts are.
 [[nodiscard]] std::string lay_out(const option_group& group);

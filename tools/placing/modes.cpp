@@ -93,7 +93,7 @@ void add_others(command_line& line) {
          .text = "align by ICP from the present position",
          .usage = "fit --fixed FILE [OPTIONS] MOVING...",
          .more = "Prints the number of steps, and the root mean square of the distances before\n"
-                 "and after. Exit status 1 if it has not converged, or is in doubt: see there.\n"
+                 "and after. Exit status 1 if it has not converged, or is in doubt.\n"
                  "\n"
                  "Examples:\n"
                  "  tf-place fit scan.ply --fixed part.stl -o aligned.ply\n"

@@ -29,7 +29,7 @@ void add_operation(command_line& line, const std::string& name, const std::strin
     line.mode({.names = name,
                .text = text,
                .usage = name + " [OPTIONS] INPUT...",
-               .more = "Prints the faces and the volume of the result, and how far rounding moved "
+               .more = "Prints the faces and the volume of the result, and how far rounding moved\n"
                        "points.\n\nExamples:\n  $ tf-boolean " +
                        name + example,
                .without = std::move(without)});

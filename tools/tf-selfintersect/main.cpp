@@ -47,15 +47,16 @@ void add_what_counts(command_line& line, tools::search_settings& s) {
               {"--no-overlap", "", "do not count coplanar overlap, folds, duplicates"});
     line.flag(s.between, {"--between", "", "only pairs of different connected components"});
     line.flag(s.within, {"--within", "", "only pairs inside one connected component"});
+    static constexpr std::array<const char*, 2> identities{"equal", "file"};
     line.option({"--vertices", "MODE",
                  "which corners are one vertex: file (indices as\n"
                  "stored) or equal (same coordinates)",
                  "equal for STL, else file"},
                 [&s](std::string_view text) {
-                    constexpr std::array<const char*, 2> words{"equal", "file"};
                     s.vertices = static_cast<tf::vertex_identity>(
-                        tools::parse_choice("--vertices", text, words));
+                        tools::parse_choice("--vertices", text, identities));
                 });
+    line.offer("--vertices", {identities.begin(), identities.end()});
     line.option(s.tolerance, {.names = "-t, --tolerance",
                               .value = "DIST",
                               .text = "join corners within DIST before looking",
