@@ -86,11 +86,6 @@ json head(const command_line& line, const common_options& options, int argc,
     return report;
 }
 
-/// A name that is not UTF-8 is written with replacement characters rather than not at all.
-std::string as_text(const json& report) {
-    return report.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
-}
-
 limits limits_of(const common_options& options) {
     limits bounds{.seconds = options.timeout, .memory = options.memory};
     bounds.as_free = options.memory == 0 && !options.all_memory;
@@ -187,7 +182,7 @@ int run_parsed(command_line& line, common_options& options, const std::vector<st
     report["peak_rss"] = peak_memory();
     if (!options.report.empty()) {
         output_file file(options.report, options.force, keeper);
-        file.write(as_text(report));
+        file.write(report_text(report));
         file.commit();
     }
     return status;

@@ -55,7 +55,9 @@ void add_options(command_line& line, place_settings& s, common_options& options)
     line.option(s.clearance, {"--clearance", "DIST", "gap to leave", "0"});
     line.option(s.max_travel, {"--max-travel", "DIST", "give up beyond this travel (exit 1)"});
     add_options_of_modes(line, s);
-    line.option(s.start, {"--start", "FILE", "4x4 matrix applied to MOVING first"});
+    line.option(s.start,
+                {"--start", "FILE",
+                 "matrix applied to MOVING first: 4x4 numbers, or a\nreport of tf-place with one"});
     line.group("What to give back");
     line.output(options.output, {"-o, --output", "FILE",
                                  "MOVING at its new place; of measure, where it is;\n"
