@@ -76,6 +76,10 @@ void add_run_options(command_line& line, common_options& o) {
     line.flag(o.progress, {.names = "--progress",
                            .text = "progress on stderr",
                            .fallback = "only if stderr is a terminal"});
+    line.option(o.color,
+                {"--color", "WHEN",
+                 "auto | always | never; auto: on a terminal, unless\nNO_COLOR is set", "auto"},
+                {"auto", "always", "never"});
     line.flag(o.quiet, {.names = "-q, --quiet", .text = "errors only"});
     line.repeatable_flag(o.verbose, {.names = "-v, --verbose", .text = "more (repeatable)"});
     line.option(o.log, {"--log", "FILE", "append what is said on stderr to FILE as well"});

@@ -60,6 +60,9 @@ int main(int argc, char** argv) {
     tools::fixed_meshes fixed;
     tools::common_options options;
     options.suffix = "-place";
+    options.table = {{"travel", "/travel", false},
+                     {"distance", "/distance", false},
+                     {"contacts", "/contact_count"}};
     line.word("MODE", [&](std::string_view text) {
         s.mode_text = text;
         options.joined = text == "arrange" || text == "pack";  // they go to one plate

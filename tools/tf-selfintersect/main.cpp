@@ -205,6 +205,10 @@ int main(int argc, char** argv) {
     request r;
     common_options options;
     options.suffix = "-selfintersect";
+    options.table = {{"faces", "/faces"}, {"hit", "/faces_hit"}};
+    for (const char* const kind :
+         {"crossing", "pierce", "overlap", "fold", "duplicate", "touching", "degenerate"})
+        options.table.push_back({kind, std::string("/pairs/") + kind});
     line.inputs(options.inputs, tools::mesh_inputs);
     add_what_counts(line, r.search);
     add_what_to_give_back(line, r, options);

@@ -156,6 +156,8 @@ int main(int argc, char** argv) {
     tools::tile_options tiles;
     common_options options;
     options.suffix = "-weld";
+    options.table = {
+        {"points", "/points/in"}, {"kept", "/points/out"}, {"merged", "/points/removed"}};
     bool exact = true;
     line.inputs(options.inputs,
                 "points: PLY PCD LAS LAZ XYZ PTS CSV; meshes: STL\n"
