@@ -86,6 +86,38 @@ class Usage(PlaceTest):
             self.refused("measure", "a.obj", *fixed, *fits)
         self.refused("fit", "a.obj", *fixed, *fixed)
 
+    def test_a_report_has_a_line_for_each_contact_and_row(self):
+        self.mesh("plate.obj", grid(3))
+        text = self.run_tool("slide", self.mesh("b.obj", grid(3, 3.0)), "--fixed", "plate.obj", "-r", "-",
+                             "-n", status=0).text
+        entry = json.loads(text)["files"][0]
+        self.assertGreater(len(entry["contacts"]), 50)
+        lines = [line.strip().rstrip(",") for line in text.splitlines()]
+        for contact in entry["contacts"]:
+            self.assertIn(contact, [json.loads(line) for line in lines if line.startswith('{"point"')])
+        for row in entry["matrix"]:
+            self.assertIn(row, [json.loads(line) for line in lines if line.startswith("[") and len(line) > 1
+                                and line.endswith("]")])
+        self.assertLess(len(lines), len(entry["contacts"]) + 150)
+
+    def test_a_report_says_where_to_start(self):
+        self.run_tool("drop", "a.obj", "--fixed", "floor.obj", "-o", "down.obj", "-r", "down.json",
+                      status=0)
+        down = self.entry("measure", "a.obj", "--fixed", "floor.obj", "--start", "down.json", status=0)
+        self.assertEqual((down["status"], down["distance"]), ("touching", 0))
+        self.run_tool("arrange", "a.obj", "floor.obj", "--size", "9,9", "-n", "-r", "plate.json",
+                      status=0)
+        for name, text, said in (("plate.json", None, "has 2 matrices"),
+                                 ("none.json", '{"files": [{"matrix": null}]}', "has 0 matrices"),
+                                 ("other.json", '{"x": 1}', "neither a matrix nor a report"),
+                                 ("cut.json", '{"files": [', "neither a matrix nor a report"),
+                                 ("odd.json", '{"files": [3, {"parts": 4, "matrix": [1, "x"]}]}',
+                                  "expected 16 numbers")):
+            if text:
+                with open(self.path(name), "w") as file:
+                    file.write(text)
+            self.assertIn(said, self.run_tool("drop", "a.obj", "--start", name, "-n", status=3).err)
+
     def test_a_run_that_gives_nothing_back_is_refused(self):
         self.assertIn("-o FILE", self.refused("drop", "a.obj"))
         self.assertIn("dropped by 5.5", self.run_tool("drop", "a.obj", "-n", status=0).text)

@@ -90,6 +90,13 @@ run_tool() {
     local status=0
     "$installed/bin/tf-selfintersect" "$SOURCE/data/two_spheres.stl" || status=$?
     test $status -eq 1
+    local tool share=$installed/share
+    for tool in tf-boolean tf-place tf-repair tf-selfintersect tf-weld; do
+        test -s "$share/man/man1/$tool.1"
+        test -s "$share/bash-completion/completions/$tool"
+        test -s "$share/zsh/site-functions/_$tool"
+        test -s "$share/fish/vendor_completions.d/$tool.fish"
+    done
     # Moved or not, the shared tool takes the library beside it. (Not through a pipe into grep -q:
     # that stops reading at the first match, and what writes into it then fails.)
     [[ $1 == static ]] ||

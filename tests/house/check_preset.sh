@@ -17,7 +17,7 @@ packages=(g++ cmake ninja-build pkg-config ccache clang clang-format libclang-rt
     admesh doctest-dev libfmt-dev libcgal-dev libgmp-dev libmpfr-dev libeigen3-dev python3
     python3-dev python3-pybind11 pybind11-dev python3-numpy python3-scipy python3-setuptools
     python3-pytest python3-hypothesis python3-tqdm python3-wheel python3-build python3-venv mypy
-    patchelf chromium esbuild)
+    patchelf chromium doxygen esbuild fish groff man-db zsh)
 
 # build PRESET [CONFIGURE OPTION...]: in build/PRESET; what does not build counts as failed.
 build() {

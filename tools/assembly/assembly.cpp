@@ -73,8 +73,8 @@ void add_check_options(command_line& line, assembly_settings& s) {
                             "where package://... of a URDF file is (repeatable);\n"
                             "else the file's folder and those above it"});
     line.group("What to give back");
-    line.output(s.results,
-                {"--results", "FILE", "a line of JSON for each pose: its clashes; \"-\" = stdout"});
+    line.output(s.results, {"--results", "FILE",
+                            "a line of JSON for each pose: its clashes;\n\"-\" = stdout"});
 }
 
 /// "bolts" of "dir/bolts.stl", and a part's name behind it.
@@ -87,43 +87,45 @@ std::string part_name(const tf::body_set& set, std::size_t body, bool several_fi
 
 }  // namespace
 
-std::optional<int> run_assembly(int argc, const char* const* argv) {
-    const std::string_view mode = argc > 1 ? argv[1] : "";
-    const bool clash = mode == "clash";
-    if (!clash && mode != "check") return std::nullopt;
-    command_line line("tf-place",
-                      clash ? "clash [OPTIONS] INPUT..." : "check --poses FILE [OPTIONS] INPUT...",
-                      clash ? "Find which parts of an assembly penetrate each other, touch, or are "
-                              "too\nclose: all pairs, by name."
-                            : "Find in which of many poses parts of an assembly, or links of a "
-                              "robot,\npenetrate each other or are too close.");
-    assembly_settings s;
-    common_options options;
-    options.joined = true;
-    options.content = clash ? tf::file_content::meshes : tf::file_content::meshes_and_points;
-    line.word("MODE", [](std::string_view) {});
-    line.inputs(options.inputs,
-                clash ? mesh_inputs : "STL OBJ PLY OFF GLB/glTF 3MF files, or one URDF file");
-    if (clash)
-        add_clash_options(line, s, options);
+assembly_command::assembly_command(const std::string& mode)
+    : mode_(mode),
+      clash_(mode == "clash"),
+      line_("tf-place",
+            clash_ ? "clash [OPTIONS] INPUT..." : "check --poses FILE [OPTIONS] INPUT...",
+            clash_ ? "Find which parts of an assembly penetrate each other, touch, or are "
+                     "too\nclose: all pairs, by name."
+                   : "Find in which of many poses parts of an assembly, or links of a "
+                     "robot,\npenetrate each other or are too close.") {
+    options_.joined = true;
+    options_.content = clash_ ? tf::file_content::meshes : tf::file_content::meshes_and_points;
+    line_.word("MODE", [](std::string_view) {});
+    line_.inputs(options_.inputs,
+                 clash_ ? mesh_inputs : "STL OBJ PLY OFF GLB/glTF 3MF files, or one URDF file");
+    if (clash_)
+        add_clash_options(line_, settings_, options_);
     else
-        add_check_options(line, s);
-    line.group("Common options");
+        add_check_options(line_, settings_);
+    line_.group("Common options");
     common_features features;
     features.one_result = true;
     features.page = false;
-    if (clash) features.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"};
-    add_common_options(line, options, features);
+    if (clash_) features.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"};
+    add_common_options(line_, options_, features);
     for (const char* name : {"--html", "--png", "--view", "--png-size"})
-        line.refuse(name, true, "makes no sense here");
-    line.epilogue(clash ? clash_epilogue : check_epilogue);
-    return run(
-        line, options, {"read", "prepare", "search", "write"}, argc, argv,
-        [&] {
-            if (!clash && s.poses.empty()) refuse("check needs --poses");
-            if (!s.poses.empty()) options.also_read.push_back(s.poses);
+        line_.refuse(name, true, "makes no sense here");
+    line_.epilogue(clash_ ? clash_epilogue : check_epilogue);
+}
+
+int assembly_command::run(int argc, const char* const* argv) {
+    return tools::run(
+        line_, options_, {"read", "prepare", "search", "write"}, argc, argv,
+        [this] {
+            if (!clash_ && settings_.poses.empty()) refuse("check needs --poses");
+            if (!settings_.poses.empty()) options_.also_read.push_back(settings_.poses);
         },
-        [&](job& work) { return clash ? clash_all(work, s) : check_all(work, s); });
+        [this](job& work) {
+            return clash_ ? clash_all(work, settings_) : check_all(work, settings_);
+        });
 }
 
 named_assembly read_assembly(job& work) {

@@ -11,7 +11,6 @@
 #include <treeform/tf.hpp>
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +32,22 @@ struct named_assembly {
     std::vector<std::string> names{};  ///< [B] of the part; with the file's where there are several
 };
 
-/// Does all that `tf-place clash ...` or `tf-place check ...` asks for; none for other modes.
-[[nodiscard]] std::optional<int> run_assembly(int argc, const char* const* argv);
+/// `tf-place clash ...` or `tf-place check ...`
+class assembly_command {
+  public:
+    explicit assembly_command(const std::string& mode);
+
+    [[nodiscard]] const std::string& mode() const { return mode_; }
+    [[nodiscard]] const command_line& line() const { return line_; }
+    [[nodiscard]] int run(int argc, const char* const* argv);
+
+  private:
+    std::string mode_;
+    bool clash_;
+    assembly_settings settings_{};
+    common_options options_{};
+    command_line line_;
+};
 
 /// Reads all inputs. \throws failure (bad_input) when there is no part
 [[nodiscard]] named_assembly read_assembly(job& work);

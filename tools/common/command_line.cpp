@@ -1,10 +1,13 @@
 #include "tools/common/command_line.hpp"
 
 #include "tools/common/exit_status.hpp"
+#include "tools/manual/manual.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
+#include <stdexcept>
 
 namespace tools {
 
@@ -22,9 +25,7 @@ std::string long_name(const option_text& text) {
 }  // namespace
 
 command_line::command_line(std::string name, std::string usage, std::string purpose)
-    : name_(std::move(name)),
-      usage_(std::move(usage)),
-      purpose_(std::move(purpose)),
+    : text_{.name = std::move(name), .usage = std::move(usage), .purpose = std::move(purpose)},
       parser_(std::make_unique<parser>()) {
     parser_->app.set_help_flag("-h,--help", "");
 }
@@ -38,11 +39,21 @@ std::string command_line::names_of(const option_text& text) const {
 }
 
 void command_line::mention(option_text text) {
-    if (groups_.empty()) groups_.emplace_back();
-    groups_.back().options.push_back(std::move(text));
+    if (text_.groups.empty()) text_.groups.emplace_back();
+    text_.groups.back().options.push_back(std::move(text));
 }
 
-void command_line::group(std::string title) { groups_.push_back({.title = std::move(title)}); }
+void command_line::mode(mode_text text) {
+    mention({.names = text.names, .text = text.text});
+    text_.modes.push_back(std::move(text));
+}
+
+void command_line::mode(mode_text text, const command_line& own) {
+    text_.own.emplace_back(text.names, &own.text_);
+    mode(std::move(text));
+}
+
+void command_line::group(std::string title) { text_.groups.push_back({.title = std::move(title)}); }
 
 void command_line::flag(bool& target, option_text text) {
     parser_->app.add_flag(names_of(text), target);
@@ -56,6 +67,30 @@ void command_line::repeatable_flag(int& target, option_text text) {
 
 void command_line::option(std::string& target, option_text text) {
     option(std::move(text), [&target](std::string_view value) { target = value; });
+}
+
+void command_line::option(std::string& target, option_text text,
+                          const std::vector<std::string>& words) {
+    const std::string name = long_name(text);
+    text.offered = words;
+    option(std::move(text), [&target, name, words](std::string_view value) {
+        const std::vector<const char*> list = [&] {
+            std::vector<const char*> all;
+            for (const std::string& word : words) all.push_back(word.c_str());
+            return all;
+        }();
+        target = words[parse_choice(name, value, list)];
+    });
+}
+
+void command_line::offer(const std::string& name, std::vector<std::string> words) {
+    for (option_group& group : text_.groups)
+        for (option_text& one : group.options)
+            if (long_name(one) == name) one.offered = words;
+}
+
+void command_line::offer_inputs(std::vector<std::string> extensions) {
+    text_.input_extensions = std::move(extensions);
 }
 
 void command_line::option(std::uint64_t& target, option_text text) {
@@ -87,6 +122,7 @@ void command_line::flag_with_value(option_text text, std::span<const char* const
                                    std::function<void(std::size_t)> accept) {
     const std::string name = long_name(text);
     for (const char* word : words) values_apart_.emplace_back(name, word);
+    text.offered.assign(words.begin(), words.end());
     CLI::Option* flag = parser_->app.add_flag(names_of(text) + "{" + bare + "}");
     flag->each([accept = std::move(accept), name, words](const std::string& value) {
         accept(parse_choice(name, value, words));
@@ -121,6 +157,7 @@ void command_line::repeatable_option(std::vector<std::string>& target, option_te
 }
 
 void command_line::word(std::string name, std::function<void(std::string_view)> accept) {
+    text_.needs_mode = true;
     parser_->app
         .add_option_function<std::string>(
             std::move(name),
@@ -130,19 +167,24 @@ void command_line::word(std::string name, std::function<void(std::string_view)> 
 
 void command_line::inputs(std::vector<std::string>& target, std::string text, std::string name) {
     parser_->app.add_option(name, target)->required();
-    inputs_name_ = std::move(name);
-    inputs_text_ = std::move(text);
+    text_.inputs_name = std::move(name);
+    text_.inputs_text = std::move(text);
 }
 
-void command_line::epilogue(std::string text) { epilogue_ = std::move(text); }
+void command_line::epilogue(std::string text) { text_.epilogue = std::move(text); }
 
 void command_line::version_text(const std::string& text) {
     parser_->app.set_version_flag("--version", text);
+    version_ = text.substr(0, text.find('\n'));
 }
 
 bool command_line::given(const std::string& name) const { return parser_->app.count(name) > 0; }
 
 command_line::outcome command_line::parse(int argc, const char* const* argv) {
+    if (argc == 3 && std::string_view(argv[1]) == "--generate") {
+        std::fputs(generated(argv[2]).c_str(), stdout);
+        return outcome::help_shown;
+    }
     for (int i = 2; i < argc; ++i)
         for (const auto& [name, value] : values_apart_)  // which would be inputs
             if (argv[i - 1] == name && argv[i] == value && !std::filesystem::exists(value))
@@ -156,7 +198,12 @@ command_line::outcome command_line::parse(int argc, const char* const* argv) {
     try {
         parser_->app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        std::fputs(help().c_str(), stdout);
+        const auto is_mode = [&](std::string_view word) {
+            return std::ranges::any_of(text_.modes,
+                                       [&](auto& mode) { return is_named(mode, word); });
+        };
+        const char* const* const at = std::find_if(argv + 1, argv + argc, is_mode);
+        std::fputs(help_of(text_, at == argv + argc ? "" : *at).c_str(), stdout);
         return outcome::help_shown;
     } catch (const CLI::CallForVersion& version) {
         std::puts(version.what());
@@ -167,12 +214,14 @@ command_line::outcome command_line::parse(int argc, const char* const* argv) {
     return outcome::run;
 }
 
-std::string command_line::help() const {
-    std::string text = "Usage: " + name_ + " " + usage_ + "\n\n" + purpose_ + "\n\n";
-    text +=
-        lay_out(option_group{.options = {{.names = inputs_name_ + "...", .text = inputs_text_}}});
-    for (const option_group& group : groups_) text += lay_out(group);
-    return text + "\n" + epilogue_;
+std::string command_line::generated(const std::string& kind) const {
+    for (const option_group& group : text_.groups)  // else it would be listed, and unknown
+        for (const option_text& one : group.options)
+            if (one.names.starts_with('-') && !parser_->app.get_option_no_throw(long_name(one)))
+                throw std::logic_error(one.names + ": is no option");
+    const auto text = manual_of(text_, kind, version_);
+    if (!text) tools::refuse("--generate " + kind + ": expected one of man, bash, zsh, fish");
+    return *text;
 }
 
 std::vector<std::filesystem::path> command_line::outputs() const {

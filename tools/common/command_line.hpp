@@ -2,8 +2,8 @@
 /// \file
 /// The command line of a tool: what it accepts, and how --help describes it.
 
-#include "tools/common/help_text.hpp"
 #include "tools/common/parse_value.hpp"
+#include "tools/manual/help_text.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -25,12 +25,18 @@ class command_line {
     command_line(const command_line&) = delete;
     command_line& operator=(const command_line&) = delete;
 
+    /// One of the words that may stand ahead of the inputs, with a help of its own.
+    void mode(mode_text text);
+    /// The same; `own` is all of its command line, and must outlive this one.
+    void mode(mode_text text, const command_line& own);
     /// Options that follow are listed under `title`.
     void group(std::string title);
     void flag(bool& target, option_text text);
     /// A flag that counts how often it is given.
     void repeatable_flag(int& target, option_text text);
     void option(std::string& target, option_text text);
+    /// One of `words`.
+    void option(std::string& target, option_text text, const std::vector<std::string>& words);
     void option(std::uint64_t& target, option_text text);
     void option(distance& target, option_text text);
     void option(std::optional<distance>& target, option_text text);
@@ -38,6 +44,7 @@ class command_line {
     template <class Enum>
     void option(Enum& target, option_text text, std::span<const char* const> words) {
         const std::string name = text.names;
+        text.offered.assign(words.begin(), words.end());
         option(std::move(text), [&target, words, name](std::string_view value) {
             target = static_cast<Enum>(parse_choice(name, value, words));
         });
@@ -71,22 +78,24 @@ class command_line {
     /// \throws failure (bad_usage) for anything that is not as described
     outcome parse(int argc, const char* const* argv);
 
-    [[nodiscard]] std::string help() const;
-    [[nodiscard]] const std::string& name() const { return name_; }
+    /// What completion offers for the value of the option: words, or the extensions of a FILE.
+    void offer(const std::string& name, std::vector<std::string> words);
+    /// The same for the inputs.
+    void offer_inputs(std::vector<std::string> extensions);
+
+    [[nodiscard]] const command_text& text() const { return text_; }
+    [[nodiscard]] const std::string& name() const { return text_.name; }
     /// Files that options ask to write, where given.
     [[nodiscard]] std::vector<std::filesystem::path> outputs() const;
 
   private:
     struct parser;
     std::string names_of(const option_text& text) const;
+    /// The manual page or completion that `kind` names. \throws failure (bad_usage) for others
+    std::string generated(const std::string& kind) const;
 
-    std::string name_;
-    std::string usage_;
-    std::string purpose_;
-    std::string inputs_name_ = "INPUT";
-    std::string inputs_text_;
-    std::string epilogue_;
-    std::vector<option_group> groups_;
+    command_text text_;
+    std::string version_;
     std::vector<const std::filesystem::path*> outputs_;
     std::vector<std::pair<std::string, std::string>> values_apart_;  ///< "--name", "VALUE"
     std::unique_ptr<parser> parser_;

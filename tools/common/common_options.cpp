@@ -9,20 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 
 namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string one_of(std::string_view option, std::string_view value,
-                   const std::vector<std::string>& words) {
-    if (std::find(words.begin(), words.end(), value) != words.end()) return std::string(value);
-    std::string list;
-    for (const auto& word : words) list += (list.empty() ? "" : ", ") + word;
-    refuse(std::string(option) + " " + std::string(value) + ": expected one of " + list);
-}
 
 std::string joined(const std::vector<std::string>& words) {
     std::string text;
@@ -53,18 +46,16 @@ void add_output_options(command_line& line, common_options& o, const common_feat
 void add_format_options(command_line& line, common_options& o, const common_features& features) {
     line.option(o.format, {"--format", "EXT", "format of the inputs", "content, then extension"});
     if (features.output_formats.empty()) return;
-    line.option({"--output-format", "EXT", joined(features.output_formats), "extension of -o"},
-                [&o, formats = features.output_formats](std::string_view value) {
-                    o.output_format = one_of("--output-format", value, formats);
-                });
+    line.option(o.output_format,
+                {"--output-format", "EXT", joined(features.output_formats), "extension of -o"},
+                features.output_formats);
     line.flag(o.ascii, {.names = "--ascii",
                         .text = "text or binary where the format has both",
                         .fallback = "binary",
                         .label = "--ascii, --binary"});
     line.flag(o.binary, {.names = "--binary"});
-    line.option({"--precision", "P", "float | double | keep", "keep"}, [&o](std::string_view v) {
-        o.precision = one_of("--precision", v, {"float", "double", "keep"});
-    });
+    line.option(o.precision, {"--precision", "P", "float | double | keep", "keep"},
+                {"float", "double", "keep"});
 }
 
 /// "iso,top": all is iso and the three of a drawing.
@@ -126,12 +117,28 @@ void add_run_options(command_line& line, common_options& o) {
     line.flag(o.progress, {.names = "--progress",
                            .text = "progress on stderr",
                            .fallback = "only if stderr is a terminal"});
+    line.option(o.color,
+                {"--color", "WHEN",
+                 "auto | always | never; auto: on a terminal, unless\nNO_COLOR is set", "auto"},
+                {"auto", "always", "never"});
     line.flag(o.quiet, {.names = "-q, --quiet", .text = "errors only"});
     line.repeatable_flag(o.verbose, {.names = "-v, --verbose", .text = "more (repeatable)"});
     line.option(o.log, {"--log", "FILE", "append what is said on stderr to FILE as well"});
     line.flag(o.exit_zero, {.names = "--exit-zero", .text = "exit status 0 instead of 1"});
     line.mention({.names = "-h, --help", .text = "this text"});
     line.mention({.names = "--version", .text = "version and build"});
+}
+
+/// For completion; any of them may be read also when others are meant.
+std::vector<std::string> extensions_of(tf::file_content content) {
+    std::vector<std::string> all{"stl", "obj", "ply", "off", "3mf"};
+    const auto add = [&all](std::initializer_list<const char*> more) {
+        all.insert(all.end(), more.begin(), more.end());
+    };
+    if (tf::reads_scenes()) add({"glb", "gltf"});
+    if (content == tf::file_content::meshes_and_points)
+        add({"pcd", "las", "laz", "xyz", "csv", "pts", "asc"});
+    return all;
 }
 
 /// A byte is enough for a reader to say that there is none for the format.
@@ -199,14 +206,23 @@ void add_common_options(command_line& line, common_options& target,
                               .text = "do all the work, write no mesh (reports are written)"});
     add_format_options(line, o, features);
     line.option(
+        o.unit,
         {"--units", "U", "unit of the inputs: mm cm m in ft; STL, OBJ, PLY and\nOFF carry none",
          "report as \"unknown\""},
-        [&o](std::string_view value) {
-            o.unit = one_of("--units", value, {"mm", "cm", "m", "in", "ft"});
-        });
+        {"mm", "cm", "m", "in", "ft"});
     line.output(o.report, {"-r, --report", "FILE", "JSON report; \"-\" = stdout"});
     if (features.page) add_picture_options(line, o);
     add_run_options(line, o);
+    const std::vector<std::string> read = extensions_of(o.content);
+    line.offer_inputs(read);
+    line.offer("--format", read);
+    line.offer("--fixed", read);
+    line.offer("--output", features.output_formats);
+    line.offer("--report", {"json"});
+    line.offer("--html", {"html"});
+    line.offer("--curves", {"obj", "ply"});
+    line.offer("--pairs", {"csv"});
+    line.offer("--map", {"csv"});
 }
 
 void list_folders(common_options& o) {

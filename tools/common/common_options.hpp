@@ -15,6 +15,13 @@
 
 namespace tools {
 
+/// A number of each entry of the report.
+struct table_column {
+    std::string title{};
+    std::string key{};   ///< "/pairs/crossing"
+    bool summed = true;  ///< whether a total makes sense
+};
+
 struct common_options {
     std::vector<std::string> inputs;
     tf::file_content content = tf::file_content::meshes;  ///< of a folder among the inputs
@@ -42,10 +49,12 @@ struct common_options {
     bool all_memory = false;   ///< --memory none
     double timeout = 0.0;
     bool progress = false;
+    std::string color = "auto";
     bool quiet = false;
     int verbose = 0;
     std::string log;
     bool exit_zero = false;                 ///< 0 instead of 1
+    std::vector<table_column> table;        ///< of many inputs, on a terminal
     std::vector<std::string> mesh_formats;  ///< that the tool writes, the preferred one first
 
     /// Whether a report of some kind wants every fact.

@@ -2,9 +2,12 @@
 
 #include "tools/common/exit_status.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <system_error>
 
 namespace tools {
@@ -24,6 +27,35 @@ std::string_view prefix(level l) {
     return "";
 }
 
+constexpr const char* bold = "\033[1m";
+constexpr const char* red = "\033[1;31m";
+constexpr const char* yellow = "\033[1;33m";
+constexpr const char* plain = "\033[0m";
+
+bool takes_colors(std::FILE* stream) {
+    const char* const no_color = std::getenv("NO_COLOR");
+    const char* const terminal = std::getenv("TERM");
+    return isatty(fileno(stream)) == 1 && (no_color == nullptr || *no_color == '\0') &&
+           (terminal == nullptr || std::string_view(terminal) != "dumb");
+}
+
+/// What is ahead of the first ": ", the name, stands out.
+std::string with_bold_name(std::string_view text) {
+    const std::size_t colon = text.find(": ");
+    if (colon == std::string_view::npos) return std::string(text);
+    return std::string(bold) + std::string(text.substr(0, colon)) + plain +
+           std::string(text.substr(colon));
+}
+
+/// "12 s", "3 min 5 s", "2 h 10 min"
+std::string in_time(double seconds) {
+    const auto whole = static_cast<std::uint64_t>(std::ceil(seconds));
+    if (whole < 60) return std::to_string(whole) + " s";
+    if (whole < 3600)
+        return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+    return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
+}
+
 void put_line(std::FILE* stream, std::string_view text) {
     std::string line(text);
     line += '\n';
@@ -36,6 +68,11 @@ void put_line(std::FILE* stream, std::string_view text) {
 void console::configure(level most, bool progress) {
     most_ = most;
     progress_ = progress;
+}
+
+void console::color(std::string_view when) {
+    color_out_ = when == "always" || (when == "auto" && takes_colors(stdout));
+    color_err_ = when == "always" || (when == "auto" && takes_colors(stderr));
 }
 
 void console::log_to(const std::filesystem::path& path) {
@@ -52,28 +89,58 @@ void console::say(level l, std::string_view text) {
     std::string line = tool_ + ": ";
     line += prefix(l);
     line += text;
-    put_line(stderr, line);
+    const bool grave = l == level::error || l == level::warning;
+    if (color_err_ && grave)
+        put_line(stderr, std::string(bold) + tool_ + ":" + plain + " " +
+                             (l == level::error ? red : yellow) + std::string(prefix(l)) + plain +
+                             std::string(text));
+    else
+        put_line(stderr, line);
     if (log_) put_line(log_.get(), line);
 }
 
 void console::result(std::string_view text) {
     end_progress();
-    if (most_ != level::error) put_line(result_stream_, text);
+    if (most_ != level::error)
+        put_line(result_stream_, colors_of_results() ? with_bold_name(text) : std::string(text));
     if (log_) put_line(log_.get(), text);
 }
 
-void console::progress(std::string_view step, double share) {
+void console::table(std::string_view text) {
+    if (most_ == level::error || isatty(fileno(result_stream_)) != 1) return;
+    const std::size_t heading = text.find('\n');
+    put_line(result_stream_, "");
+    put_line(result_stream_, colors_of_results() ? bold + std::string(text.substr(0, heading)) +
+                                                       plain + std::string(text.substr(heading))
+                                                 : std::string(text));
+}
+
+void console::progress(std::string_view step, double share, std::uint64_t count,
+                       std::string_view things) {
     if (!progress_) return;
     const auto now = std::chrono::steady_clock::now();
+    if (step != step_) {
+        step_ = step;
+        step_began_ = now;
+    }
     if (line_open_ && now - last_shown_ < std::chrono::milliseconds(100)) return;
     last_shown_ = now;
     line_open_ = true;
-    std::fprintf(stderr, "\r\033[K%s: %.*s %3d %%", tool_.c_str(), static_cast<int>(step.size()),
-                 step.data(), static_cast<int>(100.0 * share));
+    std::string line = "\r\033[K" + tool_ + ": " + step_ + " " +
+                       std::to_string(static_cast<int>(100.0 * share)) + " %";
+    const std::chrono::duration<double> spent = now - step_began_;
+    if (spent.count() > 0.5 && share > 0.0 && share < 1.0) {  // too early, it would be a guess
+        if (count > 0)
+            line += ", " + brief(std::round(static_cast<double>(count) * share / spent.count())) +
+                    " " + std::string(things) + "/s";
+        line += ", " + in_time(spent.count() * (1.0 - share) / share) + " left";
+    }
+    std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
 }
 
 void console::end_progress() {
+    step_.clear();
     if (!line_open_) return;
     line_open_ = false;
     std::fputs("\r\033[K", stderr);

@@ -51,6 +51,10 @@ namespace tools {
 
 using json = nlohmann::ordered_json;
 
+/// As a report has it: indented, but what is in a list and has no more than lists of numbers in it,
+/// such as a row, a point or a contact, in one line. What is not UTF-8 becomes U+FFFD.
+[[nodiscard]] std::string report_text(const json& report);
+
 /// `value`, or null where there is nothing to say.
 template <class T>
 [[nodiscard]] json or_null(bool given, const T& value) {

@@ -119,6 +119,8 @@ tf::mesh_file job::read(const std::string& input, json& about) {
     if (found.error) std::rethrow_exception(found.error);
     tf::mesh_file file = std::move(found.file);
     const std::string& digest = found.digest;
+    has_faces_ = has_faces_ || file.stored_faces > 0;
+    size_ += has_faces_ ? file.stored_faces : file.mesh.points.size();
     if (const auto output = mesh_output(options, input)) {
         tf::attributes& all = file.attributes;
         for (auto* names : {&all.material_files, &all.texture_files})
@@ -136,7 +138,7 @@ job::timer::~timer() { sum_ += now() - start_; }
 
 tf::progress_callback job::progress(std::string_view step) {
     return [this, label = name + ": " + std::string(step)](double share) {
-        out.progress(label, share);
+        out.progress(label, share, size_, has_faces_ ? "faces" : "points");
         return !keeper.stop_requested();
     };
 }

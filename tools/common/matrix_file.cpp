@@ -12,8 +12,39 @@
 #include <fstream>
 #include <iterator>
 #include <string_view>
+#include <vector>
 
 namespace tools {
+
+namespace {
+
+/// The 16 numbers of the only matrix of a report, as text; says why there are none.
+std::string matrix_of_report(const std::string& text, std::string& why) {
+    const json report = json::parse(text, nullptr, false);
+    if (!report.is_object() || !report.contains("files") || !report["files"].is_array()) {
+        why = "is neither a matrix nor a report";
+        return {};
+    }
+    std::vector<json> matrices;
+    const auto take = [&matrices](const json& one) {
+        if (one.is_object() && one.contains("matrix") && !one["matrix"].is_null())
+            matrices.push_back(one["matrix"]);
+    };
+    for (const json& entry : report["files"]) {
+        take(entry);
+        if (entry.is_object() && entry.contains("parts"))
+            for (const json& part : entry["parts"]) take(part);
+    }
+    if (matrices.size() != 1) {
+        why = "the report has " + std::to_string(matrices.size()) + " matrices; expected one";
+        return {};
+    }
+    std::string numbers = matrices[0].dump(-1, ' ', false, json::error_handler_t::replace);
+    std::erase_if(numbers, [](char c) { return c == '[' || c == ']'; });
+    return numbers;
+}
+
+}  // namespace
 
 tf::transform<3> read_matrix(const std::filesystem::path& path) {
     if (path.empty()) return {};
@@ -23,6 +54,11 @@ tf::transform<3> read_matrix(const std::filesystem::path& path) {
     std::ifstream in(path, std::ios::binary);
     if (!in) refuse("cannot be read");
     std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    if (text.substr(0, text.find_first_not_of(" \t\r\n") + 1).ends_with('{')) {
+        std::string why;
+        text = matrix_of_report(text, why);
+        if (!why.empty()) refuse(why);
+    }
     constexpr std::string_view blanks = " \t\r\n,";
     std::string_view rest = text;
     std::array<double, 16> values{};

@@ -11,7 +11,8 @@
 
 namespace tools {
 
-/// A 4x4 matrix in a file: 16 numbers by rows, the last row 0 0 0 1. The identity without a path.
+/// A 4x4 matrix in a file: 16 numbers by rows, the last row 0 0 0 1; or a report that has one
+/// matrix. The identity without a path.
 /// \throws failure (bad_input)
 [[nodiscard]] tf::transform<3> read_matrix(const std::filesystem::path& path);
 

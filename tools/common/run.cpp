@@ -2,6 +2,7 @@
 
 #include "tools/common/free_memory.hpp"
 #include "tools/common/output_file.hpp"
+#include "tools/common/table.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -67,6 +68,7 @@ void configure(console& out, const common_options& options, const command_line& 
                        : options.verbose > 1  ? level::debug
                        : options.verbose == 1 ? level::info
                                               : level::warning;
+    out.color(options.color);
     out.configure(most, options.progress || (!options.quiet && isatty(STDERR_FILENO) == 1));
     for (const auto& path : line.outputs())
         if (path == "-") out.result_to_stderr();
@@ -84,11 +86,6 @@ json head(const command_line& line, const common_options& options, int argc,
     report["unit"] = options.unit;
     report["files"] = json::array();
     return report;
-}
-
-/// A name that is not UTF-8 is written with replacement characters rather than not at all.
-std::string as_text(const json& report) {
-    return report.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 limits limits_of(const common_options& options) {
@@ -146,6 +143,7 @@ class session {
         }
         json& times = report["seconds"] = json::object();
         for (const auto& step : steps) times[step] = seconds_[step];
+        if (inputs.size() > 1) out_.table(table_of(report["files"], options_.table));
         const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - began;
         out_.info(times_in_words(seconds_, whole.count()));
         return worst;
@@ -187,7 +185,7 @@ int run_parsed(command_line& line, common_options& options, const std::vector<st
     report["peak_rss"] = peak_memory();
     if (!options.report.empty()) {
         output_file file(options.report, options.force, keeper);
-        file.write(as_text(report));
+        file.write(report_text(report));
         file.commit();
     }
     return status;
@@ -199,6 +197,7 @@ int run(command_line& line, common_options& options, const std::vector<std::stri
         int argc, const char* const* argv, const std::function<void()>& check_options,
         const std::function<exit_status(job&)>& body) {
     console out(line.name());
+    out.color("auto");  // for what is said of a command line that makes no sense
     const outcome result = attempt([&] {
         line.version_text(version_text(line.name()));
         if (line.parse(argc, argv) == command_line::outcome::help_shown) return done;

@@ -88,6 +88,8 @@ class job {
     [[nodiscard]] read_ahead take(const std::string& input);
 
     std::vector<read_ahead> ahead_;
+    std::uint64_t size_ = 0;  ///< what has been read, for people who wait
+    bool has_faces_ = false;
 };
 
 /// Parses the command line and calls `body` for each input. What `body` returns or throws becomes

@@ -117,6 +117,7 @@ void add_feature_options(command_line& line, feature_settings& s) {
                 [&s](std::string_view text) {
                     s.kind = static_cast<tf::feature_kind>(parse_choice("--feature", text, kinds));
                 });
+    line.offer("--feature", {kinds.begin(), kinds.end()});
     line.option({"--pick", "FACE|X,Y,Z", "mate: the feature of MOVING at this face or point"},
                 [&s](std::string_view text) { s.moving = parse_pick("--pick", text); });
     line.option({"--pick-fixed", "FACE|X,Y,Z", "mate: that of --fixed"},

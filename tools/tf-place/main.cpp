@@ -6,9 +6,11 @@
 #include "tools/common/common_options.hpp"
 #include "tools/common/mesh_output.hpp"
 #include "tools/common/run.hpp"
+#include "tools/placing/modes.hpp"
 #include "tools/tf-place/place.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace {
 
@@ -46,7 +48,10 @@ const char* const epilogue =
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (const auto status = tools::run_assembly(argc, argv)) return *status;
+    tools::assembly_command clash("clash");
+    tools::assembly_command check("check");
+    for (tools::assembly_command* one : {&clash, &check})
+        if (argc > 1 && argv[1] == one->mode()) return one->run(argc, argv);
     tools::command_line line(
         "tf-place", "MODE [OPTIONS] MOVING...",
         "Find where to put one mesh (or point set) with respect to others.\n"
@@ -55,6 +60,9 @@ int main(int argc, char** argv) {
     tools::fixed_meshes fixed;
     tools::common_options options;
     options.suffix = "-place";
+    options.table = {{"travel", "/travel", false},
+                     {"distance", "/distance", false},
+                     {"contacts", "/contact_count"}};
     line.word("MODE", [&](std::string_view text) {
         s.mode_text = text;
         options.joined = text == "arrange" || text == "pack";  // they go to one plate
@@ -64,6 +72,7 @@ int main(int argc, char** argv) {
                 "PCD XYZ CSV; or folders of them; \"-\" = stdin",
                 "MOVING");
     options.content = tf::file_content::meshes_and_points;
+    tools::add_place_modes(line, clash.line(), check.line());
     tools::add_options(line, s, options);
     line.group("Common options");
     tools::add_common_options(

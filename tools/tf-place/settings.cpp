@@ -24,29 +24,6 @@ place_mode parse_mode(std::string_view text) {
     return static_cast<place_mode>(at - modes.begin());
 }
 
-void add_modes(command_line& line) {
-    const std::initializer_list<std::pair<const char*, const char*>> described{
-        {"drop",
-         "translate down until MOVING rests on the bed or on\n--fixed; from below "
-         "the bed, up to it, if there is no\n--fixed"},
-        {"lay", "turn a flat side down, on the bed"},
-        {"slide", "translate along --direction until contact (less\n--clearance)"},
-        {"mate",
-         "bring the closest points of MOVING and --fixed\n"
-         "together; with --feature, planes or axes"},
-        {"turn", "turn about --axis through --origin until contact"},
-        {"clear, separate",
-         "out of --fixed, or away from it to --clearance: a\n"
-         "short translation, the shortest of many tried"},
-        {"arrange, pack", "put all MOVING on plates, or in a box, without overlap"},
-        {"fit, align", "align by ICP from the present position"},
-        {"measure", "move nothing; report distance, contact,\npenetration, deviation"},
-        {"clash", "all pairs of parts of assemblies: see clash --help"},
-        {"check", "parts or a robot in many poses: see check --help"}};
-    line.group("Modes");
-    for (const auto& [names, text] : described) line.mention({.names = names, .text = text});
-}
-
 void add_options_of_modes(command_line& line, place_settings& s) {
     add_feature_options(line, s.feature);
     add_turn_options(line, s.turn);
@@ -62,7 +39,6 @@ void add_options_of_modes(command_line& line, place_settings& s) {
 const char* name_of(place_mode mode) { return modes[static_cast<std::size_t>(mode)]; }
 
 void add_options(command_line& line, place_settings& s, common_options& options) {
-    add_modes(line);
     line.group("Options");
     line.repeatable_option(options.also_read, {"--fixed", "FILE",
                                                "what stays where it is (repeatable); its objects,\n"
@@ -79,7 +55,9 @@ void add_options(command_line& line, place_settings& s, common_options& options)
     line.option(s.clearance, {"--clearance", "DIST", "gap to leave", "0"});
     line.option(s.max_travel, {"--max-travel", "DIST", "give up beyond this travel (exit 1)"});
     add_options_of_modes(line, s);
-    line.option(s.start, {"--start", "FILE", "4x4 matrix applied to MOVING first"});
+    line.option(s.start,
+                {"--start", "FILE",
+                 "matrix applied to MOVING first: 4x4 numbers, or a\nreport of tf-place with one"});
     line.group("What to give back");
     line.output(options.output, {"-o, --output", "FILE",
                                  "MOVING at its new place; of measure, where it is;\n"

@@ -245,6 +245,7 @@ int main(int argc, char** argv) {
     request& r = *asked;
     common_options options;
     options.suffix = "-repaired";
+    options.table = {{"faces", "/faces"}, {"faces out", "/repair/faces"}};
     line.inputs(options.inputs, tools::mesh_inputs);
     add_steps(line, r);
     add_options(line, r.settings);

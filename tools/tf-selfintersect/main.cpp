@@ -47,15 +47,16 @@ void add_what_counts(command_line& line, tools::search_settings& s) {
               {"--no-overlap", "", "do not count coplanar overlap, folds, duplicates"});
     line.flag(s.between, {"--between", "", "only pairs of different connected components"});
     line.flag(s.within, {"--within", "", "only pairs inside one connected component"});
+    static constexpr std::array<const char*, 2> identities{"equal", "file"};
     line.option({"--vertices", "MODE",
                  "which corners are one vertex: file (indices as\n"
                  "stored) or equal (same coordinates)",
                  "equal for STL, else file"},
                 [&s](std::string_view text) {
-                    constexpr std::array<const char*, 2> words{"equal", "file"};
                     s.vertices = static_cast<tf::vertex_identity>(
-                        tools::parse_choice("--vertices", text, words));
+                        tools::parse_choice("--vertices", text, identities));
                 });
+    line.offer("--vertices", {identities.begin(), identities.end()});
     line.option(s.tolerance, {.names = "-t, --tolerance",
                               .value = "DIST",
                               .text = "join corners within DIST before looking",
@@ -205,6 +206,10 @@ int main(int argc, char** argv) {
     request r;
     common_options options;
     options.suffix = "-selfintersect";
+    options.table = {{"faces", "/faces"}, {"hit", "/faces_hit"}};
+    for (const char* const kind :
+         {"crossing", "pierce", "overlap", "fold", "duplicate", "touching", "degenerate"})
+        options.table.push_back({kind, std::string("/pairs/") + kind});
     line.inputs(options.inputs, tools::mesh_inputs);
     add_what_counts(line, r.search);
     add_what_to_give_back(line, r, options);

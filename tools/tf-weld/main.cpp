@@ -33,6 +33,7 @@ void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
                  "chain: everything linked by steps of DIST is one",
                  "first"},
                 [&s](std::string_view text) { s.options.rule = tools::parse_rule(text); });
+    line.offer("--rule", {"first", "chain"});
     line.option({"--same", "P[=TOL],...",
                  "merge only if property P agrees too (within TOL),\n"
                  "e.g. --same classification,nx=0.01"},
@@ -156,6 +157,8 @@ int run(int argc, char** argv, const tf::weld_team& team) {
     tools::tile_options tiles{.team = team};
     common_options options;
     options.suffix = "-weld";
+    options.table = {
+        {"points", "/points/in"}, {"kept", "/points/out"}, {"merged", "/points/removed"}};
     bool exact = true;
     line.inputs(options.inputs,
                 "points: PLY PCD LAS LAZ XYZ PTS CSV; meshes: STL\n"
@@ -166,12 +169,14 @@ int run(int argc, char** argv, const tf::weld_team& team) {
     line.group("Which one stays");
     line.option({"--keep", "WHICH", "first | last | mean | min:P | max:P", "first"},
                 [&](std::string_view text) { tools::parse_keep(text, r.settings.options); });
+    line.offer("--keep", {"first", "last", "mean", "min:", "max:"});
     line.option({"--order", "P",
                  "P or min:P | max:P: go through points from the\n"
                  "least or greatest P on; ties, NaN last, in file\n"
                  "order",
                  "file order"},
                 [&](std::string_view text) { tools::parse_order(text, r.settings.options); });
+    line.offer("--order", {"min:", "max:"});
     add_what_to_give_back(line, r.outputs, options);
     add_meshes(line, r.settings);
     tools::add_tile_options(line, tiles,

@@ -1,7 +1,7 @@
 #include "tools/common/console.hpp"
 #include "tools/common/exit_status.hpp"
 #include "tools/common/free_memory.hpp"
-#include "tools/common/help_text.hpp"
+#include "tools/manual/help_text.hpp"
 #include "tools/common/parse_value.hpp"
 #include "tools/common/sha256.hpp"
 #include "tools/page/edges.hpp"

@@ -30,7 +30,7 @@ class TREEFORM_API boolean_expression {
     /// \cost   O(characters) time, however deep the brackets
     boolean_expression(std::string_view text, std::size_t operand_count);
     /// The same with names in place of letters, "body-(bolt_1+'left bolt')": words of letters,
-    /// digits, `_` and `.`, or anything between quotes. The first operand of a name is meant.
+    /// digits, underscores and dots, or anything in quotes. The first operand of a name is meant.
     boolean_expression(std::string_view text, std::span<const std::string> names);
     /// Those of a formula with names, each once, in the order in which they come first.
     [[nodiscard]] static std::vector<std::string> names_in(std::string_view text);

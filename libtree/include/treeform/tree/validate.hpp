@@ -16,6 +16,7 @@
 #include <vector>
 
 namespace treeform {
+
 namespace detail {
 
 /// Whether `ids` holds each of 0 ... N-1 once.

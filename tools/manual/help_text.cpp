@@ -1,0 +1,121 @@
+#include "tools/manual/help_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+
+namespace tools {
+namespace {
+
+constexpr std::size_t text_column = 26;
+constexpr std::size_t width = 79;
+
+std::string left_column(const option_text& option) {
+    const std::string& names = option.label.empty() ? option.names : option.label;
+    std::string left = names.starts_with("--") ? "      " : "  ";
+    left += names;
+    if (!option.value.empty() && !option.value.starts_with('[')) left += ' ';
+    left += option.value;
+    if (left.size() < text_column) return left.append(text_column - left.size(), ' ');
+    return left + "  ";
+}
+
+std::string lay_out(const option_text& option) {
+    std::string out = left_column(option);
+    std::size_t line_start = 0;
+    for (const char c : option.text) {
+        out += c;
+        if (c != '\n') continue;
+        line_start = out.size();
+        out.append(text_column, ' ');
+    }
+    if (!option.fallback.empty()) {
+        const std::string note = "[" + option.fallback + "]";
+        if (out.size() - line_start + 2 + note.size() > width) {
+            out += '\n';
+            line_start = out.size();
+        }
+        out.append(width - note.size() - (out.size() - line_start), ' ');
+        out += note;
+    }
+    return out + '\n';
+}
+
+std::string page(const command_text& command, const std::string& usage, const std::string& purpose,
+                 const std::vector<option_group>& groups) {
+    std::string text = "Usage: " + command.name + " " + usage + "\n\n" + purpose + "\n\n";
+    text += lay_out(option_text{.names = command.inputs_name + "...", .text = command.inputs_text});
+    for (const option_group& group : groups) text += tools::lay_out(group);
+    return text + "\n";
+}
+
+}  // namespace
+
+std::vector<std::string> words_of(std::string_view list) {
+    std::vector<std::string> words;
+    for (std::size_t at = 0; at <= list.size();) {
+        const std::size_t end = std::min(list.find(',', at), list.size());
+        words.emplace_back(list.substr(at, end - at));
+        at = end + (list.substr(end).starts_with(", ") ? 2 : 1);
+    }
+    return words;
+}
+
+bool is_named(const mode_text& mode, std::string_view word) {
+    return std::ranges::count(words_of(mode.names), word) > 0;
+}
+
+std::string_view modes_of(const option_text& option, const std::vector<mode_text>& modes) {
+    const std::string_view text = option.text;
+    const std::size_t colon = text.find(": ");
+    if (colon == std::string_view::npos) return {};
+    const bool all_modes = std::ranges::all_of(words_of(text.substr(0, colon)), [&](auto& word) {
+        return std::ranges::any_of(modes, [&](auto& mode) { return is_named(mode, word); });
+    });
+    return all_modes ? text.substr(0, colon) : std::string_view();
+}
+
+std::vector<option_group> groups_for(const mode_text& mode, const std::vector<option_group>& groups,
+                                     const std::vector<mode_text>& modes) {
+    const auto is_mode = [&](const option_text& option) {
+        return std::ranges::any_of(modes, [&](auto& one) { return one.names == option.names; });
+    };
+    const auto left_out = [&](const option_text& option) {
+        const std::string_view only = modes_of(option, modes);
+        const auto names = words_of(option.names);
+        return is_mode(option) ||
+               (!only.empty() &&
+                std::ranges::none_of(words_of(only),
+                                     [&](auto& word) { return is_named(mode, word); })) ||
+               std::ranges::count(mode.without, names.back()) > 0;
+    };
+    std::vector<option_group> kept;
+    for (option_group group : groups) {
+        std::erase_if(group.options, left_out);
+        for (option_text& option : group.options)
+            if (const auto only = modes_of(option, modes); !only.empty())
+                option.text.erase(0, only.size() + 2);
+        if (!group.options.empty()) kept.push_back(std::move(group));
+    }
+    return kept;
+}
+
+std::string lay_out(const option_group& group) {
+    std::string out = group.title.empty() ? std::string() : group.title + ":\n";
+    for (const option_text& option : group.options)
+        if (!option.text.empty()) out += lay_out(option);
+    return out;
+}
+
+std::string help_of(const command_text& c, std::string_view word) {
+    for (const auto& [names, own] : c.own)
+        if (std::ranges::count(words_of(names), word) > 0) return help_of(*own);
+    const auto at = std::ranges::find_if(c.modes, [&](auto& mode) { return is_named(mode, word); });
+    if (at == c.modes.end()) return page(c, c.usage, c.purpose, c.groups) + c.epilogue;
+    std::string purpose = at->text + ".";
+    purpose[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(purpose[0])));
+    return page(c, at->usage, purpose, groups_for(*at, c.groups, c.modes)) + at->more + "\n" +
+           c.epilogue.substr(std::min(c.epilogue.find("Exit status:"), c.epilogue.size()));
+}
+
+}  // namespace tools
