@@ -47,6 +47,20 @@ void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
     line.flag(exact, {.names = "--exact"});
 }
 
+void add_which_one_stays(command_line& line, tf::weld_options& options) {
+    line.group("Which one stays");
+    line.option({"--keep", "WHICH", "first | last | mean | min:P | max:P", "first"},
+                [&options](std::string_view text) { tools::parse_keep(text, options); });
+    line.offer("--keep", {"first", "last", "mean", "min:", "max:"});
+    line.option({"--order", "P",
+                 "P or min:P | max:P: go through points from the\n"
+                 "least or greatest P on; ties, NaN last, in file\n"
+                 "order",
+                 "file order"},
+                [&options](std::string_view text) { tools::parse_order(text, options); });
+    line.offer("--order", {"min:", "max:"});
+}
+
 void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_options& options) {
     line.group("What to give back");
     line.output(options.output, {"-o, --output", "FILE",
@@ -166,17 +180,7 @@ int run(int argc, char** argv, const tf::weld_team& team) {
     options.content = tf::file_content::meshes_and_points;
     line.flag(options.joined, {"--join", "", "treat all INPUTs as one set", "each on its own"});
     add_what_is_merged(line, r.settings, exact);
-    line.group("Which one stays");
-    line.option({"--keep", "WHICH", "first | last | mean | min:P | max:P", "first"},
-                [&](std::string_view text) { tools::parse_keep(text, r.settings.options); });
-    line.offer("--keep", {"first", "last", "mean", "min:", "max:"});
-    line.option({"--order", "P",
-                 "P or min:P | max:P: go through points from the\n"
-                 "least or greatest P on; ties, NaN last, in file\n"
-                 "order",
-                 "file order"},
-                [&](std::string_view text) { tools::parse_order(text, r.settings.options); });
-    line.offer("--order", {"min:", "max:"});
+    add_which_one_stays(line, r.settings.options);
     add_what_to_give_back(line, r.outputs, options);
     add_meshes(line, r.settings);
     tools::add_tile_options(line, tiles,
