@@ -16,7 +16,7 @@ MODELS_SHOWN = {
     "mended": (MEND, "open/camelhead_23k.off", "-n", "--view", "left"),
     "open": (MEND, "nonmanifold/beetle_2k.obj", "--check", "--view", "iso,top"),
     "union": (BOOLEAN, "union", "pairs/xcylinder.obj", "pairs/zcylinder.obj", "-n"),
-    "points": (WELD, "clean/decimated_knight_1k.off", "-t", "3%", "-n"),
+    "points": (WELD, "coplanar/cubes_touching.stl", "-n"),
     "dropped": (PLACE, "drop", "clean/spot_23k.obj", "-n", "--view", "all"),
 }
 
