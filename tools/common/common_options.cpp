@@ -88,11 +88,12 @@ void parse_picture_size(std::string_view text, picture_options& target) {
 void add_picture_options(command_line& line, common_options& o) {
     line.output(o.html, {"--html", "FILE", "self-contained HTML page with a 3D view"});
     line.output(o.png, {"--png", "FILE",
-                        "a picture, with what was found in the colors of the page;\n"
-                        "needs no display and no browser"});
+                        "a picture in the colors of the page; needs no\n"
+                        "display and no browser"});
     line.option({"--view", "V,...",
-                 "of --png: iso top bottom front back left right; several\n"
-                 "are side by side in one FILE; all: iso,top,front,right",
+                 "of --png: iso top bottom front back left right;\n"
+                 "several are side by side in FILE; all:\n"
+                 "iso,top,front,right",
                  "iso"},
                 [&o](std::string_view value) { o.picture.views = parse_views(value); });
     line.option({"--png-size", "WxH", "of --png, in pixels", "1600x1200"},
