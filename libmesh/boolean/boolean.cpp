@@ -294,8 +294,7 @@ std::pair<bool, double> are_sound(const detail::boolean::prepared_pair& operands
 std::optional<boolean_result> result_of_pair(std::span<const mesh_operand> operands,
                                              const boolean_expression& expression,
                                              const boolean_options& options) {
-    if (operands.size() != 2 || options.simplify ||
-        options.precision == precision::float32)
+    if (operands.size() != 2 || options.simplify || options.precision == precision::float32)
         return std::nullopt;
     std::array<prepared_mesh, 2> own;
     detail::boolean::prepared_pair pair;
