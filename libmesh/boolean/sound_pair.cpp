@@ -106,7 +106,7 @@ operand_volumes find_volumes(const prepared_pair& pair, const near_faces& near,
         return base::determinant(at(p), at(q), at(r));
     });
     std::size_t first = 0;
-    for (const std::size_t k : {0, 1}) {
+    for (std::size_t k = 0; k < 2; ++k) {
         const mesh_view mesh = pair[k]->view();
         both = both + sum_of_cones(mesh.faces.size(), [&](std::size_t f) {
                    if (near.place[first + f] != face_place::inside) return base::double_double{};
