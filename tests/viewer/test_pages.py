@@ -219,9 +219,9 @@ class Pages(PageTest):
         self.run_js("Object.assign(viewer.camera, { turn: 3 * Math.PI / 4, tilt: 0.6155 })")  # at the cube
         rows = self.run_js("""(() => {
             const view = document.querySelector('canvas'), found = [];
-            for (let i = 0; i < 225; ++i) {
-                const x = Math.floor(view.width * (0.3 + 0.4 * (i % 15) / 15)) + 0.5;
-                const y = Math.floor(view.height * (0.15 + 0.7 * Math.floor(i / 15) / 15)) + 0.5;
+            for (let i = 0; i < 900; ++i) {
+                const x = Math.floor(view.width * (0.3 + 0.4 * (i % 30) / 30)) + 0.5;
+                const y = Math.floor(view.height * (0.15 + 0.7 * Math.floor(i / 30) / 30)) + 0.5;
                 viewer.pick(x, y);
                 const value = /signed distance ([-0-9.e]+)/.exec(document.querySelector('.picked').textContent);
                 const at = 4 * (Math.floor(x) + view.width * (view.height - 1 - Math.floor(y)));
