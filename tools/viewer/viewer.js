@@ -75,9 +75,10 @@ const show = (canvas, renderer) => {
             made.push(make('span', { className: 'side', style: `left:${50 * (pane.from + pane.to)}%` }, pane.variant));
         tags.replaceChildren(...made);
     };
+    const paint = () => renderer.paint([...scene.classes, ...new Array(255 - scene.classes.length).fill({ rgb: [0, 0, 0] }),
+        { rgb: [255, 255, 255], shown: true }], ramp);
     const draw = () => {
-        renderer.paint([...scene.classes, ...new Array(255 - scene.classes.length).fill({ rgb: [0, 0, 0] }),
-            { rgb: [255, 255, 255], shown: true }], ramp);
+        paint();
         renderer.draw(panes(), look());
         placeLabels();
     };
@@ -133,6 +134,7 @@ const show = (canvas, renderer) => {
         forget();
         const share = x / canvas.clientWidth, pane = panes().find((p) => share >= p.from && share <= p.to);
         const scale = renderer.resize();
+        paint();  // as switched by now, drawn or not
         const found = pane && renderer.pick(pane, look(), x * scale, y * scale);
         if (found) picked.append(say(found, camera.ray((share - pane.left) / pane.width, y / canvas.clientHeight, pane.ratio)));
         redraw();
