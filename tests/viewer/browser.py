@@ -8,6 +8,7 @@ import json
 import os
 import select
 import shutil
+import signal
 import struct
 import subprocess
 import tempfile
@@ -21,11 +22,9 @@ class Browser:
     def __init__(self, width=900, height=640):
         self.profile = tempfile.mkdtemp(prefix="treeform-browser-")
         (ours_in, its_out), (its_in, ours_out) = os.pipe(), os.pipe()
-        # The browser has its ends as 3 and 4.
-        high_in, high_out = (os.dup(os.dup(end)) for end in (its_in, its_out))
 
-        def arrange():
-            os.dup2(high_in, 103), os.dup2(high_out, 104)
+        def arrange():  # the browser has its ends as 3 and 4
+            os.dup2(its_in, 103), os.dup2(its_out, 104)
             os.dup2(103, 3), os.dup2(104, 4)
 
         self.process = subprocess.Popen(
@@ -36,7 +35,7 @@ class Browser:
              "--remote-debugging-pipe", "about:blank"],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
             preexec_fn=arrange, close_fds=False, start_new_session=True)
-        for end in (its_in, its_out, high_in, high_out):
+        for end in (its_in, its_out):
             os.close(end)
         self.reader, self.writer = ours_in, ours_out
         self.buffer, self.count, self.events, self.session = b"", 0, [], None
@@ -54,7 +53,7 @@ class Browser:
             self.call("Browser.close")
             self.process.wait(10)
         except Exception:
-            self.process.kill()
+            os.killpg(self.process.pid, signal.SIGKILL)
             self.process.wait()
         os.close(self.reader), os.close(self.writer)
         shutil.rmtree(self.profile, ignore_errors=True)
@@ -78,7 +77,7 @@ class Browser:
             message["sessionId"] = self.session
         os.write(self.writer, json.dumps(message).encode() + b"\0")
         while True:
-            answer = self.receive(120)
+            answer = self.receive(300)
             if answer.get("id") == self.count:
                 if "error" in answer:
                     raise RuntimeError(f"{method}: {answer['error']['message']}")
@@ -97,7 +96,7 @@ class Browser:
     def open(self, path, fragment=""):
         self.events.clear()
         self.call("Page.navigate", url="file://" + os.path.abspath(path) + fragment)
-        end = time.monotonic() + 120
+        end = time.monotonic() + 300
         while not any(method == "Page.loadEventFired" for method, _ in self.events):
             if time.monotonic() > end:
                 raise TimeoutError(path + " does not load")

@@ -213,6 +213,31 @@ class Pages(PageTest):
         self.assertGreater(on, 500)
         self.assertEqual(self.run_js(green), 0)
 
+    def test_a_pixel_is_green_where_the_value_that_is_picked_is_in_the_band(self):
+        self.show("band")
+        self.run_js("only([0])")
+        self.run_js("Object.assign(viewer.camera, { turn: 3 * Math.PI / 4, tilt: 0.6155 })")  # at the cube
+        rows = self.run_js("""(() => {
+            const view = document.querySelector('canvas'), found = [];
+            for (let i = 0; i < 225; ++i) {
+                const x = Math.floor(view.width * (0.3 + 0.4 * (i % 15) / 15)) + 0.5;
+                const y = Math.floor(view.height * (0.15 + 0.7 * Math.floor(i / 15) / 15)) + 0.5;
+                viewer.pick(x, y);
+                const value = /signed distance ([-0-9.e]+)/.exec(document.querySelector('.picked').textContent);
+                const at = 4 * (Math.floor(x) + view.width * (view.height - 1 - Math.floor(y)));
+                if (value) found.push([Number(value[1]), at]);
+            }
+            viewer.pick(-1, -1);  // without the outline
+            viewer.draw();
+            const pixels = viewer.pixels();
+            return found.map(([value, at]) => [value, ...pixels.slice(at, at + 4)]);
+        })()""")
+        green = [(value, g > 1.3 * r and g > 1.3 * b) for value, r, g, b, a in rows if a == 255]
+        sure = [pair for pair in green if min(abs(pair[0] + 0.1), abs(pair[0] - 0.2)) > 0.001]
+        self.assertGreater(sum(is_green for _, is_green in sure), 2)
+        self.assertGreater(len(sure), 50)
+        self.assertEqual([pair for pair in sure if pair[1] != (-0.1 <= pair[0] <= 0.2)], [])
+
     def test_pictures_are_as_they_were(self):
         for name in PAGES:
             with self.subTest(page=name):
@@ -380,7 +405,8 @@ class Controls(PageTest):
         first = self.run_js(camera)
         self.browser.drag(x, y, 60, 30)
         turned = self.run_js(camera)
-        self.assertNotEqual((turned["turn"], turned["tilt"]), (first["turn"], first["tilt"]))
+        self.assertLess(turned["turn"], first["turn"])
+        self.assertGreater(turned["tilt"], first["tilt"])
         self.assertEqual(turned["target"], first["target"])
         self.browser.drag(x, y, 60, 30, modifiers=8)
         shifted = self.run_js(camera)
@@ -496,6 +522,18 @@ class Framing(PageTest):
             })()""")
             self.assertGreater(min(rows[:4]), 0, name)
             self.assertLess(rows[0] + rows[1], 0.5 * rows[4], name)
+
+    def test_coordinates_may_be_huge_or_far_away(self):
+        self.tool = TOOL
+        for name, scale, shift in (("huge.obj", 1e300, 0), ("far.obj", 1, 4512345.25)):
+            points, faces = support.TWO_CUBES
+            write(self.path(name), ([tuple(scale * v + shift for v in p) for p in points], faces))
+            self.run_tool(name, "--html", self.path("page.html"), "-f", status=1)
+            self.open(self.path("page.html"))
+            self.assertGreater(self.run_js("drawn(null)")["opaque"], 20_000)
+            self.run_js("viewer.pick(...project(viewer.scene.toFile([0, 0, 0])))")
+            self.assertRegex(self.run_js("document.querySelector('.picked').textContent"), r"^face \d+ ")
+            self.quiet()
 
     def test_much_context_is_thinned_out_and_findings_never(self):
         write(self.path("big.stl"), together(support.grid(350), support.grid(40, 0.5),

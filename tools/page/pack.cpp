@@ -259,8 +259,8 @@ json packer::lines(const scene_lines& l) {
         for (const tf::point3& end : l.ends[i]) put_point(grid_.at(end), last);
         if (!l.word.empty()) put_number(l.number, i, last_number);
     }
-    return {{"class", l.kind},      {"count", l.ends.size()}, {"word", l.word},
-            {"labeled", l.labeled}, {"variant", l.variant},   {"width", l.width}};
+    return {{"class", l.kind}, {"count", l.ends.size()}, {"word", l.word},  {"labeled", l.labeled},
+            {"text", l.text},  {"variant", l.variant},   {"width", l.width}};
 }
 
 json packer::dots(const scene_dots& d) {

@@ -58,6 +58,7 @@ struct scene_lines {
     std::string word{};                   ///< "edge": then they can be clicked
     std::vector<std::uint32_t> number{};  ///< as of faces
     std::string labeled{};                ///< "number" or "length" is written beside each
+    std::string text{};                   ///< instead of the length, which is that of the drawing
     std::string variant{};
     double width = 2.0;  ///< in pixels
 };

@@ -12,17 +12,20 @@
 namespace tools {
 namespace {
 
-enum mark : std::uint8_t {
-    moving,
-    start,
-    fixed,
-    penetrates,
-    touches,
-    is_near,
-    contact,
-    travel,
-    shortest_way,
-    bed
+/// Numbers of classes.
+struct mark {
+    enum number : std::uint8_t {
+        moving,
+        start,
+        fixed,
+        penetrates,
+        touches,
+        is_near,
+        contact,
+        travel,
+        shortest_way,
+        bed
+    };
 };
 
 std::vector<scene_class> classes_of(const placing& p) {
@@ -42,9 +45,13 @@ std::vector<scene_class> classes_of(const placing& p) {
         {"bed", "#8fae8b", {}, true}};
 }
 
+std::string in_unit(const scene& shown, double value) {
+    return brief(value) + (shown.unit.empty() ? "" : " " + shown.unit);
+}
+
 /// A body as faces, or as dots where it is a cloud. Its points may be elsewhere.
 void add_body(scene& shown, const tf::body_set& set, std::size_t body, tf::points_view points,
-              mark plain, std::span<const tf::contact_class> classes,
+              mark::number plain, std::span<const tf::contact_class> classes,
               std::vector<double> values = {}) {
     const tf::prepared_mesh& shape = set.shapes[body];
     std::vector<std::uint32_t> numbers;
@@ -53,7 +60,8 @@ void add_body(scene& shown, const tf::body_set& set, std::size_t body, tf::point
         numbers.push_back(set.stored_face(body, f));
         const auto how = classes.empty() ? tf::contact_class::none : classes[f];
         const int worse = static_cast<int>(how) - static_cast<int>(tf::contact_class::penetrating);
-        kinds.push_back(static_cast<std::uint8_t>(worse < 0 ? int{plain} : penetrates + worse));
+        kinds.push_back(
+            static_cast<std::uint8_t>(worse < 0 ? int{plain} : mark::penetrates + worse));
     }
     if (shape.is_cloud())
         shown.dots.push_back({.points = {points.begin(), points.end()},
@@ -66,7 +74,7 @@ void add_body(scene& shown, const tf::body_set& set, std::size_t body, tf::point
                                 .number = std::move(numbers),
                                 .name = set.label(body),
                                 .value = std::move(values),
-                                .ghost = plain == start});
+                                .ghost = plain == mark::start});
 }
 
 tf::point3 center_of(const tf::box3& box) {
@@ -141,12 +149,12 @@ void add_travel(scene& shown, const job& work, const placing& p, const tf::box3&
         const json& move = depth["move"];
         end = {begin.x + move[0].get<double>(), begin.y + move[1].get<double>(),
                begin.z + move[2].get<double>()};
-        words = "out by " + brief(depth["at_most"].get<double>());
+        words = "out by " + in_unit(shown, depth["at_most"].get<double>());
     }
     const double way = std::hypot(end.x - begin.x, end.y - begin.y, end.z - begin.z);
     if (!(way > 0.0)) return;
-    if (words.empty()) words = brief(p.at.travel > 0.0 ? p.at.travel : way);
-    shown.arrows.push_back({begin, end, words, travel});
+    if (words.empty()) words = in_unit(shown, p.at.travel > 0.0 ? p.at.travel : way);
+    shown.arrows.push_back({begin, end, words, mark::travel});
 }
 
 void add_contacts(scene& shown, const placing& p) {
@@ -156,17 +164,18 @@ void add_contacts(scene& shown, const placing& p) {
         dots.points.push_back(c.point);
         dots.normal.push_back(c.normal);
     }
-    dots.kind = {contact};
+    dots.kind = {mark::contact};
     if (!dots.points.empty()) shown.dots.push_back(std::move(dots));
     if (!p.at.nearest || !(p.at.nearest->how.surface_distance > 0.0)) return;
     const auto& how = p.at.nearest->how;
-    shown.lines.push_back({.kind = shortest_way,
+    shown.lines.push_back({.kind = mark::shortest_way,
                            .ends = {{how.on_a.point, how.on_b.point}},
                            .word = "nearest points",
                            .labeled = "length",
+                           .text = in_unit(shown, how.surface_distance),
                            .width = 3.0});
     shown.dots.push_back({.points = {how.on_a.point, how.on_b.point},
-                          .kind = {shortest_way},
+                          .kind = {mark::shortest_way},
                           .word = "nearest point",
                           .width = 6.0});
 }
@@ -270,17 +279,18 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     std::vector<double> values;
     if (known != nullptr) values = add_map(shown, p, *known);
     const tf::contact_classes classes = classes_at(p);
-    add_body(shown, p.moving, 0, points, moving, classes.moving, std::move(values));
+    add_body(shown, p.moving, 0, points, mark::moving, classes.moving, std::move(values));
     const tf::box3 from = tf::bounding_box(before).value_or(tf::box3{});
     const tf::box3 to = tf::bounding_box(points).value_or(tf::box3{});
-    if (moves && from != to) add_body(shown, p.moving, 0, before, start, {});
+    if (moves && from != to) add_body(shown, p.moving, 0, before, mark::start, {});
     for (std::size_t i = 0; i < p.fixed.shapes.size(); ++i)
-        add_body(shown, p.fixed, i, p.fixed.shapes[i].view().points, fixed,
+        add_body(shown, p.fixed, i, p.fixed.shapes[i].view().points, mark::fixed,
                  classes.fixed.empty() ? std::vector<tf::contact_class>{} : classes.fixed[i]);
     tf::mesh floor;
     if (p.at.bed || p.laid) floor = bed_under(to, p.at.bed.value_or(to.min.z));
     if (!floor.faces.empty())
-        shown.meshes.push_back({.mesh = floor, .kind = {bed}, .name = "the bed", .ghost = true});
+        shown.meshes.push_back(
+            {.mesh = floor, .kind = {mark::bed}, .name = "the bed", .ghost = true});
     add_travel(shown, work, p, from, to);
     add_contacts(shown, p);
     write_page(work, shown);

@@ -14,16 +14,19 @@
 namespace tools {
 namespace {
 
-enum mark : std::uint8_t {
-    kept,
-    cut,
-    flipped,
-    filled,
-    added,
-    removed,
-    meets,
-    open_now,
-    open_still
+/// Numbers of classes.
+struct mark {
+    enum number : std::uint8_t {
+        kept,
+        cut,
+        flipped,
+        filled,
+        added,
+        removed,
+        meets,
+        open_now,
+        open_still
+    };
 };
 
 /// What became of the faces before, and of what the faces after came.
@@ -51,11 +54,12 @@ fate compare(const dirty_mesh& input, tf::mesh_view made,
     for (std::uint32_t f = 0; f < before.faces.size(); ++f)
         of_number.emplace_back(input.source().stored_face(f), f);
     std::sort(of_number.begin(), of_number.end());
-    fate result{std::vector<std::uint8_t>(before.faces.size(), removed),
-                std::vector<std::uint8_t>(made.faces.size(), filled_holes ? filled : added)};
+    fate result{
+        std::vector<std::uint8_t>(before.faces.size(), mark::removed),
+        std::vector<std::uint8_t>(made.faces.size(), filled_holes ? mark::filled : mark::added)};
     for (std::size_t f = 0; f < made.faces.size(); ++f) {
         if (face_source[f] == tf::repair_result::none) continue;
-        std::uint8_t& own = result.after[f] = cut;
+        std::uint8_t& own = result.after[f] = mark::cut;
         const float_corners same = corners_of(made, f, false), turned = corners_of(made, f, true);
         auto at =
             std::lower_bound(of_number.begin(), of_number.end(), std::pair{face_source[f], 0U});
@@ -63,12 +67,12 @@ fate compare(const dirty_mesh& input, tf::mesh_view made,
         for (; at != of_number.end() && at->first == face_source[f]; ++at) {
             const float_corners was = corners_of(before, at->second, false);
             if (was != same && was != turned) continue;
-            result.before[at->second] = own = was == same ? kept : flipped;
+            result.before[at->second] = own = was == same ? mark::kept : mark::flipped;
             break;
         }
-        if (own != cut) continue;
+        if (own != mark::cut) continue;
         for (at = first; at != of_number.end() && at->first == face_source[f]; ++at)
-            if (result.before[at->second] == removed) result.before[at->second] = cut;
+            if (result.before[at->second] == mark::removed) result.before[at->second] = mark::cut;
     }
     return result;
 }
@@ -78,24 +82,25 @@ void add_classes(scene& shown, const fate& was) {
         {"as it was", "#b4bac2", {}, true}, {"cut or moved", "#f08c00"}, {"flipped", "#7432d6"},
         {"fills a hole", "#2e9e4f"},        {"added", "#00a0c0"},        {"removed", "#e02020"},
         {"meets another face", "#c2410c"},  {"open edges", "#d81fbf"},   {"border", "#10131a"}};
-    std::array<std::uint64_t, open_now> counts{};
+    std::array<std::uint64_t, mark::open_now> counts{};
     for (const std::uint8_t k : was.after) ++counts[k];
-    counts[removed] =
-        static_cast<std::uint64_t>(std::count(was.before.begin(), was.before.end(), removed));
+    counts[mark::removed] =
+        static_cast<std::uint64_t>(std::count(was.before.begin(), was.before.end(), mark::removed));
     if (was.after.empty())
         for (const std::uint8_t k : was.before) ++counts[k];
-    for (std::size_t k = 0; k < open_now; ++k)
+    for (std::size_t k = 0; k < mark::open_now; ++k)
         shown.classes[k].count = counted(counts[k], "face", "faces");
 }
 
-void add_open_edges(scene& shown, tf::mesh_view mesh, const std::string& variant, mark kind) {
+void add_open_edges(scene& shown, tf::mesh_view mesh, const std::string& variant,
+                    mark::number kind) {
     open_edges open = find_open_edges(mesh);
     if (open.ends.empty()) return;
     shown.classes[kind].count = counted(open.ends.size(), "edge", "edges");
     scene_lines lines{.kind = kind, .word = "open edge", .labeled = "number", .variant = variant};
     lines.width = 3.0;
     lines.ends = open.ends;
-    if (kind == open_now) {
+    if (kind == mark::open_now) {
         scene_table holes{.title = "Where the surface was open",
                           .columns = {"place", "edges", "box"}};
         constexpr std::uint32_t most = 1000;
@@ -121,11 +126,13 @@ void add_rows(scene_table& table, const std::string& step, const json& entry) {
         table.rows.push_back({.cells = {step, "left out", ""}});
         return;
     }
+    const std::size_t before = table.rows.size();
     for (const auto& [what, value] : entry.items()) {
         std::string words = what;
         std::replace(words.begin(), words.end(), '_', ' ');
-        if (value.is_number()) table.rows.push_back({.cells = {step, words, value}});
+        if (value.is_number() && value != 0) table.rows.push_back({.cells = {step, words, value}});
     }
+    if (table.rows.size() == before) table.rows.push_back({.cells = {step, "nothing", ""}});
 }
 
 void add_tables(scene& shown, const job& work) {
@@ -160,16 +167,16 @@ void write_page(job& work, const dirty_mesh& input, const std::string& verdict, 
     const bool after = !made.faces.empty();
     fate was = compare(input, made, face_source, filled_holes);
     if (!after) {
-        std::fill(was.before.begin(), was.before.end(), kept);
+        std::fill(was.before.begin(), was.before.end(), mark::kept);
         const tf::mesh joined = tf::join_meshes({&before, 1}).mesh;
         const auto found = tf::self_intersections(
             joined, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("page")});
         work.call_ended(found.cancelled);
         for (const tf::face_pair& pair : found.pairs)
-            was.before[pair.a] = was.before[pair.b] = meets;
+            was.before[pair.a] = was.before[pair.b] = mark::meets;
     }
     add_classes(shown, was);
-    if (!after) shown.classes[kept].name = "other";
+    if (!after) shown.classes[mark::kept].name = "other";
     scene_mesh first{.mesh = before, .kind = was.before, .name = after ? "the input" : ""};
     for (std::uint32_t f = 0; f < before.faces.size(); ++f)
         first.number.push_back(input.source().stored_face(f));
@@ -182,8 +189,8 @@ void write_page(job& work, const dirty_mesh& input, const std::string& verdict, 
                                 .group_word = "in face",
                                 .group = face_source,
                                 .variant = "after"});
-    add_open_edges(shown, before, after ? "before" : "", open_now);
-    if (after) add_open_edges(shown, made, "after", open_still);
+    add_open_edges(shown, before, after ? "before" : "", mark::open_now);
+    if (after) add_open_edges(shown, made, "after", mark::open_still);
     add_tables(shown, work);
     write_page(work, shown);
 }

@@ -14,13 +14,16 @@
 namespace tools {
 namespace {
 
-enum mark : std::uint8_t { faces, alone, of_two, of_few, of_some, of_many, dropped, way };
+/// Numbers of classes.
+struct mark {
+    enum number : std::uint8_t { faces, alone, of_two, of_few, of_some, of_many, dropped, way };
+};
 
-mark mark_of(std::uint32_t size) {
-    if (size < 2) return alone;
-    if (size == 2) return of_two;
-    if (size < 5) return of_few;
-    return size < 10 ? of_some : of_many;
+mark::number mark_of(std::uint32_t size) {
+    if (size < 2) return mark::alone;
+    if (size == 2) return mark::of_two;
+    if (size < 5) return mark::of_few;
+    return size < 10 ? mark::of_some : mark::of_many;
 }
 
 /// Points that are kept, by the sizes of their groups, and those that became one of them.
@@ -31,9 +34,9 @@ void add_points(scene& shown, const tf::mesh_file& file, const welding& w) {
     for (const std::uint32_t g : group) ++size[g];
     // Of a cloud of millions, all are thinned out alike.
     const bool many = w.points > 2'000'000;
-    for (std::size_t k = of_two; k <= dropped; ++k) shown.classes[k].context = many;
+    for (std::size_t k = mark::of_two; k <= mark::dropped; ++k) shown.classes[k].context = many;
     scene_dots kept{.points = places, .number = w.result.point_of_group};
-    std::array<std::uint64_t, way> counts{};
+    std::array<std::uint64_t, mark::way> counts{};
     for (const std::uint32_t n : size) {
         kept.kind.push_back(mark_of(n));
         ++counts[mark_of(n)];
@@ -44,20 +47,20 @@ void add_points(scene& shown, const tf::mesh_file& file, const welding& w) {
 
     scene_dots gone{.group_word = "now point"};
     gone.width = 4.0;
-    scene_lines ways{.kind = way};
+    scene_lines ways{.kind = mark::way};
     ways.width = 1.0;
     for (std::uint32_t p = 0; p < group.size(); ++p) {
         if (w.keeps(p)) continue;
         const tf::point3 &from = file.mesh.points[p], &to = places[group[p]];
         gone.points.push_back(from);
-        gone.kind.push_back(dropped);
+        gone.kind.push_back(mark::dropped);
         gone.number.push_back(p);
         gone.group.push_back(group[p]);
         gone.value.push_back(std::hypot(from.x - to.x, from.y - to.y, from.z - to.z));
         if (!many && gone.value.back() > 0.0) ways.ends.push_back({from, to});
     }
-    counts[dropped] = gone.points.size();
-    for (std::size_t k = alone; k <= dropped; ++k)
+    counts[mark::dropped] = gone.points.size();
+    for (std::size_t k = mark::alone; k <= mark::dropped; ++k)
         shown.classes[k].count = counted(counts[k], "point", "points");
     if (w.result.statistics.max_displacement > 0.0)
         shown.map = {.name = "moved by",
@@ -127,7 +130,7 @@ void write_page(job& work, const tf::mesh_file& file, const welding& w,
                      {"dropped", "#e02020"},
                      {"ways", "#10131a"}};
     if (w.triangles > 0) {
-        scene_mesh mesh{.mesh = file.mesh, .kind = {faces}, .number = file.stored_face};
+        scene_mesh mesh{.mesh = file.mesh, .kind = {mark::faces}, .number = file.stored_face};
         const auto finite = [&](std::uint32_t p) {
             const tf::point3& at = file.mesh.points[p];
             return std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);

@@ -16,6 +16,7 @@ export class Camera {
         [this.turn, this.tilt] = views.oblique;
         this.target = center(box);
         this.distance = 1;
+        this.back = 1;  // times the distance, for pictures that are narrower
     }
 
     axes() {
@@ -23,15 +24,16 @@ export class Camera {
         const { turn, tilt } = this;
         const back = stand([Math.cos(tilt) * Math.sin(turn), -Math.cos(tilt) * Math.cos(turn), Math.sin(tilt)]);
         const side = stand([Math.cos(turn), Math.sin(turn), 0]);
-        return { back, right: side, up: cross(back, side), eye: add(this.target, back, this.distance) };
+        return { back, right: side, up: cross(back, side), eye: add(this.target, back, this.distance * this.back) };
     }
 
     /// Column by column, for a picture of this ratio of width to height.
     matrix(ratio) {
         const { back, right: side, up, eye } = this.axes();
         const reach = Math.hypot(...sub(this.target, center(this.whole))) + this.reach;
-        const far = this.distance + 1.05 * reach + 0.3;
-        const near = Math.max(this.distance - 1.05 * reach - 0.3, 0.002 * this.distance);
+        const away = this.distance * this.back;
+        const far = away + 1.05 * reach + 0.3;
+        const near = Math.max(away - 1.05 * reach - 0.3, 0.002 * away);
         const sx = 1 / opening / ratio, sy = 1 / opening;
         const a = (far + near) / (far - near), b = 2 * far * near / (far - near);
         const columns = [0, 1, 2].map((i) => [sx * side[i], sy * up[i], -a * back[i], -back[i]]);
@@ -61,7 +63,7 @@ export class Camera {
 
     pan(dx, dy, height) {
         const { right: side, up } = this.axes();
-        const scale = 2 * opening * this.distance / height;
+        const scale = 2 * opening * this.distance * this.back / height;
         this.target = add(add(this.target, side, -dx * scale), up, dy * scale);
     }
 

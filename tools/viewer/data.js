@@ -202,5 +202,5 @@ export const labelsOf = (scene) => [
     ...scene.lines.filter((l) => l.labeled).flatMap((l) => Array.from({ length: Math.min(l.count, 200) }, (_, i) => {
         const [a, b] = [0, 3].map((k) => [...l.positions.subarray(6 * i + k, 6 * i + k + 3)]);
         return { at: scaled(add(a, b), 0.5), class: l.class, variant: l.variant,
-            text: l.labeled === 'length' ? scene.say(scene.lengthInFile(length(sub(b, a)))) : String(l.numbers[i]) };
+            text: l.text || (l.labeled === 'length' ? scene.say(scene.lengthInFile(length(sub(b, a)))) : String(l.numbers[i])) };
     }))];

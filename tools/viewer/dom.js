@@ -22,7 +22,7 @@ export const ofSvg = (tag, properties, ...children) => {
     return made;
 };
 
-export const rounded = (value) => String(Number(value.toPrecision(7)));
+export const rounded = (value) => String(Number(value.toPrecision(6)));
 export const brief = (value) => String(Number(value.toPrecision(4)));
 export const counted = (count, one, many) => `${count.toLocaleString('en')} ${count === 1 ? one : many}`;
 export const rgbOf = (color) => [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16));

@@ -20,7 +20,7 @@ const rows = showBelow(document.getElementById('below'), scene);
 const show = (canvas, renderer) => {
     addControls(box, scene, rows);
     document.getElementById('below').prepend(make('p', { className: 'note' },
-        'Drag to turn, right button or Shift to shift, wheel to zoom, click for numbers, ? for keys.' + leftOut(scene)));
+        'Drag to turn, right button or Shift to shift, wheel to zoom, click for numbers, twice to go there, ? for keys.' + leftOut(scene)));
     const find = (selector) => box.querySelector(selector);
     const isOn = (selector) => find(selector)?.checked ?? false;
     const camera = new Camera(scene.whole, scene.y_is_up);
@@ -70,6 +70,9 @@ const show = (canvas, renderer) => {
                 taken.push({ x, y, wide });
                 made.push(make('span', { style: `left:${x.toFixed(1)}px;top:${y.toFixed(1)}px` }, text));
             }
+        const both = panes();
+        for (const pane of both.length > 1 ? both : [])
+            made.push(make('span', { className: 'side', style: `left:${50 * (pane.from + pane.to)}%` }, pane.variant));
         tags.replaceChildren(...made);
     };
     const draw = () => {
@@ -93,9 +96,13 @@ const show = (canvas, renderer) => {
     const forget = () => {
         picked.replaceChildren();
         delete picked.dataset.number;
+        state.hit = null;
         renderer.showOutline(null);
         redraw();
     };
+    const decimals = Math.min(Math.max(Math.ceil(-Math.log10(scene.step)), 0), 20);
+    const onGrid = (v) => Number(v.toFixed(decimals));  // no digit that the drawing does not have
+    const lengthOf = (lines, a, b) => lines.text || scene.say(scene.lengthInFile(length(sub(b, a))));
     const say = ({ sort, item, row }, { eye, ray }) => {
         if (item.arrow) return item.name;
         const kind = scene.classes[item.kinds ? item.kinds[sort === 'face' ? 3 * row : row] : item.class];
@@ -107,19 +114,20 @@ const show = (canvas, renderer) => {
             const hit = hitOfFace(item, row, eye, ray);
             renderer.showOutline(hit.corners);
             at = hit.point;
+            state.hit = at;
             if (item.values) value = valueAt(item, row, hit.corners, at);
         } else if (sort === 'dot') {
-            at = [...item.positions.subarray(3 * row, 3 * row + 3)];
+            state.hit = at = [...item.positions.subarray(3 * row, 3 * row + 3)];
             if (item.values) value = item.values[row];
         } else {
             const [a, b] = [0, 3].map((k) => [...item.positions.subarray(6 * row + k, 6 * row + k + 3)]);
-            words.push('length ' + scene.say(scene.lengthInFile(length(sub(b, a)))));
+            words.push('length ' + lengthOf(item, a, b));
             at = a;
         }
         if (value !== null && value > noValue / 2) words.push(`${scene.map.name} ${rounded(scene.map.low + value * (scene.map.high - scene.map.low))}${unit}`);
         const bracket = words.filter(Boolean).join(', ');
         return `${item.word} ${number >= 0 ? number : 'new'}${item.name ? ' of ' + item.name : ''}` + (bracket ? ` (${bracket})` : '') +
-            ` at ${scene.toFile(at).map(rounded).join(', ')}`;
+            ` at ${scene.toFile(at).map(onGrid).join(', ')}`;
     };
     const pick = (x, y) => {
         forget();
@@ -148,8 +156,7 @@ const show = (canvas, renderer) => {
         };
         requestAnimationFrame(step);
     };
-    const paneRatio = () => ratio() * (state.variant === 'side by side' ? 0.5 : 1);
-    const home = () => fly(camera.fit(scene.whole, paneRatio(), scene.samples));
+    const home = () => fly(camera.fit(scene.whole, ratio(), scene.samples));
     /// Seen from there, at the same distance from the same target.
     const turnTo = (name) => {
         const [turn, tilt] = views[name];
@@ -174,6 +181,7 @@ const show = (canvas, renderer) => {
     };
     const setVariant = (name) => {
         state.variant = name;
+        camera.back = name === 'side by side' ? 1.6 : 1;
         box.querySelectorAll('[data-variant]').forEach((b) => b.classList.toggle('on', b.dataset.variant === name));
         find('.wipe').hidden = name !== 'wipe';
         redraw();
@@ -248,6 +256,7 @@ const show = (canvas, renderer) => {
         zoom: (factor) => { ++flight; camera.zoom(factor); redraw(); },
     };
     listen(box, canvas, act);
+    canvas.addEventListener('dblclick', () => state.hit && fly({ target: state.hit, distance: camera.distance / 2 }));
     window.addEventListener('resize', redraw);
     const divider = find('.wipe');
     if (divider) divider.addEventListener('input', () => divider.style.setProperty('--at', find('[data-wipe]').value));
@@ -260,7 +269,7 @@ const show = (canvas, renderer) => {
     window.viewer = { scene, camera, draw, pick, pixels: () => renderer.pixels(), opened: performance.now() - started };
 };
 
-const canvas = make('canvas', { tabIndex: 0 });
+const canvas = make('canvas', { tabIndex: 0, 'aria-label': '3D view' });
 box.append(canvas);
 const renderer = new Renderer(canvas, scene);
 if (renderer.gl) show(canvas, renderer);
