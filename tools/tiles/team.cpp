@@ -1,5 +1,6 @@
 #include "tools/tiles/team.hpp"
 
+#include "tools/common/exit_status.hpp"
 #include "tools/mpi/team_calls.hpp"
 
 #include <dlfcn.h>
@@ -32,7 +33,6 @@ const team_calls* join() {
 }  // namespace
 
 int run_in_team(const std::function<int(const tf::weld_team&)>& tool) {
-    constexpr int stopped = 5;
     if (!is_started_by_mpi()) return tool({});
     const team_calls* const calls = join();
     if (calls == nullptr) {
