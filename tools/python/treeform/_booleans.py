@@ -11,13 +11,12 @@ from . import _core
 from ._arrays import Floats, Ids
 from ._core import Certificate
 from ._errors import require
-from ._mesh import Mesh, MeshLike, held
+from ._mesh import Mesh, MeshLike, MeshResult, held
 from ._progress import Progress, watched
-from ._results import Result
 
 
 @dataclass(frozen=True, repr=False)
-class BooleanResult(Result):
+class BooleanResult(MeshResult):
     """The surface of a solid, and what was checked about it. Every function that takes a mesh takes
     a result; `vertices, faces = result.mesh`."""
 
@@ -33,16 +32,6 @@ class BooleanResult(Result):
     volumes: tuple[float, float, float, float] | None
     #: Counts of what was done.
     statistics: dict[str, int]
-
-    @property
-    def vertices(self) -> Floats:
-        """(V, 3) float64."""
-        return self.mesh.vertices
-
-    @property
-    def faces(self) -> Ids:
-        """(F, 3) uint32."""
-        return self.mesh.faces
 
 
 def _result(made: dict[str, Any], check: bool, *also: str) -> BooleanResult:

@@ -12,6 +12,7 @@ from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._core import Certificate
 from ._errors import require
+from ._results import Result
 
 
 class HasFaces(Protocol):
@@ -418,3 +419,19 @@ def _operation(sign: str, left: Any, right: Any) -> Mesh:
     made = Mesh.__new__(Mesh)
     made._formula = _Formula(sign, sides[0], sides[1])
     return made
+
+
+class MeshResult(Result):
+    """A result with a mesh; it stands wherever a mesh is asked for."""
+
+    mesh: Mesh
+
+    @property
+    def vertices(self) -> Floats:
+        """(V, 3) float64, of the mesh."""
+        return self.mesh.vertices
+
+    @property
+    def faces(self) -> Ids:
+        """(F, 3) uint32, of the mesh."""
+        return self.mesh.faces

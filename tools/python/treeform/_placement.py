@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._core import Certificate
-from ._mesh import Mesh, MeshLike, held, held_body
+from ._mesh import Mesh, MeshLike, MeshResult, held, held_body
 from ._progress import Progress, watched
 from ._properties import Feature
 from ._results import Result, tuple_repr
@@ -60,7 +60,7 @@ class Measure(Result):
 
 
 @dataclass(frozen=True, repr=False)
-class Placement(Result):
+class Placement(MeshResult):
     """Where a mesh goes. True where it has a place; else `message` says why not."""
 
     #: The moved mesh, in coordinates that have been checked; where it was, if it has no place.
@@ -96,16 +96,6 @@ class Placement(Result):
 
     def __bool__(self) -> bool:
         return bool(self.certificate)
-
-    @property
-    def vertices(self) -> Floats:
-        """(V, 3) of the moved mesh."""
-        return self.mesh.vertices
-
-    @property
-    def faces(self) -> Ids:
-        """(F, 3)."""
-        return self.mesh.faces
 
 
 def _bodies(fixed: Any) -> list[_core.HeldMesh]:
@@ -245,7 +235,7 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
 
 
 @dataclass(frozen=True, repr=False)
-class LaidFlat(Result):
+class LaidFlat(MeshResult):
     """A mesh on the bed."""
 
     mesh: Mesh
@@ -270,16 +260,6 @@ class LaidFlat(Result):
     #: (n,) vertices of the side, ascending.
     on_bed: Ids
     certificate: Certificate
-
-    @property
-    def vertices(self) -> Floats:
-        """(V, 3) of the turned mesh."""
-        return self.mesh.vertices
-
-    @property
-    def faces(self) -> Ids:
-        """(F, 3)."""
-        return self.mesh.faces
 
 
 def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.0, 0.0, 0.0),
@@ -309,7 +289,7 @@ def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.
 
 
 @dataclass(frozen=True, repr=False)
-class Alignment(Result):
+class Alignment(MeshResult):
     """The motion that `align` has found."""
 
     #: (4, 4) new = M old, with `start` included.
@@ -340,16 +320,6 @@ class Alignment(Result):
 
     def __bool__(self) -> bool:
         return self.converged
-
-    @property
-    def vertices(self) -> Floats:
-        """(V, 3) the moved points."""
-        return self.mesh.vertices
-
-    @property
-    def faces(self) -> Ids:
-        """(F, 3)."""
-        return self.mesh.faces
 
 
 def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float = 1.0,

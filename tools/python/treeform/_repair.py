@@ -12,27 +12,17 @@ from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._core import Certificate
 from ._errors import require
-from ._mesh import Mesh, MeshLike, held
+from ._mesh import Mesh, MeshLike, MeshResult, held
 from ._progress import Progress, watched
 from ._results import Result
 
 
 @dataclass(frozen=True, repr=False)
-class MadeMesh(Result):
+class MadeMesh(MeshResult):
     """A mesh that an operation has made, and what was checked about it."""
 
     mesh: Mesh
     certificate: Certificate
-
-    @property
-    def vertices(self) -> Floats:
-        """(V, 3) float64."""
-        return self.mesh.vertices
-
-    @property
-    def faces(self) -> Ids:
-        """(F, 3) uint32."""
-        return self.mesh.faces
 
 
 @dataclass(frozen=True, repr=False)

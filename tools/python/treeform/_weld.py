@@ -12,13 +12,13 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._files import Path
-from ._mesh import Attributes, Mesh, MeshLike, as_mesh
+from ._mesh import Attributes, Mesh, MeshLike, MeshResult, as_mesh
 from ._progress import Progress, watched
 from ._results import Result
 
 
 @dataclass(frozen=True, repr=False)
-class WeldResult(Result):
+class WeldResult(MeshResult):
     """A welded mesh or cloud."""
 
     #: The welded mesh; of a cloud, one without faces.
@@ -36,16 +36,6 @@ class WeldResult(Result):
     def points(self) -> Floats:
         """(m, 3) the points that are left."""
         return self.mesh.vertices
-
-    @property
-    def vertices(self) -> Floats:
-        """The same."""
-        return self.mesh.vertices
-
-    @property
-    def faces(self) -> Ids:
-        """(F, 3) the faces that are left."""
-        return self.mesh.faces
 
 
 _Same = Mapping[str, float]
