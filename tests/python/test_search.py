@@ -57,6 +57,9 @@ def test_shapes_are_those_of_scipy():
                 assert np.allclose(a, b)
     assert tree.n == 50 and tree.m == 3 and len(tree) == 50
     assert isinstance(tree.query_ball_point(points[0], 0.1), list)
+    for many in (2**61, 2**70):
+        with pytest.raises(MemoryError):
+            tree.query(np.zeros((8, 3)), many)
     for wrong in (dict(k=0), dict(p=1), dict(distance_upper_bound=-1.0)):
         with pytest.raises(ValueError):
             tree.query(points[0], **wrong)
@@ -75,6 +78,8 @@ def test_boxes_that_overlap(seed, count, dimensions):
     assert tree.pairs().tolist() == [[i, j] for i in range(count) for j in range(i + 1, count)
                                      if meet[i, j]]
     assert tree.pairs(tree).tolist() == np.argwhere(meet).tolist()
+    with pytest.raises(MemoryError):
+        tree.nearest(np.zeros((8, dimensions)), 2**61)
     begin, ids = tree.query(low[:5], high[:5])
     for q in range(min(5, count)):
         assert np.array_equal(ids[begin[q]:begin[q + 1]], np.flatnonzero(meet[q]))

@@ -75,12 +75,13 @@ class boxes {
     /// fewer.
     py::tuple nearest(const array_of<double>& queries, std::size_t k, double radius) const {
         const auto all = rows_of<point>(queries);
-        std::vector<double> distances(all.size() * k, std::numeric_limits<double>::infinity());
-        std::vector<id> ids(all.size() * k, static_cast<id>(size()));
+        std::vector<double> distances(entries(all.size(), k),
+                                      std::numeric_limits<double>::infinity());
+        std::vector<id> ids(distances.size(), static_cast<id>(size()));
         run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
             const auto some = all.subspan(begin, end - begin);
             const auto found = tf::k_nearest_batch(
-                tree_, some, k,
+                tree_, some, std::min(k, size()),
                 [&](std::size_t q, std::uint32_t i) { return squared(some[q], boxes_[i]); },
                 {.radius = radius});
             for (std::size_t q = 0; q < found.size(); ++q)

@@ -14,6 +14,8 @@ from ._results import tuple_repr
 
 Numbers = NDArray[np.int64]
 
+_MOST = 2 ** 62  # more neighbors than there is memory for
+
 
 def _table(values: ArrayLike, name: str) -> Floats:
     """`values` as (n, 2) or (n, 3)."""
@@ -109,7 +111,8 @@ class PointTree:
             raise ValueError("k: less than 1")
         if not distance_upper_bound >= 0:
             raise ValueError(f"distance_upper_bound: {distance_upper_bound} is negative or NaN")
-        d, i = self._cloud.query(queries, int(count), distance_upper_bound, progress=watched(progress))
+        d, i = self._cloud.query(queries, min(int(count), _MOST), distance_upper_bound,
+                                 progress=watched(progress))
         if wanted is not None:
             d = d.reshape(-1, count)[:, wanted - 1]
             i = i.reshape(-1, count)[:, wanted - 1]
@@ -250,8 +253,8 @@ class BoxTree:
         if k < 1:
             raise ValueError("k: less than 1")
         shape = array.shape[:-1]
-        d, i = self._boxes.nearest(np.ascontiguousarray(array.reshape(-1, self._dimensions)), k,
-                                   radius, progress=watched(progress))
+        d, i = self._boxes.nearest(np.ascontiguousarray(array.reshape(-1, self._dimensions)),
+                                   min(int(k), _MOST), radius, progress=watched(progress))
         if k != 1:
             shape = shape + (k,)
         return (d.reshape(shape), i.reshape(shape)) if shape else (float(d[0]), int(i[0]))
