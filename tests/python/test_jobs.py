@@ -95,6 +95,38 @@ def test_progress_may_stop_the_work():
     assert tf.union(CUBE).mesh.volume == 1
 
 
+def test_a_result_that_is_there_is_returned():
+    told = []
+    made = tf.union(CUBE, progress=lambda share: told.append(share) or share < 1)
+    assert told[0] == 0 and told[-1] == 1 and made.mesh.volume == 1
+
+
+@pytest.mark.parametrize("format", ["off", "obj", "3mf"])
+def test_a_cancelled_write_leaves_the_file(tmp_path, format):
+    path = tmp_path / f"m.{format}"
+    tf.write(path, CUBE)
+    before = path.read_bytes()
+    soup = np.random.default_rng(1).random((900_000, 3)), np.arange(900_000).reshape(-1, 3)
+    calls = []
+
+    def progress(share):
+        calls.append(share)
+        return len(calls) == 1
+
+    def interrupt(share):
+        if len(calls) == 3:
+            raise KeyError("mine")
+        calls.append(share)
+
+    for stop, error in ((progress, tf.Cancelled), (interrupt, KeyError)):
+        with pytest.raises(error):
+            tf.write(path, soup, progress=stop)
+        deadline = time.monotonic() + 60
+        while len(os.listdir(tmp_path)) > 1 and time.monotonic() < deadline:
+            time.sleep(0.01)
+        assert path.read_bytes() == before and os.listdir(tmp_path) == [path.name]
+
+
 def test_what_progress_raises_comes_through():
     def progress(share):
         raise KeyError("mine")

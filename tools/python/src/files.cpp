@@ -63,6 +63,9 @@ py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const f
                const std::optional<std::string>& precision, bool round) {
     tf::write_options options{.format = format, .ascii = ascii, .round = round};
     if (precision) options.precision = precision_of(*precision);
+    options.progress = [report = report_of_job()](double done) {
+        return done < 1.0 ? !report || report(done) : commit_job();
+    };
     const tf::write_result written = run([&](const tf::progress_callback&) {
         return write_to(path, mesh, data, certified, options);
     });

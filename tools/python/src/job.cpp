@@ -37,6 +37,7 @@ struct job {
     std::atomic<bool> stop{false};
 
     std::mutex mutex;
+    bool committed = false;  ///< it can no longer be called back
     std::condition_variable ended_now;
     bool ended = false;
     bool alone = false;  ///< nobody waits for it
@@ -47,6 +48,17 @@ struct job {
         const py::gil_scoped_acquire lock;
         function = arguments = result = py::object();
         failure = nullptr;
+    }
+
+    /// Asks it to stop; false where it is too late for that.
+    bool call_back() {
+        const std::lock_guard lock(mutex);
+        stop = !committed;
+        return stop;
+    }
+    bool commit() {
+        const std::lock_guard lock(mutex);
+        return committed = !stop;
     }
 
     [[nodiscard]] bool has_ended_within(milliseconds time) {
@@ -159,11 +171,14 @@ class watch {
         : job_(std::move(mine)), progress_(progress) {}
 
     py::object result() {
+        look(0.0);
+        if (why_) std::rethrow_exception(why_);
+        all_helpers.load()->take().start(job_);
         while (!has_ended_within(between_looks)) {
             look(job_->share);
             if (why_) leave();
         }
-        if (!job_->failure) look(1.0);
+        if (!job_->failure && job_->commit()) look(1.0);
         if (why_) std::rethrow_exception(why_);
         if (job_->failure) std::rethrow_exception(std::exchange(job_->failure, nullptr));
         return std::move(job_->result);
@@ -179,12 +194,11 @@ class watch {
     void look(double share) {
         try {
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-            if (progress_.is_none() || share <= reported_) return;
-            reported_ = share;
-            if (progress_(share).is(py::bool_(false))) throw cancelled();
+            if (progress_.is_none()) return;
+            if (progress_(share).is(py::bool_(false)) && job_->call_back()) throw cancelled();
         } catch (...) {
             why_ = std::current_exception();
-            job_->stop = true;
+            job_->call_back();
         }
     }
 
@@ -200,7 +214,6 @@ class watch {
 
     std::shared_ptr<job> job_;
     const py::object& progress_;
-    double reported_ = -1.0;
     std::exception_ptr why_;
 };
 
@@ -222,7 +235,6 @@ py::object call(const py::object& function, const py::args& arguments, const py:
     const auto mine = std::make_shared<job>();
     mine->function = function;
     mine->arguments = arguments;
-    all_helpers.load()->take().start(mine);
     return watch(mine, progress).result();
 }
 
@@ -248,6 +260,8 @@ treeform::progress_callback report_of_job() {
         return !mine->stop;
     };
 }
+
+bool commit_job() { return current == nullptr || current->commit(); }
 
 const std::atomic<bool>* stop_of_job() { return current == nullptr ? nullptr : &current->stop; }
 
