@@ -184,6 +184,31 @@ tf.repair(soup, max_loss=1, check=False, progress=lambda share: None)
     assert done.returncode == -signal.SIGINT and "KeyboardInterrupt" in done.stderr, done.stderr
 
 
+@pytest.mark.parametrize("verb", ["tf.self_intersections(soup)", "tf.union(ball)", "tree.query(x)",
+                                  "tf.check_solid(small)"])
+def test_a_process_ends_while_daemon_threads_work(verb):
+    program = f"""
+import atexit, sys, threading, time
+import numpy as np
+atexit.register(lambda: print(tf.union(ball).mesh.is_solid, flush=True))
+import treeform as tf
+sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
+from support import CUBE as small, sphere
+ball, x = sphere(4), np.random.default_rng(1).random((500_000, 3))
+soup, tree = (x[:9_000], np.arange(9_000).reshape(-1, 3)), tf.PointTree(x)
+def work():
+    while True:
+        {verb}
+for _ in range(3):
+    threading.Thread(target=work, daemon=True).start()
+time.sleep(0.2)
+"""
+    for _ in range(3):
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                              timeout=300)
+        assert (done.returncode, done.stdout, done.stderr) == (0, "True\n", "")
+
+
 def test_a_fork_works_on():
     tf.union(*CROWD[:4])  # there are helper threads now
     child = os.fork()

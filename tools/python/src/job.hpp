@@ -59,8 +59,9 @@ void run_pieces(std::size_t count, const std::function<void(std::size_t, std::si
 /// For jobs: makes objects that take long to make, as `build(type, arguments...)`.
 py::object build(const py::object& type, const py::args& arguments);
 
-/// Whether a job goes on that nobody waits for.
-bool is_busy();
+/// Ends all jobs, for this thread to end the process. Again until it is true: then no other thread will
+/// want the interpreter's lock.
+bool end();
 
 /// `progress` has returned False.
 class cancelled {};
