@@ -82,6 +82,22 @@ def test_meshes_of_others_are_taken(mesh):
     assert len(tf.self_intersections(mesh)) == 0
 
 
+def test_cells_are_triangles_and_quads():
+    class Cells:
+        points = CUBE.vertices
+
+        def __init__(self, cells):
+            self.cells_dict = cells
+
+    quads = np.array([[0, 1, 2, 3], [3, 2, 1, 0]])
+    for kinds in (("quad", "triangle", "line", "vertex"), (9, 5, 3, 1)):
+        made = tf.from_trimesh(Cells(dict(zip(kinds, (quads, [[4, 5, 6]], [[0, 1]], [[0]])))))
+        assert made.faces.tolist() == [[0, 1, 2], [0, 2, 3], [3, 2, 1], [3, 1, 0], [4, 5, 6]]
+    for kind in ("tetra", 10):
+        with pytest.raises(ValueError, match=f"mesh: 1 cells of the kind '?{kind}"):
+            tf.union(Cells({kind: [[0, 1, 2, 3]], "triangle": [[0, 1, 2]]}))
+
+
 def test_real_meshes_of_open3d():
     o3d = pytest.importorskip("open3d")
     mesh = o3d.geometry.TriangleMesh.create_sphere()
@@ -99,8 +115,10 @@ def test_real_meshes_of_open3d():
     (POINTS, FACES[:, :2], r"faces: the shape is \(4, 2\), not \(n, 3\)"),
     (POINTS, [[0, 1, -1]], r"faces: -1 at \(0, 2\)"),
     (POINTS, [[0, 2**40, 1]], r"faces: 1099511627776 at \(0, 1\)"),
-    (POINTS, [4, 0, 1, 2, 3], "faces: 5 numbers in a row"),
-    (POINTS, [3, 0, 1, 2, 4, 0, 1, 2], "faces: face 1 has 4 corners"),
+    (POINTS, [3, 0, 1, 2, 3], "faces: 5 numbers in a row"),
+    (POINTS, [9, 0, 1, 2, 3], "faces: 5 numbers in a row"),
+    (POINTS, [3, 0, 1, 2, 4, 0, 1, 2, 3], "faces: face 1 has 4 corners; triangulate first"),
+    (POINTS, [4, 0, 1, 2, 3, 4, 3, 2, 1, 0], "faces: face 0 has 4 corners; triangulate first"),
     (POINTS, FACES.astype(bool), "faces: whole numbers are needed, not bool"),
 ])
 def test_what_is_no_mesh_is_named(vertices, faces, message):

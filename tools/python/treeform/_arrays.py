@@ -99,14 +99,12 @@ def faces(values: ArrayLike, name: str = "faces") -> Ids:
 
 
 def _flat_faces(array: Ids, name: str) -> Ids:
-    if array.size % 4 == 0:
-        table = array.reshape(-1, 4)
-        other = np.flatnonzero(table[:, 0] != 3)
-        if other.size == 0:
-            return np.ascontiguousarray(table[:, 1:])
-        if (table[: other[0], 0] == 3).all():
-            raise ValueError(
-                f"{name}: face {other[0]} has {table[other[0], 0]} corners; triangulate first")
+    other = np.flatnonzero(array[::4] != 3)
+    if array.size % 4 == 0 and other.size == 0:
+        return np.ascontiguousarray(array.reshape(-1, 4)[:, 1:])
+    if other.size != 0 and 4 * other[0] + array[4 * other[0]] <= array.size:
+        raise ValueError(f"{name}: face {other[0]} has {array[4 * other[0]]} corners; "
+                         "triangulate first")
     raise ValueError(f"{name}: {array.size} numbers in a row are no [3, a, b, c, 3, ...]")
 
 
