@@ -135,7 +135,8 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     corner or an edge. Operands may overlap themselves, touch, be equal, be inside out or empty.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result cannot be
-    certified, ValueError naming the face that is out of range or not finite.
+    certified, ValueError naming the face that is out of range or not finite, or the operand that has
+    points but no faces.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -188,7 +189,7 @@ def split(*meshes: MeshLike, precision: str = "float64", max_displacement: float
 
 def check_solid(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
     """Whether a mesh bounds a solid, as operands of `boolean` have to: True, or says where the
-    surface ends.
+    surface ends. Raises ValueError for points without a face.
 
     >>> import treeform
     >>> bool(treeform.check_solid(treeform.read("data/cube.stl")))

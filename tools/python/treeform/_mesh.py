@@ -209,12 +209,16 @@ class Mesh:
     @property
     def is_solid(self) -> bool:
         """Whether the mesh bounds a solid, as set operations need it: cut along itself, it is
-        closed. It may overlap itself. Decided exactly, once."""
-        return bool(self.solid_certificate)
+        closed. It may overlap itself. Decided exactly, once. A cloud is none."""
+        mesh = self._ready()
+        return not mesh._is_cloud() and bool(mesh.solid_certificate)
+
+    def _is_cloud(self) -> bool:
+        return len(self._faces) == 0 and len(self._vertices) != 0
 
     @property
     def solid_certificate(self) -> Certificate:
-        """Why it bounds a solid or not."""
+        """Why it bounds a solid or not. Raises ValueError for a cloud."""
         mesh = self._ready()
         if mesh._solid is None:
             mesh._solid = _core.check_solid(mesh._held)
@@ -325,10 +329,30 @@ def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
                 return np.asarray(mesh.vertices), np.asarray(getattr(mesh, name))
     if hasattr(mesh, "points"):
         if hasattr(mesh, "cells_dict"):
-            return np.asarray(mesh.points), mesh.cells_dict.get("triangle", np.empty((0, 3), int))
+            return np.asarray(mesh.points), _faces_of_cells(mesh.cells_dict)
         if hasattr(mesh, "faces"):
             return np.asarray(mesh.points), np.asarray(mesh.faces)
     raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces")
+
+
+#: By the names of meshio and the numbers of VTK.
+_NO_FACES = ("vertex", "line", 1, 3)
+_TRIANGLES = ("triangle", 5)
+_QUADS = ("quad", 9)
+
+
+def _faces_of_cells(cells: Any) -> NDArray[Any]:
+    """Triangles, and two of each quad, in the order of `cells`."""
+    faces = [np.empty((0, 3), np.uint32)]
+    for kind, corners in cells.items():
+        if kind in _TRIANGLES:
+            faces.append(np.asarray(corners))
+        elif kind in _QUADS:
+            faces.append(np.asarray(corners)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
+        elif kind not in _NO_FACES and len(corners):
+            raise ValueError(f"mesh: {len(corners)} cells of the kind {kind!r}; only triangles and "
+                             "quads are taken")
+    return np.concatenate([_arrays.faces(part) for part in faces])
 
 
 def as_mesh(mesh: Any) -> Mesh:
