@@ -33,6 +33,12 @@ class boxes {
 
     [[nodiscard]] std::size_t size() const { return boxes_.size(); }
 
+    /// [n][D] the lows and the highs.
+    [[nodiscard]] py::tuple bounds() const {
+        return py::make_tuple(column(boxes_, [](const box& one) { return one.min; }),
+                              column(boxes_, [](const box& one) { return one.max; }));
+    }
+
     /// [n][2] the pairs of boxes that overlap, ascending.
     py::array pairs() const {
         return as_pairs(run([&](const tf::progress_callback&) {
@@ -130,6 +136,7 @@ void add_boxes_of(py::module_& module, const char* name) {
     py::class_<boxes<D>>(module, name)
         .def(py::init<const array_of<double>&, const array_of<double>&>())
         .def("__len__", &boxes<D>::size)
+        .def("bounds", &boxes<D>::bounds)
         .def("pairs", &boxes<D>::pairs)
         .def("pairs_with", &boxes<D>::pairs_with)
         .def("query", &boxes<D>::query)

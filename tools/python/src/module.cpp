@@ -85,6 +85,7 @@ void make_jobs(py::module_& module) {
                              "check_solid",
                              "bounds",
                              "signed_volume",
+                             "surface_area",
                              "find_defects",
                              "count_topology",
                              "face_components",

@@ -58,6 +58,12 @@ class Attributes:
     def __init__(self, data: _core.FileData | None = None) -> None:
         self._data = _core.FileData() if data is None else data
 
+    def __reduce__(self) -> Any:
+        return Attributes, (self._data,)
+
+    def __copy__(self) -> Attributes:
+        return Attributes(_core.FileData(self._data))
+
     @property
     def format(self) -> str:
         """Of the file that was read: 'stl-binary', 'ply-ascii', 'obj', ...; else empty."""
@@ -233,9 +239,7 @@ class Mesh:
     @property
     def area(self) -> float:
         """The area of all faces, in square units."""
-        mesh = self._ready()
-        a, b, c = (mesh._vertices[mesh._faces[:, k]] for k in range(3))
-        return float(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+        return _core.surface_area(self._ready()._held)
 
     @property
     def bounds(self) -> Floats | None:
@@ -283,7 +287,10 @@ class Mesh:
 
     def __reduce__(self) -> Any:
         mesh = self._ready()
-        return Mesh, (mesh._vertices, mesh._faces)
+        return Mesh._of, (mesh._vertices, mesh._faces, mesh._certificate, mesh._attributes)
+
+    def __copy__(self) -> Mesh:
+        return self
 
     def __repr__(self) -> str:
         if self._formula is not None:

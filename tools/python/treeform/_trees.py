@@ -59,6 +59,9 @@ class PointTree:
         make = _core.Cloud3 if self.data.shape[1] == 3 else _core.Cloud2
         self._cloud: _core._Cloud = _core.build(make, self.data)
 
+    def __reduce__(self) -> tuple[type[PointTree], tuple[Floats]]:
+        return type(self), (self.data,)
+
     @property
     def n(self) -> int:
         """Number of points."""
@@ -200,6 +203,9 @@ class BoxTree:
         self._dimensions = int(low.shape[1])
         make = _core.Boxes3 if self._dimensions == 3 else _core.Boxes2
         self._boxes: _core.Boxes2 = _core.build(make, low, high)
+
+    def __reduce__(self) -> tuple[type[BoxTree], tuple[Floats, Floats]]:
+        return type(self), self._boxes.bounds()
 
     def __len__(self) -> int:
         return len(self._boxes)
