@@ -180,6 +180,57 @@ def test_words_that_are_none_are_refused_with_those_there_are():
         tf.self_intersections(CUBE, kinds=["crossed"])
 
 
+V, F = CUBE.vertices, CUBE.faces
+
+
+@pytest.mark.parametrize("verb, message", [
+    (lambda: tf.Mesh(V, F, {"q": 1}), "attributes: Attributes are needed, not dict"),
+    (lambda: tf.weld(V, "x"), "tolerance: a number is needed, not 'x'"),
+    (lambda: tf.weld_stream("a.ply", "b.ply", memory=-1), "memory: -1 is less than 0"),
+    (lambda: tf.weld_stream("a.ply", "b.ply", memory=0.5), "memory: a whole number is needed"),
+    (lambda: tf.threads(-1), "most: -1 is less than 0"),
+    (lambda: tf.write("a\0b.ply", CUBE), "path: .* has a zero in it"),
+    (lambda: tf.read("a\0b.ply"), "path: .* has a zero in it"),
+    (lambda: tf.raycast(CUBE, V, V + 1, t_min="a"), "t_min: a number is needed, not 'a'"),
+    (lambda: tf.boolean("a-inside", a=CUBE, inside=CUBE), "inside: a word is needed, not Mesh"),
+    (lambda: tf.PointTree(V).query_ball_point(V, [1, 2]), "broadcast")])
+def test_options_that_make_no_sense_are_named(verb, message):
+    with pytest.raises(ValueError, match=message):
+        verb()
+
+
+@pytest.mark.parametrize("verb", [tf.contains, tf.locate, tf.winding_number, tf.signed_distance])
+def test_an_open_mesh_has_no_inside(verb):
+    with pytest.raises(tf.NotSolidError) as caught:
+        verb(SHEET, [[0.1, 0.1, 2.0]])
+    assert caught.value.edges.shape == (3, 2, 3)
+    with pytest.raises(ValueError, match="finite") as caught:
+        verb(CUBE, [[np.nan, 0, 0]])
+    assert not isinstance(caught.value, tf.NotSolidError)
+
+
+def test_meshes_may_come_in_anything_that_lists_them():
+    two = [(V, F), (V + 0.5, F)]
+    for many in (two, tuple(two), dict(enumerate(two)).values(), iter(two), map(list, two),
+                 [list(one) for one in two], [(v.tolist(), f.tolist()) for v, f in two]):
+        assert tf.union(many).mesh.volume == 1.875
+    for one in ((V, F), [V, F], [V.tolist(), F.tolist()], CUBE, Trimesh()):
+        assert len(tf.union(one).mesh.faces) in (4, 12)
+
+
+def test_points_may_come_in_anything_that_lists_them():
+    class Cloud:
+        points = [[0.0, 0, 0], [0, 0, 0.5]]
+
+    class Vertices:
+        vertices = Cloud.points
+
+    for cloud in ([np.array([0.0, 0, 0]), np.array([0, 0, 0.5])], np.array(Cloud.points), Cloud(),
+                  Vertices(), Cloud.points):
+        assert len(tf.weld(cloud, 1).points) == 1
+        assert len(tf.deviation(cloud, CUBE).distances) == 2
+
+
 def test_a_matrix_that_is_none_is_refused():
     for wrong in (np.eye(3), np.full((4, 4), 1.0), np.eye(4)[:2]):
         with pytest.raises(ValueError, match="move_b"):

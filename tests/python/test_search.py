@@ -39,6 +39,10 @@ def test_points_within_a_radius_are_those_of_scipy(seed, count, dimensions, r):
     lists = tree.query_ball_point(queries, r)
     assert lists.tolist() == [sorted(one) for one in judge.query_ball_point(queries, r)]
     assert tree.query_ball_point(queries, r, return_length=True).tolist() == [*map(len, lists)]
+    own = np.linspace(0, 2 * r, len(queries))
+    lists = tree.query_ball_point(queries, own)
+    assert lists.tolist() == [sorted(one) for one in judge.query_ball_point(queries, own)]
+    assert tree.query_ball_point(queries, own, return_length=True).tolist() == [*map(len, lists)]
     assert tree.query_pairs(r) == judge.query_pairs(r)
     pairs = tree.query_pairs(r, output_type="ndarray")
     assert set(map(tuple, pairs.tolist())) == judge.query_pairs(r)

@@ -162,6 +162,8 @@ class Mesh:
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike = (),
                  attributes: Attributes | None = None) -> None:
+        if attributes is not None and not isinstance(attributes, Attributes):
+            raise ValueError(f"attributes: Attributes are needed, not {type(attributes).__name__}")
         self._formula: _Formula | None = None
         self._set(_arrays.points(vertices), _arrays.faces(faces), attributes, None)
 
@@ -379,16 +381,23 @@ def held(mesh: Any) -> _core.HeldMesh:
     return _core.HeldMesh(_arrays.points(vertices), _arrays.faces(faces), False)
 
 
+def cloud_of(body: Any) -> Floats | None:
+    """The points of an array of points, or of what has `points` or `vertices` and no faces; None for
+    a mesh."""
+    if isinstance(body, np.ndarray) or isinstance(body, (list, tuple)) and not _arrays.is_pair(body):
+        return _arrays.points(body, "points")
+    if any(hasattr(body, name) for name in ("mesh", "faces", "triangles", "cells_dict")):
+        return None
+    for name in ("points", "vertices"):
+        if hasattr(body, name):
+            return _arrays.points(np.asarray(getattr(body, name)), "points")
+    return None
+
+
 def held_body(body: Any) -> _core.HeldMesh:
-    """The same for a mesh or a cloud: an array of points, or anything with `points` and no faces."""
-    if isinstance(body, np.ndarray):
-        return _core.HeldMesh(_arrays.points(body, "points"))
-    if isinstance(body, (list, tuple)) and not _arrays.is_pair(body):
-        return _core.HeldMesh(_arrays.points(body, "points"))
-    if hasattr(body, "points") and not hasattr(body, "faces") and not hasattr(body, "cells_dict"):
-        return _core.HeldMesh(_arrays.points(np.asarray(body.points), "points"))
-    one = held(body)
-    return one
+    """The same for a mesh or a cloud."""
+    points = cloud_of(body)
+    return held(body) if points is None else _core.HeldMesh(points)
 
 
 class _Formula:

@@ -126,11 +126,11 @@ class PointTree:
             return float(d[0]), int(i[0])
         return d.reshape(shape), i.reshape(shape)
 
-    def query_ball_point(self, x: ArrayLike, r: float, p: float = 2.0, eps: float = 0.0,
+    def query_ball_point(self, x: ArrayLike, r: ArrayLike, p: float = 2.0, eps: float = 0.0,
                          workers: int = -1, return_sorted: bool | None = None,
                          return_length: bool = False, *, progress: Progress = None) -> Any:
         """The numbers of all points within `r` of each query, inclusive, ascending: a list, or an
-        array of lists for many queries; with `return_length`, how many they are.
+        array of lists for many queries, each with its own `r` if that is an array; with `return_length`, how many they are.
 
         `query_ball` has the same in arrays, and much faster.
 
@@ -142,11 +142,17 @@ class PointTree:
         if p != 2:
             raise ValueError(f"p: {p} is not 2, the only one there is")
         queries, shape = self._queries(x)
-        begin, ids, _ = self._cloud.query_ball(queries, r, True, progress=watched(progress))
+        radii = np.broadcast_to(_arrays.floats(r, "r"), shape).ravel()
+        lists: list[Any] = [[]] * len(queries)
+        for radius in np.unique(radii):
+            at = np.flatnonzero(radii == radius)
+            begin, ids, _ = self._cloud.query_ball(queries[at], float(radius), True,
+                                                   progress=watched(progress))
+            found = np.diff(begin).tolist() if return_length else _core.lists(begin, ids)
+            for i, one in zip(at.tolist(), found):
+                lists[i] = one
         if return_length:
-            length = np.diff(begin).reshape(shape)
-            return length if shape else int(length)
-        lists = _core.lists(begin, ids)
+            return np.array(lists, np.int64).reshape(shape) if shape else lists[0]
         if not shape:
             return lists[0]
         made = np.empty(len(lists), object)
