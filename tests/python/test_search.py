@@ -50,6 +50,17 @@ def test_points_within_a_radius_are_those_of_scipy(seed, count, dimensions, r):
     assert arrays.begin[-1] == len(arrays.ids) == len(arrays.distances)
 
 
+def test_a_tree_has_a_copy_of_its_points():
+    points = np.array([[0, 0, 0], [0, 0, 1], [9, 9, 9]], float)
+    tree = tf.PointTree(points)
+    points[:] = np.nan
+    assert tree.query_pairs(1) == {(0, 1)} and tree.query_ball_point([0, 0, 0], 1) == [0, 1]
+    with pytest.raises(ValueError, match="read-only"):
+        tree.data[0] = 1
+    with pytest.raises(AttributeError):
+        tree.data = points
+
+
 def test_shapes_are_those_of_scipy():
     points = np.random.default_rng(0).random((50, 3))
     tree, judge = tf.PointTree(points), cKDTree(points)

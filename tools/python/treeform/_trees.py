@@ -52,28 +52,34 @@ class PointTree:
     (0.09999999999999998, 1)
     """
 
-    __slots__ = ("data", "_cloud")
+    __slots__ = ("_data", "_cloud")
 
     def __init__(self, data: ArrayLike) -> None:
-        self.data = _table(data, "data")
-        make = _core.Cloud3 if self.data.shape[1] == 3 else _core.Cloud2
-        self._cloud: _core._Cloud = _core.build(make, self.data)
+        self._data = _table(data, "data").copy()
+        self._data.flags.writeable = False
+        make = _core.Cloud3 if self.m == 3 else _core.Cloud2
+        self._cloud: _core._Cloud = _core.build(make, self._data)
+
+    @property
+    def data(self) -> Floats:
+        """(n, m) a copy of the points, not to be written to."""
+        return self._data
 
     def __reduce__(self) -> tuple[type[PointTree], tuple[Floats]]:
-        return type(self), (self.data,)
+        return type(self), (self._data,)
 
     @property
     def n(self) -> int:
         """Number of points."""
-        return len(self.data)
+        return len(self._data)
 
     @property
     def m(self) -> int:
         """2 or 3."""
-        return int(self.data.shape[1])
+        return int(self._data.shape[1])
 
     def __len__(self) -> int:
-        return len(self.data)
+        return len(self._data)
 
     def _queries(self, x: ArrayLike) -> tuple[Floats, tuple[int, ...]]:
         array = _arrays.floats(x, "x")
@@ -183,7 +189,7 @@ class PointTree:
             raise ValueError(f"p: {p} is not 2, the only one there is")
         if output_type not in ("set", "ndarray"):
             raise ValueError(f"output_type: {output_type!r} is neither 'set' nor 'ndarray'")
-        pairs = self._cloud.query_pairs(self.data, r, progress=watched(progress))
+        pairs = self._cloud.query_pairs(self._data, r, progress=watched(progress))
         return pairs if output_type == "ndarray" else set(map(tuple, pairs.tolist()))
 
     def __repr__(self) -> str:
