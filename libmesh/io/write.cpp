@@ -214,10 +214,13 @@ class writing {
 write_result write_file(const std::filesystem::path& path, const mesh_file& file,
                         const write_options& options, bool may_round) {
     writing job(path, file, options, may_round);
+    const auto goes_on = [&](double done) { return !options.progress || options.progress(done); };
+    if (!goes_on(0.0)) return {.cancelled = true};
     detail::io::output_file target(path);
     detail::io::sink out(target.descriptor(), target.name());
     write_result result = job.run(out);
-    target.commit();
+    result.cancelled = !goes_on(1.0);
+    if (!result.cancelled) target.commit();
     return result;
 }
 

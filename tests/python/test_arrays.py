@@ -82,6 +82,22 @@ def test_meshes_of_others_are_taken(mesh):
     assert len(tf.self_intersections(mesh)) == 0
 
 
+def test_cells_are_triangles_and_quads():
+    class Cells:
+        points = CUBE.vertices
+
+        def __init__(self, cells):
+            self.cells_dict = cells
+
+    quads = np.array([[0, 1, 2, 3], [3, 2, 1, 0]])
+    for kinds in (("quad", "triangle", "line", "vertex"), (9, 5, 3, 1)):
+        made = tf.from_trimesh(Cells(dict(zip(kinds, (quads, [[4, 5, 6]], [[0, 1]], [[0]])))))
+        assert made.faces.tolist() == [[0, 1, 2], [0, 2, 3], [3, 2, 1], [3, 1, 0], [4, 5, 6]]
+    for kind in ("tetra", 10):
+        with pytest.raises(ValueError, match=f"mesh: 1 cells of the kind '?{kind}"):
+            tf.union(Cells({kind: [[0, 1, 2, 3]], "triangle": [[0, 1, 2]]}))
+
+
 def test_real_meshes_of_open3d():
     o3d = pytest.importorskip("open3d")
     mesh = o3d.geometry.TriangleMesh.create_sphere()
@@ -99,8 +115,10 @@ def test_real_meshes_of_open3d():
     (POINTS, FACES[:, :2], r"faces: the shape is \(4, 2\), not \(n, 3\)"),
     (POINTS, [[0, 1, -1]], r"faces: -1 at \(0, 2\)"),
     (POINTS, [[0, 2**40, 1]], r"faces: 1099511627776 at \(0, 1\)"),
-    (POINTS, [4, 0, 1, 2, 3], "faces: 5 numbers in a row"),
-    (POINTS, [3, 0, 1, 2, 4, 0, 1, 2], "faces: face 1 has 4 corners"),
+    (POINTS, [3, 0, 1, 2, 3], "faces: 5 numbers in a row"),
+    (POINTS, [9, 0, 1, 2, 3], "faces: 5 numbers in a row"),
+    (POINTS, [3, 0, 1, 2, 4, 0, 1, 2, 3], "faces: face 1 has 4 corners; triangulate first"),
+    (POINTS, [4, 0, 1, 2, 3, 4, 3, 2, 1, 0], "faces: face 0 has 4 corners; triangulate first"),
     (POINTS, FACES.astype(bool), "faces: whole numbers are needed, not bool"),
 ])
 def test_what_is_no_mesh_is_named(vertices, faces, message):
@@ -160,6 +178,57 @@ def test_words_that_are_none_are_refused_with_those_there_are():
         tf.union(CUBE, precision="half")
     with pytest.raises(ValueError, match="crossing"):
         tf.self_intersections(CUBE, kinds=["crossed"])
+
+
+V, F = CUBE.vertices, CUBE.faces
+
+
+@pytest.mark.parametrize("verb, message", [
+    (lambda: tf.Mesh(V, F, {"q": 1}), "attributes: Attributes are needed, not dict"),
+    (lambda: tf.weld(V, "x"), "tolerance: a number is needed, not 'x'"),
+    (lambda: tf.weld_stream("a.ply", "b.ply", memory=-1), "memory: -1 is less than 0"),
+    (lambda: tf.weld_stream("a.ply", "b.ply", memory=0.5), "memory: a whole number is needed"),
+    (lambda: tf.threads(-1), "most: -1 is less than 0"),
+    (lambda: tf.write("a\0b.ply", CUBE), "path: .* has a zero in it"),
+    (lambda: tf.read("a\0b.ply"), "path: .* has a zero in it"),
+    (lambda: tf.raycast(CUBE, V, V + 1, t_min="a"), "t_min: a number is needed, not 'a'"),
+    (lambda: tf.boolean("a-inside", a=CUBE, inside=CUBE), "inside: a word is needed, not Mesh"),
+    (lambda: tf.PointTree(V).query_ball_point(V, [1, 2]), "broadcast")])
+def test_options_that_make_no_sense_are_named(verb, message):
+    with pytest.raises(ValueError, match=message):
+        verb()
+
+
+@pytest.mark.parametrize("verb", [tf.contains, tf.locate, tf.winding_number, tf.signed_distance])
+def test_an_open_mesh_has_no_inside(verb):
+    with pytest.raises(tf.NotSolidError) as caught:
+        verb(SHEET, [[0.1, 0.1, 2.0]])
+    assert caught.value.edges.shape == (3, 2, 3)
+    with pytest.raises(ValueError, match="finite") as caught:
+        verb(CUBE, [[np.nan, 0, 0]])
+    assert not isinstance(caught.value, tf.NotSolidError)
+
+
+def test_meshes_may_come_in_anything_that_lists_them():
+    two = [(V, F), (V + 0.5, F)]
+    for many in (two, tuple(two), dict(enumerate(two)).values(), iter(two), map(list, two),
+                 [list(one) for one in two], [(v.tolist(), f.tolist()) for v, f in two]):
+        assert tf.union(many).mesh.volume == 1.875
+    for one in ((V, F), [V, F], [V.tolist(), F.tolist()], CUBE, Trimesh()):
+        assert len(tf.union(one).mesh.faces) in (4, 12)
+
+
+def test_points_may_come_in_anything_that_lists_them():
+    class Cloud:
+        points = [[0.0, 0, 0], [0, 0, 0.5]]
+
+    class Vertices:
+        vertices = Cloud.points
+
+    for cloud in ([np.array([0.0, 0, 0]), np.array([0, 0, 0.5])], np.array(Cloud.points), Cloud(),
+                  Vertices(), Cloud.points):
+        assert len(tf.weld(cloud, 1).points) == 1
+        assert len(tf.deviation(cloud, CUBE).distances) == 2
 
 
 def test_a_matrix_that_is_none_is_refused():

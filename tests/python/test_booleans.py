@@ -35,6 +35,20 @@ def test_bytes_are_those_of_the_tool_on_real_models(tmp_path, operation):
                         model("clean/fertility_9k.off"), shifted)
 
 
+def test_a_cloud_is_no_solid():
+    points = tf.Mesh(CUBE.vertices)
+    assert not points.is_solid and tf.Mesh([], []).is_solid
+    for verb in (lambda: tf.union(CUBE, points), lambda: tf.clip(SHEET, points),
+                 lambda: tf.intersection([CUBE, (CUBE.vertices, [])])):
+        with pytest.raises(ValueError, match="operand 1: 8 points without a face"):
+            verb()
+    with pytest.raises(ValueError, match="b: 8 points"):
+        tf.boolean("a - b", a=CUBE, b=points)
+    for verb in (lambda: tf.check_solid(points), lambda: CUBE | points, lambda: points - CUBE):
+        with pytest.raises(ValueError, match="8 points without a face"):
+            verb()
+
+
 coordinates = st.integers(0, 8)
 corners = st.tuples(coordinates, coordinates, coordinates)
 

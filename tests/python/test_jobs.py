@@ -95,6 +95,38 @@ def test_progress_may_stop_the_work():
     assert tf.union(CUBE).mesh.volume == 1
 
 
+def test_a_result_that_is_there_is_returned():
+    told = []
+    made = tf.union(CUBE, progress=lambda share: told.append(share) or share < 1)
+    assert told[0] == 0 and told[-1] == 1 and made.mesh.volume == 1
+
+
+@pytest.mark.parametrize("format", ["off", "obj", "3mf"])
+def test_a_cancelled_write_leaves_the_file(tmp_path, format):
+    path = tmp_path / f"m.{format}"
+    tf.write(path, CUBE)
+    before = path.read_bytes()
+    soup = np.random.default_rng(1).random((900_000, 3)), np.arange(900_000).reshape(-1, 3)
+    calls = []
+
+    def progress(share):
+        calls.append(share)
+        return len(calls) == 1
+
+    def interrupt(share):
+        if len(calls) == 3:
+            raise KeyError("mine")
+        calls.append(share)
+
+    for stop, error in ((progress, tf.Cancelled), (interrupt, KeyError)):
+        with pytest.raises(error):
+            tf.write(path, soup, progress=stop)
+        deadline = time.monotonic() + 60
+        while len(os.listdir(tmp_path)) > 1 and time.monotonic() < deadline:
+            time.sleep(0.01)
+        assert path.read_bytes() == before and os.listdir(tmp_path) == [path.name]
+
+
 def test_what_progress_raises_comes_through():
     def progress(share):
         raise KeyError("mine")
@@ -150,6 +182,31 @@ tf.repair(soup, max_loss=1, check=False, progress=lambda share: None)
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
                           timeout=300)
     assert done.returncode == -signal.SIGINT and "KeyboardInterrupt" in done.stderr, done.stderr
+
+
+@pytest.mark.parametrize("verb", ["tf.self_intersections(soup)", "tf.union(ball)", "tree.query(x)",
+                                  "tf.check_solid(small)"])
+def test_a_process_ends_while_daemon_threads_work(verb):
+    program = f"""
+import atexit, sys, threading, time
+import numpy as np
+atexit.register(lambda: print(tf.union(ball).mesh.is_solid, flush=True))
+import treeform as tf
+sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
+from support import CUBE as small, sphere
+ball, x = sphere(4), np.random.default_rng(1).random((500_000, 3))
+soup, tree = (x[:9_000], np.arange(9_000).reshape(-1, 3)), tf.PointTree(x)
+def work():
+    while True:
+        {verb}
+for _ in range(3):
+    threading.Thread(target=work, daemon=True).start()
+time.sleep(0.2)
+"""
+    for _ in range(3):
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                              timeout=300)
+        assert (done.returncode, done.stdout, done.stderr) == (0, "True\n", "")
 
 
 def test_a_fork_works_on():

@@ -15,6 +15,8 @@ def test_what_a_mesh_says_of_itself():
     assert CUBE.is_solid and not SHEET.is_solid and SPHERES.is_solid
     assert CUBE.volume == 1 and CUBE.area == 6
     assert tf.Mesh(CUBE.vertices, CUBE.faces[:, ::-1]).volume == -1
+    with pytest.raises(ValueError, match="face 0"):
+        tf.Mesh(CUBE.vertices, [[0, 1, 9]]).area
     assert CUBE.bounds.tolist() == [[0, 0, 0], [1, 1, 1]]
     assert tf.Mesh([], []).bounds is None
     assert repr(CUBE) == "Mesh(8 vertices, 12 faces)"
@@ -85,8 +87,45 @@ def test_arrays_outlive_what_they_came_from():
 
 
 def test_copies():
-    for made in (pickle.loads(pickle.dumps(SPHERES)), copy.deepcopy(SPHERES)):
+    for made in (pickle.loads(pickle.dumps(SPHERES)), copy.deepcopy(SPHERES), copy.copy(SPHERES)):
         assert same_mesh(made, SPHERES)
+
+
+COPIES = [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))]
+
+
+@pytest.mark.parametrize("again", COPIES)
+def test_copies_keep_certificate_and_attributes(again, tmp_path):
+    made = again(tf.union(CUBE, tf.Mesh(CUBE.vertices / 3 + 0.9, CUBE.faces)))
+    assert made.mesh.certificate and str(made.certificate) == str(made.mesh.certificate)
+    with pytest.raises(tf.FileError, match="round"):
+        tf.write(tmp_path / "m.stl", again(made.mesh))
+    (tmp_path / "m.obj").write_text("o first\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.5 0.25\n"
+                                    "f 1/1 2/1 3/1 4/1\n")
+    mesh = tf.read(tmp_path / "m.obj")
+    mesh.attributes.set_vertex("quality", np.arange(4, dtype=np.float32))
+    other = again(mesh)
+    tf.write(tmp_path / "a.obj", mesh)
+    tf.write(tmp_path / "b.obj", other)
+    assert (tmp_path / "a.obj").read_bytes() == (tmp_path / "b.obj").read_bytes()
+    assert other.attributes.vertex["quality"].tolist() == [0, 1, 2, 3]
+    extra = again(mesh.attributes)
+    extra.set_vertex("quality", np.zeros(4))
+    assert mesh.attributes.vertex["quality"][1] == 1
+
+
+@pytest.mark.parametrize("again", COPIES)
+def test_results_errors_and_trees_can_be_copied(again):
+    with pytest.raises(tf.NotSolidError) as caught:
+        tf.union(SHEET)
+    error = again(caught.value)
+    assert np.array_equal(error.edges, caught.value.edges) and str(error) == str(caught.value)
+    assert isinstance(error, tf.NotSolidError) and error.certificate.open_count == 3
+    tree = again(tf.PointTree(CUBE.vertices))
+    assert tree.query([0, 0, 0.1])[1] == tf.PointTree(CUBE.vertices).query([0, 0, 0.1])[1]
+    boxes = again(tf.BoxTree([[0, 0], [2, 0], [1, 1]], [[1, 1], [3, 1], [2, 2]]))
+    assert boxes.pairs().tolist() == [[0, 2], [1, 2]]
+    again(tf.clash([CUBE, SPHERES]))
 
 
 def test_from_and_to_trimesh(monkeypatch):

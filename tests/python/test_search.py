@@ -39,11 +39,26 @@ def test_points_within_a_radius_are_those_of_scipy(seed, count, dimensions, r):
     lists = tree.query_ball_point(queries, r)
     assert lists.tolist() == [sorted(one) for one in judge.query_ball_point(queries, r)]
     assert tree.query_ball_point(queries, r, return_length=True).tolist() == [*map(len, lists)]
+    own = np.linspace(0, 2 * r, len(queries))
+    lists = tree.query_ball_point(queries, own)
+    assert lists.tolist() == [sorted(one) for one in judge.query_ball_point(queries, own)]
+    assert tree.query_ball_point(queries, own, return_length=True).tolist() == [*map(len, lists)]
     assert tree.query_pairs(r) == judge.query_pairs(r)
     pairs = tree.query_pairs(r, output_type="ndarray")
     assert set(map(tuple, pairs.tolist())) == judge.query_pairs(r)
     arrays = tree.query_ball(queries, r)
     assert arrays.begin[-1] == len(arrays.ids) == len(arrays.distances)
+
+
+def test_a_tree_has_a_copy_of_its_points():
+    points = np.array([[0, 0, 0], [0, 0, 1], [9, 9, 9]], float)
+    tree = tf.PointTree(points)
+    points[:] = np.nan
+    assert tree.query_pairs(1) == {(0, 1)} and tree.query_ball_point([0, 0, 0], 1) == [0, 1]
+    with pytest.raises(ValueError, match="read-only"):
+        tree.data[0] = 1
+    with pytest.raises(AttributeError):
+        tree.data = points
 
 
 def test_shapes_are_those_of_scipy():
@@ -57,6 +72,9 @@ def test_shapes_are_those_of_scipy():
                 assert np.allclose(a, b)
     assert tree.n == 50 and tree.m == 3 and len(tree) == 50
     assert isinstance(tree.query_ball_point(points[0], 0.1), list)
+    for many in (2**61, 2**70):
+        with pytest.raises(MemoryError):
+            tree.query(np.zeros((8, 3)), many)
     for wrong in (dict(k=0), dict(p=1), dict(distance_upper_bound=-1.0)):
         with pytest.raises(ValueError):
             tree.query(points[0], **wrong)
@@ -75,6 +93,8 @@ def test_boxes_that_overlap(seed, count, dimensions):
     assert tree.pairs().tolist() == [[i, j] for i in range(count) for j in range(i + 1, count)
                                      if meet[i, j]]
     assert tree.pairs(tree).tolist() == np.argwhere(meet).tolist()
+    with pytest.raises(MemoryError):
+        tree.nearest(np.zeros((8, dimensions)), 2**61)
     begin, ids = tree.query(low[:5], high[:5])
     for q in range(min(5, count)):
         assert np.array_equal(ids[begin[q]:begin[q + 1]], np.flatnonzero(meet[q]))

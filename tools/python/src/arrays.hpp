@@ -10,7 +10,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -77,6 +79,15 @@ auto column(const Rows& rows, const Of& of) {
         return as_array<value>(std::move(values));
     else
         return as_array<std::remove_cvref_t<decltype(value{}[0])>>(std::move(values));
+}
+
+/// How many entries a table has.
+///
+/// \throws std::bad_alloc where that is more than can be
+inline std::size_t entries(std::size_t rows, std::size_t width) {
+    constexpr std::size_t most = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(double);
+    if (rows != 0 && width > most / rows) throw std::bad_alloc();
+    return rows * width;
 }
 
 /// Three numbers as an array.

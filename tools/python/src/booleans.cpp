@@ -76,6 +76,18 @@ tf::boolean_options options_of(const std::string& inside, const std::string& pre
             .simplify = simplify};
 }
 
+/// A cloud is no solid, not even the empty one.
+void require_faces(const held_mesh& mesh, const std::string& name) {
+    const auto [points, faces] = mesh.view();
+    if (!points.empty() && faces.empty())
+        throw std::invalid_argument(name + ": " + std::to_string(points.size()) +
+                                    " points without a face are no solid");
+}
+void require_faces(const held_meshes& meshes, const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        require_faces(*meshes[i], names.empty() ? "operand " + std::to_string(i) : names[i]);
+}
+
 py::dict boolean(const held_meshes& meshes, const std::string& operation,
                  const std::string& formula, const std::vector<std::string>& names,
                  const std::string& inside, const std::string& precision, bool simplify,
@@ -84,6 +96,7 @@ py::dict boolean(const held_meshes& meshes, const std::string& operation,
         expression_of(operation, formula, names, meshes.size());
     tf::boolean_options options = options_of(inside, precision, simplify, max_displacement);
     options.volumes = volumes;
+    require_faces(meshes, names);
     const std::vector<tf::mesh_operand> operands = operands_of(meshes);
     return as_dict(run([&](const tf::progress_callback& report) {
         options.progress = report;
@@ -97,6 +110,7 @@ py::dict clip(const held_meshes& meshes, std::uint32_t sheet, const std::string&
     const tf::boolean_expression expression =
         expression_of(operation, formula, names, meshes.size());
     tf::boolean_options options = options_of(inside, precision, false, max_displacement);
+    require_faces(meshes, names);
     const std::vector<tf::mesh_view> operands = views_of(meshes);
     return as_dict(run([&](const tf::progress_callback& report) {
         options.progress = report;
@@ -114,6 +128,7 @@ py::dict split(const held_meshes& meshes, const std::string& precision, double m
 }
 
 tf::certificate check_solid(const held_mesh& mesh) {
+    require_faces(mesh, "mesh");
     return run(
         [&](const tf::progress_callback& report) { return tf::check_solid(mesh.view(), report); });
 }

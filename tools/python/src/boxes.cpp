@@ -33,6 +33,12 @@ class boxes {
 
     [[nodiscard]] std::size_t size() const { return boxes_.size(); }
 
+    /// [n][D] the lows and the highs.
+    [[nodiscard]] py::tuple bounds() const {
+        return py::make_tuple(column(boxes_, [](const box& one) { return one.min; }),
+                              column(boxes_, [](const box& one) { return one.max; }));
+    }
+
     /// [n][2] the pairs of boxes that overlap, ascending.
     py::array pairs() const {
         return as_pairs(run([&](const tf::progress_callback&) {
@@ -75,12 +81,13 @@ class boxes {
     /// fewer.
     py::tuple nearest(const array_of<double>& queries, std::size_t k, double radius) const {
         const auto all = rows_of<point>(queries);
-        std::vector<double> distances(all.size() * k, std::numeric_limits<double>::infinity());
-        std::vector<id> ids(all.size() * k, static_cast<id>(size()));
+        std::vector<double> distances(entries(all.size(), k),
+                                      std::numeric_limits<double>::infinity());
+        std::vector<id> ids(distances.size(), static_cast<id>(size()));
         run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
             const auto some = all.subspan(begin, end - begin);
             const auto found = tf::k_nearest_batch(
-                tree_, some, k,
+                tree_, some, std::min(k, size()),
                 [&](std::size_t q, std::uint32_t i) { return squared(some[q], boxes_[i]); },
                 {.radius = radius});
             for (std::size_t q = 0; q < found.size(); ++q)
@@ -129,6 +136,7 @@ void add_boxes_of(py::module_& module, const char* name) {
     py::class_<boxes<D>>(module, name)
         .def(py::init<const array_of<double>&, const array_of<double>&>())
         .def("__len__", &boxes<D>::size)
+        .def("bounds", &boxes<D>::bounds)
         .def("pairs", &boxes<D>::pairs)
         .def("pairs_with", &boxes<D>::pairs_with)
         .def("query", &boxes<D>::query)

@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "state.hpp"
 #include "words.hpp"
 #include <treeform/mesh/certificate.hpp>
 
@@ -34,6 +35,19 @@ py::array_t<double> open_edges(const certificate& c) {
 }
 
 }  // namespace
+}  // namespace binding
+
+namespace treeform {
+/// Found by the type of `c`.
+template <class State>
+static void all_fields(State& state, certificate& c) {
+    state(c.status, c.meeting_count, c.meeting, c.meeting_at, c.open_count, c.open,
+          c.boundary_edges, c.misoriented_edges, c.max_displacement, c.precision, c.vanished_faces,
+          c.size_before, c.size_after, c.size_is_volume);
+}
+}  // namespace treeform
+
+namespace binding {
 
 void add_certificates(py::module_& module) {
     py::class_<certificate>(module, "Certificate",
@@ -75,7 +89,8 @@ True where everything that the operation promises was checked, exactly, and hold
         .def_readonly("size_before", &certificate::size_before,
                       "Of 'excessive_loss': volume or area before.")
         .def_readonly("size_after", &certificate::size_after, "The same after.")
-        .def_readonly("size_is_volume", &certificate::size_is_volume, "Whether these are volumes.");
+        .def_readonly("size_is_volume", &certificate::size_is_volume, "Whether these are volumes.")
+        .def(pickled<certificate>());
 }
 
 }  // namespace binding

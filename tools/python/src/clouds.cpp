@@ -40,10 +40,12 @@ class cloud {
     /// fewer. Nearer than `bound` if that is finite, as SciPy has it.
     py::tuple query(const array_of<double>& queries, std::size_t k, double bound) const {
         const auto all = rows_of<point>(queries);
-        std::vector<double> distances(all.size() * k, std::numeric_limits<double>::infinity());
-        std::vector<id> ids(all.size() * k, static_cast<id>(size()));
+        std::vector<double> distances(entries(all.size(), k),
+                                      std::numeric_limits<double>::infinity());
+        std::vector<id> ids(distances.size(), static_cast<id>(size()));
         run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
-            const auto found = search_.k_nearest(all.subspan(begin, end - begin), k, bound);
+            const auto found =
+                search_.k_nearest(all.subspan(begin, end - begin), std::min(k, size()), bound);
             for (std::size_t q = 0; q < found.size(); ++q)
                 for (std::size_t i = 0; i < found[q].size(); ++i) {
                     if (!(found[q][i].distance < bound)) break;

@@ -2,6 +2,7 @@
 #include "file_data.hpp"
 #include "held_mesh.hpp"
 #include "job.hpp"
+#include "state.hpp"
 #include "words.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -17,7 +18,59 @@
 #include <utility>
 #include <vector>
 
+namespace treeform {
+
+// For `state_writer` and `state_reader`, found by the type of the value.
+
+template <class State>
+static void all_fields(State& state, io_warning& w) {
+    state(w.code, w.text);
+}
+template <class State>
+static void all_fields(State& state, column& c) {
+    state(c.name, c.type, c.list_length, c.role, c.values, c.list_begin);
+}
+template <class State>
+static void all_fields(State& state, element& e) {
+    state(e.name, e.rows, e.columns);
+}
+template <class State>
+static void all_fields(State& state, part& p) {
+    state(p.object, p.group, p.material, p.first_face);
+}
+template <class State>
+static void all_fields(State& state, corner_values& c) {
+    state(c.texture, c.has_w, c.normals, c.texture_of_corner, c.normal_of_corner);
+}
+template <class State>
+static void all_fields(State& state, attributes& a) {
+    state(a.elements, a.corners, a.parts, a.material_files, a.texture_files, a.comments, a.obj_info,
+          a.header);
+}
+template <class State>
+static void all_fields(State& state, las_record& r) {
+    state(r.user_id, r.record_id, r.description, r.reserved, r.data);
+}
+template <class State>
+static void all_fields(State& state, las_header& h) {
+    state(h.version_minor, h.point_format, h.scale, h.offset, h.block, h.records, h.behind_records,
+          h.extended_records);
+}
+template <class State>
+static void all_fields(State& state, mesh_file& f) {
+    state(f.stored_face, f.stored_faces, f.indexed, f.stored_as, f.format, f.warnings, f.attributes,
+          f.las);
+}
+
+}  // namespace treeform
+
 namespace binding {
+
+template <class State>
+static void all_fields(State& state, file_data& d) {
+    state(d.file);
+}
+
 namespace {
 
 py::tuple read(const std::filesystem::path& path, const std::string& format, bool join) {
@@ -63,6 +116,9 @@ py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const f
                const std::optional<std::string>& precision, bool round) {
     tf::write_options options{.format = format, .ascii = ascii, .round = round};
     if (precision) options.precision = precision_of(*precision);
+    options.progress = [report = report_of_job()](double done) {
+        return done < 1.0 ? !report || report(done) : commit_job();
+    };
     const tf::write_result written = run([&](const tf::progress_callback&) {
         return write_to(path, mesh, data, certified, options);
     });
@@ -156,6 +212,7 @@ void add_files(py::module_& module) {
     py::class_<file_data>(module, "FileData", "All that a file has besides points and faces.")
         .def(py::init<>())
         .def(py::init<const file_data&>())
+        .def(pickled<file_data>())
         .def_property_readonly("format", [](const file_data& d) { return d.file.format; })
         .def_property_readonly(
             "precision",

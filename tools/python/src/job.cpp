@@ -3,6 +3,7 @@
 #include "held_mesh.hpp"
 
 #include <pthread.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -26,6 +27,42 @@ constexpr milliseconds between_looks{15};
 constexpr milliseconds to_notice{50};  ///< after that, nobody waits for a job that is to stop
 constexpr std::size_t little = 4096;
 
+/// Threads that are out of the interpreter and want to come back, or soon will be.
+std::atomic<int> outside{0};
+/// The thread that ends the process, from then on.
+std::atomic<std::thread::id> ender{};
+
+bool process_ends() {
+    const std::thread::id one = ender;
+    return one != std::thread::id() && one != std::this_thread::get_id();
+}
+
+/// At the end of the process, the interpreter ends a thread that wants its lock by unwinding it, which
+/// C++ does not survive. So such a thread does not come back.
+void come_back(PyThreadState* state) {
+    if (process_ends()) {
+        --outside;
+        while (true) ::pause();
+    }
+    PyEval_RestoreThread(state);
+    --outside;
+}
+
+/// As long as it lives, this thread does not have the interpreter's lock.
+class without_interpreter {
+  public:
+    without_interpreter() {
+        ++outside;
+        state_ = PyEval_SaveThread();
+    }
+    without_interpreter(const without_interpreter&) = delete;
+    without_interpreter& operator=(const without_interpreter&) = delete;
+    ~without_interpreter() { come_back(state_); }
+
+  private:
+    PyThreadState* state_;
+};
+
 /// A call, and what becomes of it. Python's objects in it are touched with the interpreter's lock.
 struct job {
     py::object function;
@@ -37,16 +74,34 @@ struct job {
     std::atomic<bool> stop{false};
 
     std::mutex mutex;
+    bool committed = false;  ///< it can no longer be called back
     std::condition_variable ended_now;
     bool ended = false;
-    bool alone = false;  ///< nobody waits for it
 
-    /// Where nobody has taken the result.
+    /// Where nobody has taken the result: with the interpreter's lock, or not at all.
     ~job() {
         if (!function && !result && !failure) return;
-        const py::gil_scoped_acquire lock;
-        function = arguments = result = py::object();
-        failure = nullptr;
+        ++outside;
+        if (process_ends()) {
+            for (py::object* one : {&function, &arguments, &result}) (void)one->release();
+            (void)new std::exception_ptr(std::move(failure));
+        } else {
+            const py::gil_scoped_acquire lock;
+            function = arguments = result = py::object();
+            failure = nullptr;
+        }
+        --outside;
+    }
+
+    /// Asks it to stop; false where it is too late for that.
+    bool call_back() {
+        const std::lock_guard lock(mutex);
+        stop = !committed;
+        return stop;
+    }
+    bool commit() {
+        const std::lock_guard lock(mutex);
+        return committed = !stop;
     }
 
     [[nodiscard]] bool has_ended_within(milliseconds time) {
@@ -56,7 +111,6 @@ struct job {
 };
 
 thread_local job* current = nullptr;
-std::atomic<int> jobs_alone{0};
 
 class helper;
 
@@ -69,16 +123,28 @@ class helpers {
         idle_.push_back(&one);
     }
 
+    void begins(const std::shared_ptr<job>& one) {
+        const std::lock_guard lock(mutex_);
+        std::erase_if(jobs_, [](const auto& old) { return old.expired(); });
+        jobs_.push_back(one);
+    }
+    void stop_all() {
+        const std::lock_guard lock(mutex_);
+        for (const auto& one : jobs_)
+            if (const std::shared_ptr<job> still = one.lock()) still->call_back();
+    }
+
   private:
     std::mutex mutex_;
     std::vector<helper*> idle_;
+    std::vector<std::weak_ptr<job>> jobs_;
 };
 
 /// Those of this process: a fork has none of the threads of its parent.
 std::atomic<helpers*> all_helpers = [] {
     pthread_atfork(nullptr, nullptr, [] {
         all_helpers = new helpers;
-        jobs_alone = 0;
+        outside = 0;
     });
     return new helpers;
 }();
@@ -91,6 +157,8 @@ class helper {
     }
 
     void start(const std::shared_ptr<job>& next) {
+        ++outside;
+        all_helpers.load()->begins(next);
         {
             const std::lock_guard lock(mutex_);
             next_ = next;
@@ -109,14 +177,13 @@ class helper {
                 mine = std::move(next_);
             }
             current = mine.get();
-            PyEval_RestoreThread(here);
+            come_back(here);
             call(*mine);
             PyEval_SaveThread();
             current = nullptr;
             all_helpers.load()->give_back(*this);
             const std::lock_guard lock(mine->mutex);
             mine->ended = true;
-            if (mine->alone) --jobs_alone;
             mine->ended_now.notify_one();
         }
     }
@@ -159,11 +226,14 @@ class watch {
         : job_(std::move(mine)), progress_(progress) {}
 
     py::object result() {
+        look(0.0);
+        if (why_) std::rethrow_exception(why_);
+        all_helpers.load()->take().start(job_);
         while (!has_ended_within(between_looks)) {
             look(job_->share);
             if (why_) leave();
         }
-        if (!job_->failure) look(1.0);
+        if (!job_->failure && job_->commit()) look(1.0);
         if (why_) std::rethrow_exception(why_);
         if (job_->failure) std::rethrow_exception(std::exchange(job_->failure, nullptr));
         return std::move(job_->result);
@@ -171,7 +241,7 @@ class watch {
 
   private:
     bool has_ended_within(milliseconds time) {
-        const py::gil_scoped_release others_run;
+        const without_interpreter others_run;
         return job_->has_ended_within(time);
     }
 
@@ -179,28 +249,22 @@ class watch {
     void look(double share) {
         try {
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-            if (progress_.is_none() || share <= reported_) return;
-            reported_ = share;
-            if (progress_(share).is(py::bool_(false))) throw cancelled();
+            if (progress_.is_none()) return;
+            if (progress_(share).is(py::bool_(false)) && job_->call_back()) throw cancelled();
         } catch (...) {
             why_ = std::current_exception();
-            job_->stop = true;
+            job_->call_back();
         }
     }
 
     /// Waits a little for a job that is to stop; then it ends alone.
     [[noreturn]] void leave() {
-        if (!has_ended_within(to_notice)) {
-            const std::lock_guard lock(job_->mutex);
-            job_->alone = !job_->ended;
-            if (job_->alone) ++jobs_alone;
-        }
+        (void)has_ended_within(to_notice);
         std::rethrow_exception(why_);
     }
 
     std::shared_ptr<job> job_;
     const py::object& progress_;
-    double reported_ = -1.0;
     std::exception_ptr why_;
 };
 
@@ -217,12 +281,12 @@ std::size_t elements_of(py::handle argument) {
 
 py::object call(const py::object& function, const py::args& arguments, const py::object& progress,
                 bool long_work) {
+    if (ender.load() == std::this_thread::get_id()) return function(*arguments);
     if (progress.is_none() && !long_work && elements_of(arguments) < little)
         return function(*arguments);
     const auto mine = std::make_shared<job>();
     mine->function = function;
     mine->arguments = arguments;
-    all_helpers.load()->take().start(mine);
     return watch(mine, progress).result();
 }
 
@@ -249,10 +313,12 @@ treeform::progress_callback report_of_job() {
     };
 }
 
+bool commit_job() { return current == nullptr || current->commit(); }
+
 const std::atomic<bool>* stop_of_job() { return current == nullptr ? nullptr : &current->stop; }
 
 void without_lock(const std::function<void()>& body) {
-    const py::gil_scoped_release others_run;
+    const without_interpreter others_run;
     body();
 }
 
@@ -276,6 +342,10 @@ void run_pieces(std::size_t count, const std::function<void(std::size_t, std::si
 
 py::object build(const py::object& type, const py::args& arguments) { return type(*arguments); }
 
-bool is_busy() { return jobs_alone > 0; }
+bool end() {
+    ender = std::this_thread::get_id();
+    all_helpers.load()->stop_all();
+    return outside == 0;
+}
 
 }  // namespace binding

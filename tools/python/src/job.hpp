@@ -23,12 +23,17 @@ namespace py = pybind11;
 ///
 /// A job runs on a helper thread, unless its arguments are few elements and it is not `long_work`:
 /// handing it over would take longer. It is asked to stop when `progress` returns False or raises, or
-/// when a signal's handler raises, as that of Ctrl-C does. The caller then gets what was raised: at
+/// when a signal's handler raises, as that of Ctrl-C does; a result that is there is returned all the
+/// same where `progress` returns False. The caller then gets what was raised: at
 /// once, even where the job takes some time to notice.
 void make_job(const py::object& scope, const char* name, bool long_work = false);
 
 /// The job that runs on this thread: `progress_callback` for it; empty where there is none.
 treeform::progress_callback report_of_job();
+
+/// For jobs, before what cannot be taken back: false where the job is to stop. After that, `progress`
+/// no longer stops it.
+bool commit_job();
 
 /// Whether the job that runs on this thread is to stop; null where there is none.
 const std::atomic<bool>* stop_of_job();
@@ -54,8 +59,9 @@ void run_pieces(std::size_t count, const std::function<void(std::size_t, std::si
 /// For jobs: makes objects that take long to make, as `build(type, arguments...)`.
 py::object build(const py::object& type, const py::args& arguments);
 
-/// Whether a job goes on that nobody waits for.
-bool is_busy();
+/// Ends all jobs, for this thread to end the process. Again until it is true: then no other thread will
+/// want the interpreter's lock.
+bool end();
 
 /// `progress` has returned False.
 class cancelled {};

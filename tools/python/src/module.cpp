@@ -65,7 +65,7 @@ void add_meshes(py::module_& module) {
         .def("exit", &threads::exit);
     module.def("thread_count", &tf::thread_count);
     module.def("version", &tf::version_string);
-    module.def("is_busy", &is_busy);
+    module.def("end", &end);
 }
 
 /// All functions of the module but those that only look something up, and what trees are asked.
@@ -85,6 +85,7 @@ void make_jobs(py::module_& module) {
                              "check_solid",
                              "bounds",
                              "signed_volume",
+                             "surface_area",
                              "find_defects",
                              "count_topology",
                              "face_components",

@@ -32,6 +32,7 @@ py::object bounds(const held_mesh& mesh) {
 }
 
 double signed_volume(const held_mesh& mesh) { return of_view(mesh, &tf::signed_volume); }
+double surface_area(const held_mesh& mesh) { return of_view(mesh, &tf::surface_area); }
 
 py::dict find_defects(const held_mesh& mesh) {
     tf::mesh_defects found = of_view(mesh, &tf::find_defects);
@@ -117,6 +118,7 @@ py::dict find_solid_defects(const held_mesh& mesh) {
 void add_properties(py::module_& module) {
     module.def("bounds", &bounds);
     module.def("signed_volume", &signed_volume);
+    module.def("surface_area", &surface_area);
     module.def("find_defects", &find_defects);
     module.def("count_topology", &count_topology);
     module.def("face_components", &face_components);

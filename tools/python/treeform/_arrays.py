@@ -99,26 +99,42 @@ def faces(values: ArrayLike, name: str = "faces") -> Ids:
 
 
 def _flat_faces(array: Ids, name: str) -> Ids:
-    if array.size % 4 == 0:
-        table = array.reshape(-1, 4)
-        other = np.flatnonzero(table[:, 0] != 3)
-        if other.size == 0:
-            return np.ascontiguousarray(table[:, 1:])
-        if (table[: other[0], 0] == 3).all():
-            raise ValueError(
-                f"{name}: face {other[0]} has {table[other[0], 0]} corners; triangulate first")
+    other = np.flatnonzero(array[::4] != 3)
+    if array.size % 4 == 0 and other.size == 0:
+        return np.ascontiguousarray(array.reshape(-1, 4)[:, 1:])
+    if other.size != 0 and 4 * other[0] + array[4 * other[0]] <= array.size:
+        raise ValueError(f"{name}: face {other[0]} has {array[4 * other[0]]} corners; "
+                         "triangulate first")
     raise ValueError(f"{name}: {array.size} numbers in a row are no [3, a, b, c, 3, ...]")
 
 
-def is_points(values: Any) -> bool:
-    """Whether `values` is an array of points rather than a mesh."""
-    if isinstance(values, np.ndarray):
-        return True
-    return isinstance(values, (list, tuple)) and not is_pair(values)
+def _dimensions(values: Any) -> int:
+    try:
+        return 2 if np.size(values) == 0 else int(np.ndim(values))
+    except ValueError:  # lists of different lengths
+        return 0
 
 
 def is_pair(values: Any) -> bool:
-    """Whether `values` is (vertices, faces): two tables."""
-    return (isinstance(values, (list, tuple)) and len(values) == 2
-            and all(np.ndim(part) == 2 or np.size(part) == 0 or isinstance(part, np.ndarray)
-                    for part in values))
+    """Whether `values` is (vertices, faces): two tables, or a table and flat faces."""
+    if not isinstance(values, (list, tuple)) or len(values) != 2 or _dimensions(values[0]) != 2:
+        return False
+    return _dimensions(values[1]) in ((1, 2) if isinstance(values[1], np.ndarray) else (2,))
+
+
+def number(value: Any, name: str, least: float | None = None) -> Any:
+    """`value`, which has to be a number; with `least`, whole and not less."""
+    if least is not None and isinstance(value, (int, np.integer)):
+        if value < least:
+            raise ValueError(f"{name}: {value} is less than {least}")
+    elif least is not None or not isinstance(value, (int, float, np.integer, np.floating)):
+        kind = "a number" if least is None else "a whole number"
+        raise ValueError(f"{name}: {kind} is needed, not {value!r}")
+    return value
+
+
+def word(value: Any, name: str) -> str:
+    """`value`, which has to be a word."""
+    if not isinstance(value, str):
+        raise ValueError(f"{name}: a word is needed, not {type(value).__name__}")
+    return value

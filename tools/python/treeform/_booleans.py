@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Iterable
 
 import numpy as np
 
-from . import _core
+from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._core import Certificate
 from ._errors import require
@@ -42,18 +42,20 @@ def _result(made: dict[str, Any], check: bool, *also: str) -> BooleanResult:
 
 
 def _operands(meshes: tuple[Any, ...]) -> list[_core.HeldMesh]:
-    """Those of `union(a, b, c)`, or of `union([a, b, c])`."""
-    if len(meshes) == 1 and isinstance(meshes[0], (list, tuple)):
-        first = meshes[0]
-        if not (len(first) == 2 and isinstance(first[0], (np.ndarray, list))):
-            meshes = tuple(first)
+    """Those of `union(a, b, c)`, or of `union([a, b, c])`, of whatever can be gone through."""
+    if len(meshes) == 1 and isinstance(meshes[0], Iterable) and not any(
+            hasattr(meshes[0], name) for name in ("vertices", "points", "__array__")):
+        listed = tuple(meshes[0])
+        if not _arrays.is_pair(listed):
+            meshes = listed
     return [held(mesh) for mesh in meshes]
 
 
 def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: str, simplify: bool,
              volumes: bool, max_displacement: float, check: bool,
              progress: Progress) -> BooleanResult:
-    return _result(_core.boolean(_operands(meshes), operation, "", [], inside, precision, simplify,
+    return _result(_core.boolean(_operands(meshes), operation, "", [],
+                                 _arrays.word(inside, "inside"), precision, simplify,
                                  volumes, max_displacement, progress=watched(progress)), check)
 
 
@@ -135,7 +137,8 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     corner or an edge. Operands may overlap themselves, touch, be equal, be inside out or empty.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result cannot be
-    certified, ValueError naming the face that is out of range or not finite.
+    certified, ValueError naming the face that is out of range or not finite, or the operand that has
+    points but no faces.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -145,8 +148,9 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     """
     names = list(meshes)
     held_meshes = [held(mesh) for mesh in meshes.values()]
-    return _result(_core.boolean(held_meshes, "", expression, names, inside, precision, simplify,
-                                 volumes, max_displacement, progress=watched(progress)), check)
+    return _result(_core.boolean(held_meshes, "", expression, names,
+                                 _arrays.word(inside, "inside"), precision, simplify, volumes,
+                                 max_displacement, progress=watched(progress)), check)
 
 
 def clip(sheet: MeshLike, *solids: MeshLike, keep: str = "outside", inside: str = "nonzero",
@@ -188,7 +192,7 @@ def split(*meshes: MeshLike, precision: str = "float64", max_displacement: float
 
 def check_solid(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
     """Whether a mesh bounds a solid, as operands of `boolean` have to: True, or says where the
-    surface ends.
+    surface ends. Raises ValueError for points without a face.
 
     >>> import treeform
     >>> bool(treeform.check_solid(treeform.read("data/cube.stl")))

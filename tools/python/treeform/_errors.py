@@ -32,6 +32,9 @@ class CertificateError(Error, ValueError):
         super().__init__(certificate.message)
         self.certificate = certificate
 
+    def __reduce__(self) -> tuple[type[CertificateError], tuple[Certificate]]:
+        return type(self), (self.certificate,)
+
 
 class NotSolidError(CertificateError):
     """A mesh does not bound a solid: its surface ends somewhere."""

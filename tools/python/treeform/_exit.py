@@ -7,7 +7,8 @@ from . import _core
 
 
 @atexit.register
-def _wait_for_jobs() -> None:
-    """Jobs that were told to stop may still run, and use memory that the end of the process frees."""
-    while _core.is_busy():
+def _end() -> None:
+    """Jobs may still run: that were told to stop, or of daemon threads. They use memory that the end
+    of the process frees, and then want the interpreter's lock."""
+    while not _core.end():
         time.sleep(0.01)

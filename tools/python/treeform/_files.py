@@ -14,6 +14,14 @@ from ._results import Result
 Path = Union[str, "os.PathLike[str]"]
 
 
+def path_of(path: Path) -> str:
+    """`path` as the library takes it."""
+    text = os.fspath(path)
+    if "\0" in text:
+        raise ValueError(f"path: {text!r} has a zero in it")
+    return text
+
+
 def read(path: Path, format: str = "", *, join: bool = True, progress: Progress = None) -> Mesh:
     """The mesh or cloud in a file: STL, OBJ, PLY, OFF, 3MF, PCD, LAS, LAZ, XYZ, CSV, PTS; GLB, glTF,
     DAE and others where treeform was built with assimp.
@@ -32,7 +40,7 @@ def read(path: Path, format: str = "", *, join: bool = True, progress: Progress 
     >>> treeform.read("data/cube.stl")
     Mesh(8 vertices, 12 faces)
     """
-    points, faces, data = _core.read(os.fspath(path), format, join, progress=watched(progress))
+    points, faces, data = _core.read(path_of(path), format, join, progress=watched(progress))
     return Mesh._of(points, faces, None, Attributes(data))
 
 
@@ -73,5 +81,5 @@ def write(path: Path, mesh: MeshLike, format: str = "", *, ascii: bool = False,
     made = as_mesh(mesh)
     certified = made._certificate is not None and bool(made._certificate)
     data = None if made._attributes is None else made._attributes._data
-    return Written(**_core.write(os.fspath(path), made._held, data, certified, format, ascii,
-                                 precision, round, progress=watched(progress)))
+    return Written(**_core.write(path_of(path), made._held, data, certified, format, ascii, precision,
+                                 round, progress=watched(progress)))

@@ -58,6 +58,12 @@ class Attributes:
     def __init__(self, data: _core.FileData | None = None) -> None:
         self._data = _core.FileData() if data is None else data
 
+    def __reduce__(self) -> Any:
+        return Attributes, (self._data,)
+
+    def __copy__(self) -> Attributes:
+        return Attributes(_core.FileData(self._data))
+
     @property
     def format(self) -> str:
         """Of the file that was read: 'stl-binary', 'ply-ascii', 'obj', ...; else empty."""
@@ -156,6 +162,8 @@ class Mesh:
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike = (),
                  attributes: Attributes | None = None) -> None:
+        if attributes is not None and not isinstance(attributes, Attributes):
+            raise ValueError(f"attributes: Attributes are needed, not {type(attributes).__name__}")
         self._formula: _Formula | None = None
         self._set(_arrays.points(vertices), _arrays.faces(faces), attributes, None)
 
@@ -209,12 +217,16 @@ class Mesh:
     @property
     def is_solid(self) -> bool:
         """Whether the mesh bounds a solid, as set operations need it: cut along itself, it is
-        closed. It may overlap itself. Decided exactly, once."""
-        return bool(self.solid_certificate)
+        closed. It may overlap itself. Decided exactly, once. A cloud is none."""
+        mesh = self._ready()
+        return not mesh._is_cloud() and bool(mesh.solid_certificate)
+
+    def _is_cloud(self) -> bool:
+        return len(self._faces) == 0 and len(self._vertices) != 0
 
     @property
     def solid_certificate(self) -> Certificate:
-        """Why it bounds a solid or not."""
+        """Why it bounds a solid or not. Raises ValueError for a cloud."""
         mesh = self._ready()
         if mesh._solid is None:
             mesh._solid = _core.check_solid(mesh._held)
@@ -229,9 +241,7 @@ class Mesh:
     @property
     def area(self) -> float:
         """The area of all faces, in square units."""
-        mesh = self._ready()
-        a, b, c = (mesh._vertices[mesh._faces[:, k]] for k in range(3))
-        return float(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+        return _core.surface_area(self._ready()._held)
 
     @property
     def bounds(self) -> Floats | None:
@@ -279,7 +289,10 @@ class Mesh:
 
     def __reduce__(self) -> Any:
         mesh = self._ready()
-        return Mesh, (mesh._vertices, mesh._faces)
+        return Mesh._of, (mesh._vertices, mesh._faces, mesh._certificate, mesh._attributes)
+
+    def __copy__(self) -> Mesh:
+        return self
 
     def __repr__(self) -> str:
         if self._formula is not None:
@@ -325,10 +338,30 @@ def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
                 return np.asarray(mesh.vertices), np.asarray(getattr(mesh, name))
     if hasattr(mesh, "points"):
         if hasattr(mesh, "cells_dict"):
-            return np.asarray(mesh.points), mesh.cells_dict.get("triangle", np.empty((0, 3), int))
+            return np.asarray(mesh.points), _faces_of_cells(mesh.cells_dict)
         if hasattr(mesh, "faces"):
             return np.asarray(mesh.points), np.asarray(mesh.faces)
     raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces")
+
+
+#: By the names of meshio and the numbers of VTK.
+_NO_FACES = ("vertex", "line", 1, 3)
+_TRIANGLES = ("triangle", 5)
+_QUADS = ("quad", 9)
+
+
+def _faces_of_cells(cells: Any) -> NDArray[Any]:
+    """Triangles, and two of each quad, in the order of `cells`."""
+    faces = [np.empty((0, 3), np.uint32)]
+    for kind, corners in cells.items():
+        if kind in _TRIANGLES:
+            faces.append(np.asarray(corners))
+        elif kind in _QUADS:
+            faces.append(np.asarray(corners)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
+        elif kind not in _NO_FACES and len(corners):
+            raise ValueError(f"mesh: {len(corners)} cells of the kind {kind!r}; only triangles and "
+                             "quads are taken")
+    return np.concatenate([_arrays.faces(part) for part in faces])
 
 
 def as_mesh(mesh: Any) -> Mesh:
@@ -348,16 +381,23 @@ def held(mesh: Any) -> _core.HeldMesh:
     return _core.HeldMesh(_arrays.points(vertices), _arrays.faces(faces), False)
 
 
+def cloud_of(body: Any) -> Floats | None:
+    """The points of an array of points, or of what has `points` or `vertices` and no faces; None for
+    a mesh."""
+    if isinstance(body, np.ndarray) or isinstance(body, (list, tuple)) and not _arrays.is_pair(body):
+        return _arrays.points(body, "points")
+    if any(hasattr(body, name) for name in ("mesh", "faces", "triangles", "cells_dict")):
+        return None
+    for name in ("points", "vertices"):
+        if hasattr(body, name):
+            return _arrays.points(np.asarray(getattr(body, name)), "points")
+    return None
+
+
 def held_body(body: Any) -> _core.HeldMesh:
-    """The same for a mesh or a cloud: an array of points, or anything with `points` and no faces."""
-    if isinstance(body, np.ndarray):
-        return _core.HeldMesh(_arrays.points(body, "points"))
-    if isinstance(body, (list, tuple)) and not _arrays.is_pair(body):
-        return _core.HeldMesh(_arrays.points(body, "points"))
-    if hasattr(body, "points") and not hasattr(body, "faces") and not hasattr(body, "cells_dict"):
-        return _core.HeldMesh(_arrays.points(np.asarray(body.points), "points"))
-    one = held(body)
-    return one
+    """The same for a mesh or a cloud."""
+    points = cloud_of(body)
+    return held(body) if points is None else _core.HeldMesh(points)
 
 
 class _Formula:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
-from ._errors import NotSolidError
+from ._errors import NotSolidError, require
 from ._mesh import MeshLike, as_mesh, held, held_body
 from ._progress import Progress, watched
 from ._results import Result, tuple_repr
@@ -56,17 +56,28 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
 _OUTSIDE, _INSIDE, _BOUNDARY = 0, 1, 2
 
 
+def _located(mesh: MeshLike, points: ArrayLike,
+             progress: Progress) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
+    """Raises NotSolidError where the mesh is open."""
+    try:
+        return _core.locate(held(mesh), _arrays.points(points, "points"), progress=watched(progress))
+    except ValueError:
+        if len(as_mesh(mesh).faces):
+            require(as_mesh(mesh).solid_certificate)
+        raise
+
+
 def contains(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.bool_]:
     """(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its surface. Exact,
     for every point.
 
-    Raises ValueError naming an open edge, or what is not finite.
+    Raises NotSolidError where the mesh is open, ValueError naming what is not finite.
 
     >>> import treeform
     >>> treeform.contains(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [1, 1, 1], [2, 0, 0]])
     array([ True,  True, False])
     """
-    where, _ = _core.locate(held(mesh), _arrays.points(points, "points"), progress=watched(progress))
+    where, _ = _located(mesh, points, progress)
     return np.asarray(where != _OUTSIDE)
 
 
@@ -78,7 +89,7 @@ def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> N
     >>> treeform.locate(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [1, 1, 1], [2, 0, 0]])
     array([ 1,  0, -1], dtype=int8)
     """
-    where, _ = _core.locate(held(mesh), _arrays.points(points, "points"), progress=watched(progress))
+    where, _ = _located(mesh, points, progress)
     return np.array([-1, 1, 0], np.int8)[where]
 
 
@@ -91,8 +102,8 @@ def winding_number(mesh: MeshLike, points: ArrayLike, *,
     >>> treeform.winding_number(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [2, 0, 0]])
     array([1, 0], dtype=int32)
     """
-    _, winding = _core.locate(held(mesh), _arrays.points(points, "points"), progress=watched(progress))
-    return winding
+    _, winding = _located(mesh, points, progress)
+    return np.asarray(winding)
 
 
 def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> Floats:
@@ -139,6 +150,10 @@ def _rays(origins: ArrayLike, directions: ArrayLike) -> tuple[Floats, Floats]:
     return start, along
 
 
+def _range(t_min: float, t_max: float) -> tuple[float, float]:
+    return _arrays.number(t_min, "t_min"), _arrays.number(t_max, "t_max")
+
+
 def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
             t_max: float = np.inf, progress: Progress = None) -> RayHits:
     """The face that each ray hits first. `origins` and `directions` (of any length) are (n, 3).
@@ -153,7 +168,7 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
     >>> hits.t.tolist(), hits.at.tolist()
     ([2.0], [6])
     """
-    return RayHits(*_core.raycast(held(mesh), *_rays(origins, directions), t_min, t_max,
+    return RayHits(*_core.raycast(held(mesh), *_rays(origins, directions), *_range(t_min, t_max),
                                   progress=watched(progress)))
 
 
@@ -183,7 +198,8 @@ def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     [[0.5, 0.25, 1.0], [0.5, 0.25, 0.0]]
     """
     start, along = _rays(origins, directions)
-    t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max, progress=watched(progress))
+    t, ray, face = _core.raycast_all(held(mesh), start, along, *_range(t_min, t_max),
+                                    progress=watched(progress))
     return AllRayHits(start[ray] + t[:, None] * along[ray], ray, face)
 
 
@@ -196,7 +212,7 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     >>> treeform.raycast_any(cube, [[0.5, 0.5, 3], [5, 5, 5]], [[0, 0, -1], [0, 0, -1]])
     array([ True, False])
     """
-    return _core.raycast_any(held(mesh), *_rays(origins, directions), t_min, t_max,
+    return _core.raycast_any(held(mesh), *_rays(origins, directions), *_range(t_min, t_max),
                              progress=watched(progress)).view(np.bool_)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from types import TracebackType
 
-from . import _core
+from . import _arrays, _core
 
 
 class threads:
@@ -18,7 +18,7 @@ class threads:
     """
 
     def __init__(self, most: int) -> None:
-        self._scope = _core.Threads(most)
+        self._scope = _core.Threads(_arrays.number(most, "most", 0))
 
     def __enter__(self) -> threads:
         self._scope.enter()

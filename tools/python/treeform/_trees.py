@@ -14,6 +14,8 @@ from ._results import tuple_repr
 
 Numbers = NDArray[np.int64]
 
+_MOST = 2 ** 62  # more neighbors than there is memory for
+
 
 def _table(values: ArrayLike, name: str) -> Floats:
     """`values` as (n, 2) or (n, 3)."""
@@ -50,25 +52,34 @@ class PointTree:
     (0.09999999999999998, 1)
     """
 
-    __slots__ = ("data", "_cloud")
+    __slots__ = ("_data", "_cloud")
 
     def __init__(self, data: ArrayLike) -> None:
-        self.data = _table(data, "data")
-        make = _core.Cloud3 if self.data.shape[1] == 3 else _core.Cloud2
-        self._cloud: _core._Cloud = _core.build(make, self.data)
+        self._data = _table(data, "data").copy()
+        self._data.flags.writeable = False
+        make = _core.Cloud3 if self.m == 3 else _core.Cloud2
+        self._cloud: _core._Cloud = _core.build(make, self._data)
+
+    @property
+    def data(self) -> Floats:
+        """(n, m) a copy of the points, not to be written to."""
+        return self._data
+
+    def __reduce__(self) -> tuple[type[PointTree], tuple[Floats]]:
+        return type(self), (self._data,)
 
     @property
     def n(self) -> int:
         """Number of points."""
-        return len(self.data)
+        return len(self._data)
 
     @property
     def m(self) -> int:
         """2 or 3."""
-        return int(self.data.shape[1])
+        return int(self._data.shape[1])
 
     def __len__(self) -> int:
-        return len(self.data)
+        return len(self._data)
 
     def _queries(self, x: ArrayLike) -> tuple[Floats, tuple[int, ...]]:
         array = _arrays.floats(x, "x")
@@ -109,7 +120,8 @@ class PointTree:
             raise ValueError("k: less than 1")
         if not distance_upper_bound >= 0:
             raise ValueError(f"distance_upper_bound: {distance_upper_bound} is negative or NaN")
-        d, i = self._cloud.query(queries, int(count), distance_upper_bound, progress=watched(progress))
+        d, i = self._cloud.query(queries, min(int(count), _MOST), distance_upper_bound,
+                                 progress=watched(progress))
         if wanted is not None:
             d = d.reshape(-1, count)[:, wanted - 1]
             i = i.reshape(-1, count)[:, wanted - 1]
@@ -120,11 +132,11 @@ class PointTree:
             return float(d[0]), int(i[0])
         return d.reshape(shape), i.reshape(shape)
 
-    def query_ball_point(self, x: ArrayLike, r: float, p: float = 2.0, eps: float = 0.0,
+    def query_ball_point(self, x: ArrayLike, r: ArrayLike, p: float = 2.0, eps: float = 0.0,
                          workers: int = -1, return_sorted: bool | None = None,
                          return_length: bool = False, *, progress: Progress = None) -> Any:
         """The numbers of all points within `r` of each query, inclusive, ascending: a list, or an
-        array of lists for many queries; with `return_length`, how many they are.
+        array of lists for many queries, each with its own `r` if that is an array; with `return_length`, how many they are.
 
         `query_ball` has the same in arrays, and much faster.
 
@@ -136,11 +148,17 @@ class PointTree:
         if p != 2:
             raise ValueError(f"p: {p} is not 2, the only one there is")
         queries, shape = self._queries(x)
-        begin, ids, _ = self._cloud.query_ball(queries, r, True, progress=watched(progress))
+        radii = np.broadcast_to(_arrays.floats(r, "r"), shape).ravel()
+        lists: list[Any] = [[]] * len(queries)
+        for radius in np.unique(radii):
+            at = np.flatnonzero(radii == radius)
+            begin, ids, _ = self._cloud.query_ball(queries[at], float(radius), True,
+                                                   progress=watched(progress))
+            found = np.diff(begin).tolist() if return_length else _core.lists(begin, ids)
+            for i, one in zip(at.tolist(), found):
+                lists[i] = one
         if return_length:
-            length = np.diff(begin).reshape(shape)
-            return length if shape else int(length)
-        lists = _core.lists(begin, ids)
+            return np.array(lists, np.int64).reshape(shape) if shape else lists[0]
         if not shape:
             return lists[0]
         made = np.empty(len(lists), object)
@@ -171,7 +189,7 @@ class PointTree:
             raise ValueError(f"p: {p} is not 2, the only one there is")
         if output_type not in ("set", "ndarray"):
             raise ValueError(f"output_type: {output_type!r} is neither 'set' nor 'ndarray'")
-        pairs = self._cloud.query_pairs(self.data, r, progress=watched(progress))
+        pairs = self._cloud.query_pairs(self._data, r, progress=watched(progress))
         return pairs if output_type == "ndarray" else set(map(tuple, pairs.tolist()))
 
     def __repr__(self) -> str:
@@ -197,6 +215,9 @@ class BoxTree:
         self._dimensions = int(low.shape[1])
         make = _core.Boxes3 if self._dimensions == 3 else _core.Boxes2
         self._boxes: _core.Boxes2 = _core.build(make, low, high)
+
+    def __reduce__(self) -> tuple[type[BoxTree], tuple[Floats, Floats]]:
+        return type(self), self._boxes.bounds()
 
     def __len__(self) -> int:
         return len(self._boxes)
@@ -250,8 +271,8 @@ class BoxTree:
         if k < 1:
             raise ValueError("k: less than 1")
         shape = array.shape[:-1]
-        d, i = self._boxes.nearest(np.ascontiguousarray(array.reshape(-1, self._dimensions)), k,
-                                   radius, progress=watched(progress))
+        d, i = self._boxes.nearest(np.ascontiguousarray(array.reshape(-1, self._dimensions)),
+                                   min(int(k), _MOST), radius, progress=watched(progress))
         if k != 1:
             shape = shape + (k,)
         return (d.reshape(shape), i.reshape(shape)) if shape else (float(d[0]), int(i[0]))

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
-from ._files import Path
-from ._mesh import Attributes, Mesh, MeshLike, MeshResult, as_mesh
+from ._files import Path, path_of
+from ._mesh import Attributes, Mesh, MeshLike, MeshResult, as_mesh, cloud_of
 from ._progress import Progress, watched
 from ._results import Result
 
@@ -49,7 +49,7 @@ def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
          progress: Progress = None) -> WeldResult:
     """A mesh or cloud with the points merged that are within the tolerance of each other.
 
-    mesh_or_points: a mesh, or points (n, 3).
+    mesh_or_points: a mesh, points (n, 3), or anything with `points` or `vertices` and no faces.
     tolerance: a length, inclusive; decided exactly. 0 merges equal coordinates only.
     rule: 'first' drops a point when an earlier kept one is within the tolerance; 'chain' makes one
     point of all that steps of at most the tolerance link.
@@ -71,12 +71,14 @@ def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
     """
     none: Ids = np.empty(0, np.uint32)
     settings = _core.WeldSettings(
-        tolerance, rule, keep, keep_by, order, order_by, list((same or {}).items()), list(across),
+        _arrays.number(tolerance, "tolerance"), _arrays.word(rule, "rule"),
+        _arrays.word(keep, "keep"), keep_by, _arrays.word(order, "order"), order_by,
+        list((same or {}).items()), list(across),
         keep_seams, only_borders, keep_manifold, keep_degenerate,
         none if label is None else _arrays.ids(label, "label"))
-    if _arrays.is_points(mesh_or_points):
-        made = _core.weld_cloud(_arrays.points(mesh_or_points, "points"),  # type: ignore[arg-type]
-                                None, settings, progress=watched(progress))
+    points = cloud_of(mesh_or_points)
+    if points is not None:
+        made = _core.weld_cloud(points, None, settings, progress=watched(progress))
         made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
     else:
         mesh = as_mesh(mesh_or_points)
@@ -156,6 +158,7 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     """
     paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
     return WeldStreamResult(**_core.weld_stream(
-        [os.fspath(path) for path in paths], os.fspath(out), os.fspath(removed), label, tolerance,
-        relative, rule, list((same or {}).items()), keep, keep_by, order, order_by, memory,
-        os.fspath(folder), points_per_tile, progress=watched(progress)))
+        [path_of(path) for path in paths], path_of(out), path_of(removed), label,
+        _arrays.number(tolerance, "tolerance"), relative, rule, list((same or {}).items()), keep,
+        keep_by, order, order_by, _arrays.number(memory, "memory", 0), path_of(folder),
+        _arrays.number(points_per_tile, "points_per_tile", 0), progress=watched(progress)))

@@ -5,6 +5,7 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <concepts>
 #include <filesystem>
@@ -29,6 +30,9 @@ struct write_options {
     /// Allow further rounding of certified coordinates, which can undo what was certified.
     /// Coordinates without a certificate are always rounded to the precision.
     bool round = false;
+    /// Told 0 when the writing begins, and 1 before the file appears. Where it returns false, nothing
+    /// appears: what was at the path stays as it was.
+    progress_callback progress{};
 };
 
 /// What was written.
@@ -38,6 +42,7 @@ struct write_result {
     /// Largest change of a coordinate by rounding to `written_as`.
     double max_displacement = 0.0;
     std::vector<io_warning> warnings{};
+    bool cancelled = false;  ///< `progress` asked to stop: nothing was written
 };
 
 /// Writes `file` to `path`; "-" is standard output, which needs `options.format`.
