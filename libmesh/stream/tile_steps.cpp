@@ -338,11 +338,10 @@ void tile_steps::weld_one(std::size_t t) {
 }
 
 void tile_steps::check_finished() {
+    std::vector<std::size_t> missing;
     for (std::size_t t = 0; t < tiles_.size(); ++t)
-        if (!tiles_[t].finished && !load_tile(t, false))
-            throw stream_error(
-                stream_error::reason::read, folder_.path(),
-                folder_.path().string() + ": tile " + std::to_string(t) + " is not finished");
+        if (!tiles_[t].finished && !load_tile(t, false)) missing.push_back(t);
+    if (!missing.empty()) folder_.fail_unfinished(missing);
 }
 
 /// What a tile leaves, on its way to the disk.

@@ -82,7 +82,7 @@ class tile_steps {
     void weld_tiles();
     /// Welds one, unless it is finished. What two processes do at the same time is the same.
     void weld_one(std::size_t tile);
-    /// \throws stream_error naming a tile that is not finished
+    /// \throws stream_error naming the tiles that are not finished
     void check_finished();
     [[nodiscard]] tiles_welded weld_borders();
     /// Whether each of a team is told of its points, in the order of the files.

@@ -59,7 +59,8 @@ class Shared(WeldTest):
             tiles = int(run.text.split()[1])
             self.assertGreater(tiles, 4)
             run = self.run_tool(*work, "--finish", *outputs, status=3)
-            self.assertIn("tile 0 is not finished", run.err)
+            self.assertIn(f"tiles {', '.join(map(str, range(min(tiles, 100))))}", run.err)
+            self.assertIn("are not finished", run.err)
             twice = [t for t in range(tiles) for _ in range(2)]  # at the same time
             for process in [self.start(*work, "--tile", t) for t in twice]:
                 out, err = process.communicate()
@@ -85,6 +86,35 @@ class Shared(WeldTest):
             self.run_tool(*work, "--tile", t, status=0)
         self.run_tool(*work, "--finish", "-o", "out.ply", status=0)
         self.assertEqual(self.written(), expected)
+
+    def test_who_puts_together_has_the_folder_alone(self):
+        self.write("in.ply", ply(cloud(self.rng, 40000), self.rng))
+        keep = ["-t", "0.002", "--keep", "mean"]
+        expected = self.one(*keep, "-o", "out.ply", "--removed", "gone.ply")
+        work = ["in.ply", *keep, "--work", "tiles"]
+        self.run_tool(*work, "--plan", "--tile-points", 10000, status=0)
+        tiles = len([n for n in os.listdir(self.path("tiles")) if n.endswith(".points")])
+        for t in range(tiles):
+            self.run_tool(*work, "--tile", t, status=0)
+        refused = 0
+        for _ in range(6):
+            outs = [(f"out{k}.ply", f"gone{k}.ply") for k in range(3)]
+            runs = [self.start(*work, "--finish", "-o", out, "--removed", gone)
+                    for out, gone in outs]
+            tile = self.start(*work, "--tile", 0)
+            for run, (out, gone) in zip(runs, outs):
+                err = run.communicate()[1].decode()
+                if run.returncode == 0:
+                    written = self.written((out, gone))
+                    self.assertEqual(written, {out: expected["out.ply"], gone: expected["gone.ply"]})
+                else:
+                    refused += 1
+                    self.assertEqual(run.returncode, 4, err)
+                    self.assertIn("tiles: is in use by another process", err)
+            self.assertLess(sum(run.returncode != 0 for run in runs), 3)
+            tile.communicate()
+            self.assertEqual(self.listing(), ["in.ply", "tiles"])
+        self.assertGreater(refused, 0)
 
     def test_what_cannot_be_shared_is_refused_in_words(self):
         work = ["--work", "tiles"]
