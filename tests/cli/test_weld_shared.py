@@ -210,6 +210,44 @@ class Shared(WeldTest):
             self.assertEqual(self.listing(), ["in.ply", "there.ply"])
         self.assertEqual(self.read_bytes("there.ply"), b"mine")
         self.mpi(2, "in.ply", "-t", "0.1", "--check", status=1)
+        os.symlink("/dev/full", self.path("full.ply"))
+        for arguments, status, words in (
+                (["--help"], 0, "Exit status:"),
+                (["--version"], 0, "built with"),
+                (["in.ply", "--bogus"], 2, "--bogus"),
+                (["in.ply", "-t", "0.1", "-o", "full.ply"], 4, "No space left"),
+                (["in.ply", "-t", "0.1", "-o", "out.ply", "--timeout", "1e-9"], 5, "time limit"),
+                (["in.ply", "-t", "0.1", "-o", "out.ply", "--memory", "20M"], 5,
+                 "would be enough")):
+            run = self.mpi(3, *arguments, status=status)
+            self.assertEqual((run.text + run.err).count(words), 1, msg=run.text + run.err)
+            self.assertNotIn("\033", run.text + run.err)
+        self.assertTrue(os.path.islink(self.path("full.ply")))
+        run = self.mpi(3, "in.ply", "-t", "0.1", "-o", "out.ply", "--log", "log")
+        self.assertEqual(self.read_bytes("log").count(b"points merged"), 1)
+        run = self.mpi(3, "in.ply", "-t", "0.1", "-o", "out.ply", status=4)
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_what_one_of_them_cannot_do_the_first_one_says(self):
+        for rank in (0, 1, 2):
+            options = [["--work", "tiles" if r != rank else "other/tiles"] for r in range(3)]
+            command = sum((["-n", "1", WELD, "in.ply", "-t", "0.1", "-o", "out.ply", *more, ":"]
+                           for more in options), [])
+            done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", *command[:-1]],
+                                  cwd=self.folder, capture_output=True, timeout=300)
+            self.assertEqual(done.returncode, 4)
+            self.assertEqual(done.stderr.count(b"other/tiles: cannot be made"), 1, done.stderr)
+            self.assertNotIn("out.ply", self.listing())
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_tools_that_share_nothing_say_so(self):
+        self.write("cube.obj", obj_bytes(cube()))
+        for tool in (TOOL, MEND):
+            done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n", "3", tool,
+                                   "cube.obj"], cwd=self.folder, capture_output=True, timeout=300)
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(done.stderr.count(b"start it without mpirun"), 1, done.stderr)
+            self.assertEqual(done.stdout, b"")
 
 
 if __name__ == "__main__":
