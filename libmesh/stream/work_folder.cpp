@@ -159,7 +159,8 @@ void work_folder::fail_unfinished(const std::vector<std::size_t>& tiles) const {
     for (std::size_t i = 0; i < std::min(most, tiles.size()); ++i)
         text += (i > 0 ? ", " : "") + std::to_string(tiles[i]);
     if (tiles.size() > most) text += " and " + std::to_string(tiles.size() - most) + " more";
-    refuse(reason::read, path_, text + (tiles.size() == 1 ? " is" : " are") + " not finished");
+    refuse(reason::read, path_,
+           text + (tiles.size() == 1 ? " is" : " are") + " not finished, or not as written");
 }
 
 void work_folder::remove() {

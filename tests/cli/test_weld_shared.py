@@ -116,6 +116,33 @@ class Shared(WeldTest):
             self.assertEqual(self.listing(), ["in.ply", "tiles"])
         self.assertGreater(refused, 0)
 
+    def test_a_tile_that_is_damaged_is_named_and_done_again(self):
+        expected = self.one("-t", "0.02", "-o", "out.ply")
+        work = ["in.ply", "-t", "0.02", "--work", "tiles"]
+        run = self.run_tool(*work, "--plan", "--tile-points", 300, status=0)
+        tiles = int(run.text.split()[1])
+        for t in range(tiles):
+            self.run_tool(*work, "--tile", t, status=0)
+        whole = {t: self.read_bytes(f"tiles/{t}.drops") for t in range(tiles)}
+        victim = max(whole, key=lambda t: len(whole[t]))
+        changed = bytes([whole[victim][0] ^ 1]) + whole[victim][1:]
+        for damage in (b"", changed):
+            self.write(f"tiles/{victim}.drops", damage)
+            run = self.run_tool(*work, "--finish", "-o", "out.ply", status=3)
+            self.assertIn(f"tile {victim} is not finished, or not as written", run.err)
+            self.assertNotIn("done again", run.err)
+            run = self.run_tool(*work, "--tile", victim, status=0)
+            self.assertIn("not what was written; done again", run.err)
+            self.assertEqual(self.read_bytes(f"tiles/{victim}.drops"), whole[victim])
+            self.run_tool(*work, "--finish", "-o", "out.ply", status=0)
+            self.assertEqual(self.written(), expected)
+        for name in os.listdir(self.path("tiles")):  # a tile needs its own files only
+            if name[0].isdigit() and name.split(".")[0] != str(victim):
+                os.remove(self.path("tiles/" + name))
+        os.remove(self.path(f"tiles/{victim}.done"))
+        self.run_tool(*work, "--tile", victim, status=0)
+        self.assertEqual(self.read_bytes(f"tiles/{victim}.drops"), whole[victim])
+
     def test_what_cannot_be_shared_is_refused_in_words(self):
         work = ["--work", "tiles"]
         for arguments, status, words in (
