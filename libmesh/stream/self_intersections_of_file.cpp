@@ -51,33 +51,19 @@ stream_search& stream_search::operator=(stream_search&&) noexcept = default;
 
 status stream_search::scatter() {
     state& s = *state_;
-    if (s.search.is_known()) return status::ok;
-    const held_alone lock(s.folder);
-    if (s.search.is_known()) return status::ok;  // another process was quicker
-    if (s.search.has_plan())
-        throw stream_error(stream_error::reason::folder, s.folder.path(),
-                           s.folder.path().string() +
-                               ": holds tiles of another input or of other options, or damaged "
-                               "ones; remove it first");
-    try {
-        return state::until_cancelled([&] { s.search.scatter(); });
-    } catch (...) {
-        s.folder.remove_unused();
-        throw;
-    }
+    return state::until_cancelled([&] {
+        if (s.search.is_known()) return;
+        const held_alone lock(s.folder, s.pace);
+        if (s.search.is_known()) return;  // another process was quicker
+        if (s.search.has_plan()) s.folder.fail_with_other_tiles();
+        s.search.scatter();
+    });
 }
 
 std::size_t stream_search::tiles() {
     state& s = *state_;
-    if (s.search.is_known()) return s.search.tiles();
-    const fs::path& folder = s.folder.path();
-    try {
-        const held_alone lock(s.folder);
-        s.folder.remove_unused();
-    } catch (const stream_error&) {  // others use it
-    }
-    throw stream_error(stream_error::reason::read, folder,
-                       folder.string() + ": holds no tiles of this input with these options");
+    if (!s.search.is_known()) s.folder.fail_without_tiles();
+    return s.search.tiles();
 }
 
 status stream_search::search_tile(std::size_t tile) {
@@ -118,12 +104,8 @@ stream_search_result self_intersections_of_file(const fs::path& input,
         }
         result = search.finish();
     } catch (const detail::stream::cancelled&) {
-        folder.remove_unused();
         result.found.cancelled = true;
         return result;
-    } catch (...) {
-        folder.remove_unused();
-        throw;
     }
     folder.remove();
     return result;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace treeform::detail::stream {
@@ -13,6 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const leftovers = "unfinished";
+
+/// A device or a pipe, which is written from the front, and stays.
+bool is_special(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    return fs::exists(status) && !fs::is_regular_file(status);
+}
 
 /// Copies bytes from one file into another, which is there.
 void copy_bytes(const fs::path& from, std::uint64_t first, const fs::path& to, std::uint64_t at,
@@ -129,7 +137,7 @@ class giving_back {
     [[nodiscard]] bool may_divide() const {
         const auto has_parts = [&](const std::optional<weld_stream_outputs::file>& to) {
             return !to ||
-                   (to->path != "-" &&
+                   (to->path != "-" && !is_special(to->path) &&
                     point_writer(part("none"), head_, 0, points_out::options_of(*to)).has_parts());
         };
         return !all_.is_alone() && steps_.is_divided() && !asked_.map && asked_.label.empty() &&

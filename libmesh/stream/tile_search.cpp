@@ -303,18 +303,18 @@ stream_search_result tile_search::finish() {
     stream_search_result result = survey_;
     result.tiles = tiles();
     std::vector<tile_face<double>> faces;
+    std::vector<std::size_t> missing;
     for (std::size_t t = 0; t < tiles(); ++t) {
         const auto found = load(t);
-        if (!found)
-            throw stream_error(
-                stream_error::reason::read, folder_.path(),
-                folder_.path().string() + ": tile " + std::to_string(t) + " is not finished");
+        if (!found) missing.push_back(t);
+        if (!missing.empty()) continue;
         const auto hits = all_of<tile_face<double>>(file(t, ".hits"), found->faces);
         faces.insert(faces.end(), hits.begin(), hits.end());
         for (const tile_pair& p : all_of<tile_pair>(file(t, ".pairs"), found->pairs))
             result.found.pairs.push_back({p.a, p.b, static_cast<pair_kind>(p.kind)});
         add_counts(result.found, found->counted);
     }
+    if (!missing.empty()) folder_.fail_unfinished(missing);
     const auto before = [](const auto& f, const auto& g) { return f.triangle < g.triangle; };
     const auto same = [](const auto& f, const auto& g) { return f.triangle == g.triangle; };
     std::sort(faces.begin(), faces.end(), before);

@@ -64,7 +64,7 @@ class tile_search {
     void search(std::size_t tile, std::size_t part, std::size_t of);
     /// The faces of a finished tile are needed no more.
     void drop_faces(std::size_t tile) const { std::filesystem::remove(file(tile, ".faces")); }
-    /// Puts together what was found. \throws stream_error naming a tile that is not finished
+    /// Puts together what was found. \throws stream_error naming the tiles that are not finished
     [[nodiscard]] stream_search_result finish();
 
   private:

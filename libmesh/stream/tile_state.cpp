@@ -53,7 +53,9 @@ void tile_steps::look() {
     const auto points = source_.count();
     const std::uint64_t least = points ? memory_to_stream(source_.header(), *points) : 0;
     if (least > task_.memory) fail_for_memory(least);
-    if (!(task_.options.shared ? has_tiles() : take_over())) {
+    if (task_.options.shared && has_tiles()) {
+        look_at_tiles();
+    } else if (task_.options.shared || !take_over()) {
         const bool anew = has_plan();
         const std::vector<std::filesystem::path> damaged = survey_.cloud.damaged;
         if (team_.leads()) folder_.clear();
@@ -127,12 +129,15 @@ bool tile_steps::find_tile(std::size_t t, bool check) {
 }
 
 bool tile_steps::know() {
-    bool whole = load_plan();
-    for (std::size_t t = 0; whole && t < tiles_.size(); ++t) whole = find_tile(t, false);
-    scattered_ = survey_.cloud.continued = whole;
-    if (!whole) return false;
+    scattered_ = load_plan();
+    return scattered_;
+}
+
+void tile_steps::look_at_tiles() {
+    for (std::size_t t = 0; t < tiles_.size(); ++t)
+        if (!find_tile(t, false)) folder_.fail_with_other_tiles();
+    survey_.cloud.continued = true;
     count_finished();
-    return true;
 }
 
 /// Of a team, each looks at some tiles.

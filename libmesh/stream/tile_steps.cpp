@@ -332,17 +332,19 @@ void tile_steps::weld_one(std::size_t t) {
         throw std::out_of_range("treeform::stream_weld: tile " + std::to_string(t) + " of " +
                                 std::to_string(tiles_.size()));
     pace_.show("weld", 0.0);
-    if (load_tile(t, false)) return;
+    if (!find_tile(t, true)) folder_.fail_with_other_tiles();
+    if (tiles_[t].finished) return;
     weld_tile(t);
     step_done();
 }
 
 void tile_steps::check_finished() {
+    std::vector<std::size_t> missing;
     for (std::size_t t = 0; t < tiles_.size(); ++t)
-        if (!tiles_[t].finished && !load_tile(t, false))
-            throw stream_error(
-                stream_error::reason::read, folder_.path(),
-                folder_.path().string() + ": tile " + std::to_string(t) + " is not finished");
+        if (task_.options.shared ? !load_tile(t, true)
+                                 : !tiles_[t].finished && !load_tile(t, false))
+            missing.push_back(t);
+    if (!missing.empty()) folder_.fail_unfinished(missing);
 }
 
 /// What a tile leaves, on its way to the disk.

@@ -72,7 +72,7 @@ class tile_steps {
     /// Then says where it will be cut.
     void look();
     [[nodiscard]] const cloud_survey& survey() const { return survey_.cloud; }
-    /// Whether tiles have their points, here or elsewhere.
+    /// Whether tiles have been given their points, here or elsewhere; of theirs, nothing is looked at.
     [[nodiscard]] bool has_tiles() { return scattered_ || know(); }
     /// Whether the folder has tiles, be it of another cloud or of other options.
     [[nodiscard]] bool has_plan() const;
@@ -82,7 +82,7 @@ class tile_steps {
     void weld_tiles();
     /// Welds one, unless it is finished. What two processes do at the same time is the same.
     void weld_one(std::size_t tile);
-    /// \throws stream_error naming a tile that is not finished
+    /// \throws stream_error naming the tiles that are not finished
     void check_finished();
     [[nodiscard]] tiles_welded weld_borders();
     /// Whether each of a team is told of its points, in the order of the files.
@@ -157,6 +157,7 @@ class tile_steps {
 
     void share_cuts();
     [[nodiscard]] bool know();
+    void look_at_tiles();
     [[nodiscard]] bool load_plan();
     [[nodiscard]] bool take_over();
     [[nodiscard]] bool find_tile(std::size_t t, bool check);

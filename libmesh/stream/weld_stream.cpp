@@ -100,15 +100,13 @@ struct stream_weld::state {
 
     /// \throws stream_error where there are none
     void check_tiles() {
-        if (steps.has_tiles()) return;
-        try {
-            const detail::stream::held_alone lock(folder);
-            folder.remove_unused();
-        } catch (const stream_error&) {  // others use it
-        }
-        throw stream_error(
-            stream_error::reason::read, folder.path(),
-            folder.path().string() + ": holds no tiles of this input with these options");
+        if (!steps.has_tiles()) folder.fail_without_tiles();
+    }
+
+    /// What a process has left that was killed is for one to remove that no other works beside.
+    void hold_alone() {
+        alone.emplace(folder, pace);
+        detail::stream::remove_leftovers(folder);
     }
 
     /// Where the work is cancelled, says so.
@@ -156,7 +154,7 @@ struct stream_weld::state {
     detail::stream::pacer pace;
     work_folder folder;
     std::optional<detail::stream::held_alone>
-        alone{};  ///< while the tiles of a shared one are made
+        alone{};  ///< a shared one, while tiles are made, and from `weld` on
     detail::stream::tile_steps steps;
     std::optional<detail::stream::tiles_welded> welded{};
     std::optional<detail::stream::kept_rows> rows{};
@@ -166,7 +164,8 @@ struct stream_weld::state {
 
 stream_weld::stream_weld(cloud_inputs inputs, weld_stream_options options)
     : state_(std::make_unique<state>(std::move(inputs), std::move(options))) {
-    if (state_->all.leads()) detail::stream::remove_leftovers(state_->folder);
+    if (state_->all.leads() && !state_->task.options.shared)
+        detail::stream::remove_leftovers(state_->folder);
 }
 stream_weld::~stream_weld() = default;
 stream_weld::stream_weld(stream_weld&&) noexcept = default;
@@ -174,20 +173,14 @@ stream_weld& stream_weld::operator=(stream_weld&&) noexcept = default;
 
 status stream_weld::look() {
     state& s = *state_;
-    if (s.task.options.shared && !s.steps.has_tiles()) {
-        s.alone.emplace(s.folder);
-        if (!s.steps.has_tiles() && s.steps.has_plan())  // else another process was quicker
-            throw stream_error(stream_error::reason::folder, s.folder.path(),
-                               s.folder.path().string() +
-                                   ": holds tiles of another input or of other options, or damaged "
-                                   "ones; remove it first");
-    }
-    try {
-        return state::until_cancelled([&] { s.steps.look(); });
-    } catch (const stream_error& error) {
-        if (error.why() == stream_error::reason::memory && s.all.leads()) s.folder.remove_unused();
-        throw;
-    }
+    return state::until_cancelled([&] {
+        if (s.task.options.shared && !s.steps.has_tiles()) {
+            s.hold_alone();
+            if (!s.steps.has_tiles() && s.steps.has_plan())  // else another process was quicker
+                s.folder.fail_with_other_tiles();
+        }
+        s.steps.look();
+    });
 }
 
 const cloud_survey& stream_weld::survey() const { return state_->steps.survey(); }
@@ -211,6 +204,7 @@ status stream_weld::weld() {
         if (s.task.options.shared) {
             s.check_tiles();
             s.steps.check_finished();
+            s.hold_alone();
         } else {
             s.steps.weld_tiles();
         }

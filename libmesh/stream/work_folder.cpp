@@ -4,16 +4,19 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <system_error>
+#include <thread>
 
 namespace treeform::detail::stream {
 namespace {
@@ -57,16 +60,25 @@ work_folder::work_folder(fs::path path, const std::string& job, use how)
     }
 }
 
+bool work_folder::try_to(use how) const {
+    return ::flock(lock_, (how == use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0;
+}
+
 void work_folder::hold(use how) {
-    if (how == use::member) return;
-    const auto try_to = [this](use wanted) {
-        return ::flock(lock_, (wanted == use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0;
-    };
-    if (!try_to(how)) {
-        static_cast<void>(try_to(how_));  // which a lock that could not be had has ended
+    if (how != use::member && !try_to(how))
         refuse(reason::folder_in_use, path_, "is in use by another process");
+}
+
+/// Several that wait hold nothing meanwhile, so that one of them gets it.
+void work_folder::hold_alone(pacer& pace) {
+    constexpr auto pause = std::chrono::milliseconds(20);
+    for (int left = 100; !try_to(use::alone); --left) {
+        hold(use::shared);
+        if (left == 0) refuse(reason::folder_in_use, path_, "is in use by another process");
+        ::flock(lock_, LOCK_UN);
+        std::this_thread::sleep_for(pause);
+        pace.check();
     }
-    how_ = how;
 }
 
 held_alone::~held_alone() {
@@ -90,7 +102,10 @@ void work_folder::rename(const std::string& from, const std::string& to) const {
     if (error) refuse(reason::folder, file(to), "cannot be written: " + error.message());
 }
 
-work_folder::~work_folder() { ::close(lock_); }
+work_folder::~work_folder() {
+    if (how_ != use::member) remove_unused();
+    ::close(lock_);
+}
 
 std::optional<state_reader> work_folder::load(const std::string& name) const {
     std::ifstream in(file(name), std::ios::binary);
@@ -116,11 +131,36 @@ void work_folder::clear() const {
         if (entry.path().filename() != lock_name) fs::remove(entry.path());
 }
 
-void work_folder::remove_unused() {
-    const fs::directory_iterator all(path_);
-    if (std::all_of(begin(all), end(all),
-                    [](const auto& entry) { return entry.path().filename() == lock_name; }))
-        remove();
+/// Not where another holds it, or where the folder of that name is another by now.
+void work_folder::remove_unused() noexcept {
+    struct stat lock {};
+    if (!try_to(use::alone) || ::fstat(lock_, &lock) != 0 || lock.st_nlink == 0) return;
+    std::error_code error;
+    fs::directory_iterator entries(path_, error);
+    for (; !error && entries != fs::directory_iterator(); entries.increment(error))
+        if (entries->path().filename() != lock_name) return;
+    if (error) return;
+    fs::remove(path_ / lock_name, error);
+    fs::remove(path_, error);
+}
+
+void work_folder::fail_without_tiles() const {
+    refuse(reason::read, path_, "holds no tiles of this input with these options");
+}
+
+void work_folder::fail_with_other_tiles() const {
+    refuse(reason::folder, path_,
+           "holds tiles of another input or of other options, or damaged ones; remove it first");
+}
+
+void work_folder::fail_unfinished(const std::vector<std::size_t>& tiles) const {
+    constexpr std::size_t most = 100;
+    std::string text = tiles.size() == 1 ? "tile " : "tiles ";
+    for (std::size_t i = 0; i < std::min(most, tiles.size()); ++i)
+        text += (i > 0 ? ", " : "") + std::to_string(tiles[i]);
+    if (tiles.size() > most) text += " and " + std::to_string(tiles.size() - most) + " more";
+    refuse(reason::read, path_,
+           text + (tiles.size() == 1 ? " is" : " are") + " not finished, or not as written");
 }
 
 void work_folder::remove() {

@@ -2,17 +2,19 @@
 /// \file
 /// The folder in which a cloud larger than memory is welded; what is there outlives the process.
 
+#include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/state_record.hpp>
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace treeform::detail::stream {
 
-/// Held by one process at a time, or shared by several. It stays until `remove`, so that the same
-/// call can go on.
+/// Held by one process at a time, or shared by several. What is stored in it stays until `remove`, so
+/// that the same call can go on; a folder without anything ends with its last holder.
 class work_folder {
   public:
     enum class use : std::uint8_t {
@@ -26,9 +28,11 @@ class work_folder {
     /// \throws stream_error when it cannot be made, holds other files, is in use, or is for another
     ///         job
     work_folder(std::filesystem::path path, const std::string& job, use how = use::alone);
-    /// Holds it another way from now on; as before where it cannot. \throws stream_error when it is
-    /// in use
+    /// Holds it this way from now on. \throws stream_error when it is in use; then it is not held
     void hold(use how);
+    /// The same alone, for who shares it: waits a little for others that are about to end.
+    /// \throws stream_error when it is in use; cancelled
+    void hold_alone(pacer& pace);
     ~work_folder();
     work_folder(const work_folder&) = delete;
     work_folder& operator=(const work_folder&) = delete;
@@ -49,10 +53,17 @@ class work_folder {
     void clear() const;
     /// Removes the folder.
     void remove();
-    /// The same where nothing is stored in it.
-    void remove_unused();
+
+    /// What those say who share a folder. \throws stream_error
+    [[noreturn]] void fail_without_tiles() const;
+    [[noreturn]] void fail_with_other_tiles() const;
+    /// Names the first hundred. \pre one at least
+    [[noreturn]] void fail_unfinished(const std::vector<std::size_t>& tiles) const;
 
   private:
+    [[nodiscard]] bool try_to(use how) const;
+    void remove_unused() noexcept;
+
     std::filesystem::path path_;
     int lock_ = -1;
     use how_ = use::alone;
@@ -61,9 +72,8 @@ class work_folder {
 /// Holds a shared folder alone for its life.
 class held_alone {
   public:
-    explicit held_alone(work_folder& folder) : folder_(folder) {
-        folder.hold(work_folder::use::alone);
-    }
+    /// \throws as `work_folder::hold_alone`
+    held_alone(work_folder& folder, pacer& pace) : folder_(folder) { folder.hold_alone(pace); }
     ~held_alone();
     held_alone(const held_alone&) = delete;
     held_alone& operator=(const held_alone&) = delete;

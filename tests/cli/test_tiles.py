@@ -112,7 +112,7 @@ class Tiles(ToolTest):
         tiles = int(run.text.split()[1])
         self.assertGreater(tiles, 5)
         run = self.run_tool("float.ply", *work, "--finish", status=3)
-        self.assertIn("tile 0 is not finished", run.err)
+        self.assertIn("tiles 0, 1, 2, 3, 4, 5", run.err)
         self.run_tool("float.ply", *work, "--tile", tiles, status=2)
         twice = [t for t in range(tiles) for _ in range(2)]  # two of each at the same time
         running = [subprocess.Popen([TOOL, "float.ply", *work, "--tile", str(t)], cwd=self.folder,

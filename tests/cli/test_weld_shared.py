@@ -59,7 +59,8 @@ class Shared(WeldTest):
             tiles = int(run.text.split()[1])
             self.assertGreater(tiles, 4)
             run = self.run_tool(*work, "--finish", *outputs, status=3)
-            self.assertIn("tile 0 is not finished", run.err)
+            self.assertIn(f"tiles {', '.join(map(str, range(min(tiles, 100))))}", run.err)
+            self.assertIn("are not finished", run.err)
             twice = [t for t in range(tiles) for _ in range(2)]  # at the same time
             for process in [self.start(*work, "--tile", t) for t in twice]:
                 out, err = process.communicate()
@@ -85,6 +86,62 @@ class Shared(WeldTest):
             self.run_tool(*work, "--tile", t, status=0)
         self.run_tool(*work, "--finish", "-o", "out.ply", status=0)
         self.assertEqual(self.written(), expected)
+
+    def test_who_puts_together_has_the_folder_alone(self):
+        self.write("in.ply", ply(cloud(self.rng, 40000), self.rng))
+        keep = ["-t", "0.002", "--keep", "mean"]
+        expected = self.one(*keep, "-o", "out.ply", "--removed", "gone.ply")
+        work = ["in.ply", *keep, "--work", "tiles"]
+        self.run_tool(*work, "--plan", "--tile-points", 10000, status=0)
+        tiles = len([n for n in os.listdir(self.path("tiles")) if n.endswith(".points")])
+        for t in range(tiles):
+            self.run_tool(*work, "--tile", t, status=0)
+        refused = 0
+        for _ in range(6):
+            outs = [(f"out{k}.ply", f"gone{k}.ply") for k in range(3)]
+            runs = [self.start(*work, "--finish", "-o", out, "--removed", gone)
+                    for out, gone in outs]
+            tile = self.start(*work, "--tile", 0)
+            for run, (out, gone) in zip(runs, outs):
+                err = run.communicate()[1].decode()
+                if run.returncode == 0:
+                    written = self.written((out, gone))
+                    self.assertEqual(written, {out: expected["out.ply"], gone: expected["gone.ply"]})
+                else:
+                    refused += 1
+                    self.assertEqual(run.returncode, 4, err)
+                    self.assertIn("tiles: is in use by another process", err)
+            self.assertLess(sum(run.returncode != 0 for run in runs), 3)
+            tile.communicate()
+            self.assertEqual(self.listing(), ["in.ply", "tiles"])
+        self.assertGreater(refused, 0)
+
+    def test_a_tile_that_is_damaged_is_named_and_done_again(self):
+        expected = self.one("-t", "0.02", "-o", "out.ply")
+        work = ["in.ply", "-t", "0.02", "--work", "tiles"]
+        run = self.run_tool(*work, "--plan", "--tile-points", 300, status=0)
+        tiles = int(run.text.split()[1])
+        for t in range(tiles):
+            self.run_tool(*work, "--tile", t, status=0)
+        whole = {t: self.read_bytes(f"tiles/{t}.drops") for t in range(tiles)}
+        victim = max(whole, key=lambda t: len(whole[t]))
+        changed = bytes([whole[victim][0] ^ 1]) + whole[victim][1:]
+        for damage in (b"", changed):
+            self.write(f"tiles/{victim}.drops", damage)
+            run = self.run_tool(*work, "--finish", "-o", "out.ply", status=3)
+            self.assertIn(f"tile {victim} is not finished, or not as written", run.err)
+            self.assertNotIn("done again", run.err)
+            run = self.run_tool(*work, "--tile", victim, status=0)
+            self.assertIn("not what was written; done again", run.err)
+            self.assertEqual(self.read_bytes(f"tiles/{victim}.drops"), whole[victim])
+            self.run_tool(*work, "--finish", "-o", "out.ply", status=0)
+            self.assertEqual(self.written(), expected)
+        for name in os.listdir(self.path("tiles")):  # a tile needs its own files only
+            if name[0].isdigit() and name.split(".")[0] != str(victim):
+                os.remove(self.path("tiles/" + name))
+        os.remove(self.path(f"tiles/{victim}.done"))
+        self.run_tool(*work, "--tile", victim, status=0)
+        self.assertEqual(self.read_bytes(f"tiles/{victim}.drops"), whole[victim])
 
     def test_what_cannot_be_shared_is_refused_in_words(self):
         work = ["--work", "tiles"]
@@ -180,6 +237,44 @@ class Shared(WeldTest):
             self.assertEqual(self.listing(), ["in.ply", "there.ply"])
         self.assertEqual(self.read_bytes("there.ply"), b"mine")
         self.mpi(2, "in.ply", "-t", "0.1", "--check", status=1)
+        os.symlink("/dev/full", self.path("full.ply"))
+        for arguments, status, words in (
+                (["--help"], 0, "Exit status:"),
+                (["--version"], 0, "built with"),
+                (["in.ply", "--bogus"], 2, "--bogus"),
+                (["in.ply", "-t", "0.1", "-o", "full.ply"], 4, "No space left"),
+                (["in.ply", "-t", "0.1", "-o", "out.ply", "--timeout", "1e-9"], 5, "time limit"),
+                (["in.ply", "-t", "0.1", "-o", "out.ply", "--memory", "20M"], 5,
+                 "would be enough")):
+            run = self.mpi(3, *arguments, status=status)
+            self.assertEqual((run.text + run.err).count(words), 1, msg=run.text + run.err)
+            self.assertNotIn("\033", run.text + run.err)
+        self.assertTrue(os.path.islink(self.path("full.ply")))
+        run = self.mpi(3, "in.ply", "-t", "0.1", "-o", "out.ply", "--log", "log")
+        self.assertEqual(self.read_bytes("log").count(b"points merged"), 1)
+        run = self.mpi(3, "in.ply", "-t", "0.1", "-o", "out.ply", status=4)
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_what_one_of_them_cannot_do_the_first_one_says(self):
+        for rank in (0, 1, 2):
+            options = [["--work", "tiles" if r != rank else "other/tiles"] for r in range(3)]
+            command = sum((["-n", "1", WELD, "in.ply", "-t", "0.1", "-o", "out.ply", *more, ":"]
+                           for more in options), [])
+            done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", *command[:-1]],
+                                  cwd=self.folder, capture_output=True, timeout=300)
+            self.assertEqual(done.returncode, 4)
+            self.assertEqual(done.stderr.count(b"other/tiles: cannot be made"), 1, done.stderr)
+            self.assertNotIn("out.ply", self.listing())
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_tools_that_share_nothing_say_so(self):
+        self.write("cube.obj", obj_bytes(cube()))
+        for tool in (TOOL, MEND):
+            done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n", "3", tool,
+                                   "cube.obj"], cwd=self.folder, capture_output=True, timeout=300)
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(done.stderr.count(b"start it without mpirun"), 1, done.stderr)
+            self.assertEqual(done.stdout, b"")
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,8 @@ struct common_options {
     double timeout = 0.0;
     bool progress = false;
     std::string color = "auto";
+    bool in_team = false;                              ///< processes of mpirun share the work
+    std::function<void(const std::string&)> failed{};  ///< is told the error that is said
     bool quiet = false;
     int verbose = 0;
     std::string log;

@@ -35,7 +35,10 @@ constexpr const char* plain = "\033[0m";
 bool takes_colors(std::FILE* stream) {
     const char* const no_color = std::getenv("NO_COLOR");
     const char* const terminal = std::getenv("TERM");
-    return isatty(fileno(stream)) == 1 && (no_color == nullptr || *no_color == '\0') &&
+    // What mpirun gives its processes looks like a terminal, wherever its own output goes.
+    const bool under_mpirun = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;
+    return isatty(fileno(stream)) == 1 && !under_mpirun &&
+           (no_color == nullptr || *no_color == '\0') &&
            (terminal == nullptr || std::string_view(terminal) != "dumb");
 }
 

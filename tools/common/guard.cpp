@@ -61,17 +61,22 @@ const char* text_of(reason why) {
     return "stopped";
 }
 
-/// Memory that is the process's own: pages of mapped files are the system's to drop.
-std::uint64_t memory_in_use() {
+struct own_memory {
+    std::uint64_t used = 0;      ///< pages of mapped files are the system's to drop
+    std::uint64_t reserved = 0;  ///< as RLIMIT_DATA counts
+};
+
+own_memory memory_of_process() {
     std::FILE* const file = std::fopen("/proc/self/statm", "r");
-    if (file == nullptr) return 0;
-    unsigned long long size = 0;
+    if (file == nullptr) return {};
     unsigned long long resident = 0;
     unsigned long long shared = 0;
-    const int read = std::fscanf(file, "%llu %llu %llu", &size, &resident, &shared);
+    unsigned long long data = 0;
+    const int read = std::fscanf(file, "%*u %llu %llu %*u %*u %llu", &resident, &shared, &data);
     std::fclose(file);
-    if (read != 3 || shared > resident) return 0;
-    return (resident - shared) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    if (read != 3 || shared > resident) return {};
+    const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    return {(resident - shared) * page, data * page};
 }
 
 /// Reserved for the threads of loops: of each stack, some pages are used.
@@ -109,6 +114,7 @@ sigset_t watched_signals() {
 struct guard::state {
     std::string tool;
     limits bounds;
+    own_memory before{};  ///< that does not count
     clock::time_point start = clock::now();
     std::atomic<reason> why{reason::none};
     std::mutex mutex;
@@ -158,7 +164,8 @@ reason guard::state::next_reason(bool signalled) const {
     }
     const std::chrono::duration<double> elapsed = clock::now() - start;
     if (bounds.seconds > 0.0 && elapsed.count() > bounds.seconds) return reason::time;
-    if (bounds.memory > 0 && memory_in_use() > bounds.memory) return reason::memory;
+    if (bounds.memory > 0 && memory_of_process().used > bounds.memory + before.used)
+        return reason::memory;
     return reason::none;
 }
 
@@ -204,8 +211,10 @@ std::string guard::state::memory_text() const {
 guard::guard(std::string tool, limits bounds) : state_(std::make_unique<state>()) {
     state_->tool = std::move(tool);
     state_->bounds = bounds;
+    if (bounds.beside_others) state_->before = memory_of_process();
     if (bounds.memory > 0)
-        bound_data(bounds.memory + (bounds.as_free ? memory_of_stacks() : std::uint64_t{0}));
+        bound_data(bounds.memory + state_->before.reserved +
+                   (bounds.as_free ? memory_of_stacks() : std::uint64_t{0}));
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an output error like any other
     std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that may not get as large
     state_->signals = watched_signals();

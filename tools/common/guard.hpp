@@ -14,6 +14,8 @@ struct limits {
     double seconds = 0.0;      ///< 0: none
     std::uint64_t memory = 0;  ///< bytes; 0: none
     bool as_free = false;      ///< `memory` is what was free, not what was asked for
+    /// `memory` is beside what the process has already, for the sake of others: MPI.
+    bool beside_others = false;
 };
 
 /// Watches from a thread of its own. When SIGINT, SIGTERM or SIGHUP arrives or a limit is passed,

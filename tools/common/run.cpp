@@ -14,6 +14,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -88,8 +89,23 @@ json head(const command_line& line, const common_options& options, int argc,
     return report;
 }
 
+/// As mpirun of Open MPI tells its processes.
+bool is_one_of_many() {
+    const char* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
+    return size != nullptr && std::string_view(size) != "1";
+}
+
+/// Each would do the same, and they would write one output; the first one says so.
+exit_status refuse_many(console& out) {
+    const char* const rank = std::getenv("OMPI_COMM_WORLD_RANK");
+    if (rank != nullptr && std::string_view(rank) != "0") return done;
+    out.error("works alone: processes of mpirun would all do the same; start it without mpirun");
+    return bad_usage;
+}
+
 limits limits_of(const common_options& options) {
     limits bounds{.seconds = options.timeout, .memory = options.memory};
+    bounds.beside_others = is_one_of_many();
     bounds.as_free = options.memory == 0 && !options.all_memory;
     if (bounds.as_free) bounds.memory = usable_memory();
     return bounds;
@@ -159,7 +175,9 @@ class session {
         const std::string text = by_limit ? keeper_.want_of_memory() : result.text;
         one.entry["error"] = {{"code", result.code}, {"text", text}};
         const bool named = text.find(name_of_input(one.path)) != std::string::npos;
-        out_.error(named ? text : one.name + ": " + text);
+        const std::string said = named ? text : one.name + ": " + text;
+        if (options_.failed) options_.failed(said);
+        out_.error(said);
     }
 
     common_options& options_;
@@ -198,6 +216,7 @@ int run(command_line& line, common_options& options, const std::vector<std::stri
         const std::function<exit_status(job&)>& body) {
     console out(line.name());
     out.color("auto");  // for what is said of a command line that makes no sense
+    if (!options.in_team && is_one_of_many()) return refuse_many(out);
     const outcome result = attempt([&] {
         line.version_text(version_text(line.name()));
         if (line.parse(argc, argv) == command_line::outcome::help_shown) return done;
@@ -210,7 +229,10 @@ int run(command_line& line, common_options& options, const std::vector<std::stri
             std::filesystem::create_directories(options.output_dir, ignored);
         return static_cast<exit_status>(run_parsed(line, options, steps, argc, argv, body, out));
     });
-    if (!result.text.empty()) out.error(result.text);
+    if (!result.text.empty()) {
+        if (options.failed) options.failed(result.text);
+        out.error(result.text);
+    }
     return result.status;
 }
 

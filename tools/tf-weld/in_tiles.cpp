@@ -61,10 +61,13 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
     return options;
 }
 
-void say_of_earlier_work(job& work, const tf::cloud_survey& survey, const fs::path& folder) {
+void say_of_damaged(job& work, const tf::cloud_survey& survey, const tile_options& tiles) {
     for (const fs::path& file : survey.damaged)
-        work.warn("damaged",
-                  file.string() + ": this tile's files are not what was written; done again");
+        work.warn("damaged", file.string() + ": this tile's files are not what was written" +
+                                 (tiles.finish || tiles.plan ? "" : "; done again"));
+}
+
+void say_of_earlier_work(job& work, const tf::cloud_survey& survey, const fs::path& folder) {
     if (survey.started_anew)
         work.warn("started-anew", folder.string() +
                                       ": what is there is of no use for this input and these "
@@ -199,7 +202,8 @@ welding in_words_of_memory(const tf::cloud_survey& survey, const tf::weld_stream
     return w;
 }
 
-tf::status weld_tile(job& work, tf::stream_weld& weld, std::uint64_t tile) {
+tf::status weld_tile(job& work, tf::stream_weld& weld, const tile_options& options) {
+    const std::uint64_t tile = *options.tile;
     weld.check_tiles();
     const std::size_t tiles = weld.survey().tiles;
     if (tile >= tiles)
@@ -207,6 +211,7 @@ tf::status weld_tile(job& work, tf::stream_weld& weld, std::uint64_t tile) {
                       "--tile " + std::to_string(tile) + ": there are only " +
                           counted(tiles, "tile", "tiles"));
     const tf::status ended = weld.weld_tile(tile);
+    say_of_damaged(work, weld.survey(), options);
     if (ended == tf::status::ok)
         work.out.result(work.name + ": tile " + std::to_string(tile) + " of " + grouped(tiles) +
                         " done");
@@ -234,7 +239,7 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
         if (tiles.team.size > 1 && leads) tiles.team.exchange({});
         take(work, "read", [&] {
             weld.emplace(inputs, options);
-            if (tiles.tile) return weld_tile(work, *weld, *tiles.tile);
+            if (tiles.tile) return weld_tile(work, *weld, tiles);
             if (tiles.finish) weld->check_tiles();
             return weld->look();
         });
@@ -243,6 +248,7 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
     }
     if (tiles.tile) return done;
     const tf::cloud_survey& survey = weld->survey();
+    say_of_damaged(work, survey, tiles);
     say_of_earlier_work(work, survey, options.folder);
     enter_sources(work, survey, inputs);
     if (survey.points == 0) throw failure(bad_input, "no-points", work.name + ": no points");

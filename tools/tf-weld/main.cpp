@@ -163,13 +163,15 @@ void check_request(const command_line& line, const tools::weld_request& r,
     tools::check_tile_options(tiles, line, o);
 }
 
-int run(int argc, char** argv, const tf::weld_team& team) {
+int run(int argc, char** argv, tools::team_member& me) {
     command_line line("tf-weld", "[OPTIONS] INPUT...",
                       "Merge points or mesh vertices that lie within a distance of each other.\n"
                       "Point clouds stay point clouds; meshes are re-indexed.");
     tools::weld_request r;
-    tools::tile_options tiles{.team = team};
+    tools::tile_options tiles{.team = me.team};
     common_options options;
+    options.in_team = true;
+    options.failed = [&me](const std::string& text) { me.error = text; };
     options.suffix = "-weld";
     options.table = {
         {"points", "/points/in"}, {"kept", "/points/out"}, {"merged", "/points/removed"}};
@@ -195,29 +197,17 @@ int run(int argc, char** argv, const tf::weld_team& team) {
     return tools::run(
         line, options, {"read", "weld", "write"}, argc, argv,
         [&] {
-            if (team.rank > 0) {
-                options.quiet = true;  // the first one speaks for all
+            if (me.team.rank > 0) {  // the first one speaks for all
                 options.report.clear();
+                options.log.clear();
             }
-            try {
-                check_request(line, r, tiles, options);
-            } catch (const tools::failure&) {
-                tools::let_first_speak(team);
-                throw;
-            }
+            check_request(line, r, tiles, options);
         },
-        [&](tools::job& work) {
-            try {
-                return tools::weld_somewhere(work, r, tiles);
-            } catch (...) {
-                tools::let_first_speak(team);
-                throw;
-            }
-        });
+        [&](tools::job& work) { return tools::weld_somewhere(work, r, tiles); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    return tools::run_in_team([&](const tf::weld_team& team) { return run(argc, argv, team); });
+    return tools::run_in_team([&](tools::team_member& me) { return run(argc, argv, me); });
 }

@@ -4,12 +4,15 @@
 #include "tools/mpi/team_calls.hpp"
 
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 namespace tools {
 namespace {
@@ -30,10 +33,31 @@ const team_calls* join() {
     return reinterpret_cast<const team_calls* (*)()>(found)();
 }
 
+/// Returns what standard error was.
+std::FILE* be_silent() {
+    std::FILE* const heard = ::fdopen(::dup(STDERR_FILENO), "w");
+    const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    for (const int output : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(nothing, output);
+    return heard;
+}
+
+/// Others may be at work for long before they listen.
+void end_later(const team_member& me, int status, std::FILE* heard) {
+    std::thread([rank = me.team.rank, error = me.error, status, heard] {
+        std::this_thread::sleep_for(std::chrono::seconds(5));
+        if (rank > 0 && heard != nullptr) {
+            std::fprintf(heard, "error: %s\n", error.c_str());
+            std::fflush(heard);
+        }
+        std::_Exit(status);
+    }).detach();
+}
+
 }  // namespace
 
-int run_in_team(const std::function<int(const tf::weld_team&)>& tool) {
-    if (!is_started_by_mpi()) return tool({});
+int run_in_team(const std::function<int(team_member&)>& tool) {
+    team_member me;
+    if (!is_started_by_mpi()) return tool(me);
     const team_calls* const calls = join();
     if (calls == nullptr) {
         const char* const why = ::dlerror();
@@ -41,15 +65,33 @@ int run_in_team(const std::function<int(const tf::weld_team&)>& tool) {
                      why == nullptr ? "MPI cannot be started" : why);
         return stopped;
     }
-    const int status = tool({calls->rank, calls->size, calls->exchange});
-    // 1 is an answer, which the first one gives for all.
-    if (status > 1) calls->abort(status);
+    const bool leads = calls->rank == 0;
+    std::FILE* const heard = leads ? stderr : be_silent();
+    bool all_end = false;
+    me.team = {calls->rank, calls->size, [&](const std::string& told) {
+                   std::vector<std::string> all = calls->exchange(told + '\0');
+                   for (std::string& one : all) {
+                       const auto status = static_cast<exit_status>(one.back());
+                       one.pop_back();
+                       if (status == done) continue;
+                       all_end = true;
+                       throw failure(status, "process", one);
+                   }
+                   return all;
+               }};
+    int status = tool(me);
+    if (!all_end) {
+        if (status > found) end_later(me, status, heard);
+        const int failed = status > found ? status : 0;
+        for (const std::string& one : calls->exchange(me.error + static_cast<char>(failed)))
+            if (one.back() != 0 && failed == 0 && leads) {
+                status = one.back();
+                std::fprintf(stderr, "error: %s\n", one.substr(0, one.size() - 1).c_str());
+                break;
+            }
+    }
     calls->leave();
-    return calls->rank == 0 ? status : 0;
-}
-
-void let_first_speak(const tf::weld_team& team) {
-    if (team.rank > 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+    return leads ? status : 0;
 }
 
 }  // namespace tools

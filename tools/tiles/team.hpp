@@ -7,15 +7,18 @@
 #include <treeform/tf.hpp>
 
 #include <functional>
+#include <string>
 
 namespace tools {
 
-/// Runs a tool: as one of the team that mpirun has started, or alone. A failure of one ends all.
-/// Returns its exit status.
-[[nodiscard]] int run_in_team(const std::function<int(const tf::weld_team&)>& tool);
+struct team_member {
+    tf::weld_team team{};
+    std::string error{};  ///< to be set by a tool that fails: what it says of it
+};
 
-/// Waits a little, unless this is the first of the team. Where one fails, the others mostly fail for the
-/// same reason: it is the first one that says so, if it can.
-void let_first_speak(const tf::weld_team& team);
+/// Runs a tool: as one of the team that mpirun has started, or alone. Only the first one is heard. A
+/// failure of one ends all: where they meet next, `exchange` throws it, or else after some seconds.
+/// Returns the exit status.
+[[nodiscard]] int run_in_team(const std::function<int(team_member&)>& tool);
 
 }  // namespace tools

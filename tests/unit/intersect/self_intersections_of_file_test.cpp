@@ -197,11 +197,13 @@ TEST_CASE("stream_search: tiles by several workers, in any order, some of them t
     CHECK_THROWS_WITH_AS((void)first.scatter(), doctest::Contains("is in use"), tf::stream_error);
     { const tf::stream_search gone = std::move(second); }
     CHECK_THROWS_AS((void)tf::self_intersections_of_file(path, o), tf::stream_error);  // held still
+    CHECK_THROWS_WITH_AS((void)first.finish(), doctest::Contains("holds no tiles"),
+                         tf::stream_error);
     REQUIRE(first.scatter() == tf::status::ok);
     tf::stream_search other(path, o);
     REQUIRE(other.tiles() > 5);
     CHECK_THROWS_AS((void)other.search_tile(other.tiles()), std::out_of_range);
-    CHECK_THROWS_WITH_AS((void)other.finish(), doctest::Contains("tile 0 is not finished"),
+    CHECK_THROWS_WITH_AS((void)other.finish(), doctest::Contains("tiles 0, 1, 2, 3, 4, 5"),
                          tf::stream_error);
     tf::for_chunks(2, 1, [&](std::size_t worker, std::size_t, std::size_t) {
         tf::stream_search mine(path, o);

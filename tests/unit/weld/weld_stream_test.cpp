@@ -119,10 +119,11 @@ TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the nex
         };
         CHECK(tf::weld_stream(folder.inputs(), outputs, options).status == tf::status::cancelled);
         CHECK_FALSE(fs::exists(folder.output()));
-        CHECK(fs::exists(folder.work()));
+        const bool has_tiles = at == std::string("weld") || at == std::string("write");
+        CHECK(fs::exists(folder.work()) == has_tiles);
         options.progress = {};
         const auto again = tf::weld_stream(folder.inputs(), outputs, options);
-        CHECK(again.survey.continued == (at == std::string("weld") || at == std::string("write")));
+        CHECK(again.survey.continued == has_tiles);
         CHECK(tf::read(folder.output()).mesh.points == whole.points);
         fs::remove(folder.output());
     }

@@ -351,15 +351,18 @@ TEST_CASE("weld_team: what is not there, or of another job, is refused in words"
     const auto has = [](const std::string& text, const char* words) {
         return text.find(words) != std::string::npos;
     };
-    tf::stream_weld early(work.inputs, work.options);
-    CHECK(has(says([&] { static_cast<void>(early.weld_tile(0)); }), "holds no tiles of this"));
+    {
+        tf::stream_weld early(work.inputs, work.options);
+        CHECK(has(says([&] { static_cast<void>(early.weld_tile(0)); }), "holds no tiles of this"));
+    }
+    CHECK_FALSE(fs::exists(work.options.folder));
     {
         tf::stream_weld one(work.inputs, work.options);
         REQUIRE(one.look() == tf::status::ok);
         CHECK(has(says([&] { tf::stream_weld(work.inputs, work.options); }), "is in use"));
         REQUIRE(one.scatter() == tf::status::ok);
         CHECK_THROWS_AS(static_cast<void>(one.weld_tile(one.survey().tiles)), std::out_of_range);
-        CHECK(has(says([&] { static_cast<void>(one.weld()); }), "tile 0 is not finished"));
+        CHECK(has(says([&] { static_cast<void>(one.weld()); }), "tiles 0, 1, 2"));
     }
     work.options.tolerance = 0.06;
     tf::stream_weld other(work.inputs, work.options);

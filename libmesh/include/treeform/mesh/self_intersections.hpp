@@ -232,7 +232,7 @@ class TREEFORM_API stream_search {
     [[nodiscard]] status search_tile(std::size_t tile);
     /// Puts together what was found.
     ///
-    /// \throws stream_error naming a tile that is not finished
+    /// \throws stream_error naming tiles that are not finished, at most a hundred
     [[nodiscard]] stream_search_result finish();
     void remove_folder();
 

@@ -198,10 +198,10 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
 /// Shared (`weld_stream_options::shared`), many processes do it that see the folder: one calls `look`
 /// and `scatter`; then each calls `weld_tile` for its share of the tiles; and when all have ended, one
 /// calls `check_tiles`, `weld`, `write` and `remove_folder`. A tile that is finished is not welded
-/// again, and two that weld one tile at the same time write the same.
+/// again, and two that weld one tile at the same time write the same. `weld` takes the folder alone.
 class TREEFORM_API stream_weld {
   public:
-    /// Takes the folder for itself, and removes what a killed run has left elsewhere.
+    /// Takes the folder. Who has it alone removes what a killed run has left elsewhere.
     stream_weld(cloud_inputs inputs, weld_stream_options options);
     ~stream_weld();
     stream_weld(stream_weld&&) noexcept;
@@ -218,7 +218,7 @@ class TREEFORM_API stream_weld {
     /// \throws stream_error as `check_tiles`; std::out_of_range for a tile that is not there
     [[nodiscard]] status weld_tile(std::size_t tile);
     /// Welds the tiles that are not finished, and what lies along their borders.
-    /// \throws stream_error naming a tile that is not finished; that is, where they are shared
+    /// \throws stream_error naming tiles that are not finished, where they are shared
     [[nodiscard]] status weld();
     [[nodiscard]] const weld_stream_counts& counts() const;
     /// Writes the outputs, each whole or not at all.
