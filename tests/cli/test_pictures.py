@@ -136,6 +136,10 @@ class Pictures(ToolTest):
         self.run_tool(part, "--png", "no/such/p.png", status=4)
         if os.path.exists("/dev/full"):
             self.run_tool(part, "--png", "/dev/full", status=4)
+            self.run_tool(part, "--html", "p.html", "--png", "/dev/full", status=4)
+            self.tool = MEND
+            self.run_tool(part, "-o", "/dev/full", "--output-format", "obj", "--html", "p.html",
+                          "--png", "p.png", status=4)
         self.assertEqual(self.listing(), ["part.obj"])
 
     def test_an_existing_picture_is_not_overwritten_without_force(self):

@@ -7,8 +7,11 @@
 #include <treeform/tf.hpp>
 #include <treeform/tree/version.hpp>
 
-namespace tools {
+#include <filesystem>
+#include <memory>
+#include <utility>
 
+namespace tools {
 scene scene_of(const job& work, const char* tool) {
     scene shown;
     shown.title = work.name;
@@ -28,11 +31,17 @@ scene scene_of(const job& work, const char* tool) {
     return shown;
 }
 
-void write_page(const job& work, const scene& shown) {
+void write_page(job& work, const scene& shown) {
     const common_options& o = work.options;
-    write_file(o.html, o.force, work.keeper, [&](output_file& file) { file.write(html(shown)); });
-    write_file(o.png, o.force, work.keeper,
-               [&](output_file& file) { file.write(png(draw(shown, o.picture))); });
+    const auto add = [&](const std::filesystem::path& path, const auto& bytes) {
+        if (path.empty()) return;
+        auto file = std::make_unique<output_file>(path, o.force, work.keeper);
+        file->write(bytes());
+        file->finish();
+        work.last_outputs.push_back(std::move(file));
+    };
+    add(o.html, [&] { return html(shown); });
+    add(o.png, [&] { return png(draw(shown, o.picture)); });
 }
 
 }  // namespace tools
