@@ -7,11 +7,34 @@
 #include <treeform/tf.hpp>
 #include <treeform/tree/version.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace tools {
+namespace {
+
+/// As the formats of all inputs have it; z is up where they differ.
+bool y_is_up_in(const json& entry) {
+    std::vector<std::string> formats;
+    const auto add = [&](const json& about) {
+        const auto at = about.find("format");
+        if (at != about.end() && at->is_string()) formats.push_back(at->get<std::string>());
+    };
+    add(entry);
+    for (const char* inputs : {"inputs", "fixed"})
+        if (const auto all = entry.find(inputs); all != entry.end() && all->is_array())
+            std::for_each(all->begin(), all->end(), add);
+    return !formats.empty() && std::ranges::all_of(formats, [](const std::string& format) {
+        return format.starts_with("obj") || format.starts_with("gl");
+    });
+}
+
+}  // namespace
+
 scene scene_of(const job& work, const char* tool) {
     scene shown;
     shown.title = work.name;
@@ -21,7 +44,7 @@ scene scene_of(const job& work, const char* tool) {
         return at != work.entry.end() && at->is_string() ? at->get<std::string>() : std::string();
     };
     const std::string format = text_of("format");
-    shown.y_is_up = format.starts_with("obj") || format.starts_with("gl");
+    shown.y_is_up = y_is_up_in(work.entry);
     shown.facts.emplace_back("file", work.name + (format.empty() ? "" : ", " + format));
     if (!text_of("sha256").empty()) shown.facts.emplace_back("sha256", text_of("sha256"));
     if (!text_of("precision_in").empty())
