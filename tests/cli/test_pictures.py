@@ -89,6 +89,26 @@ class Pictures(ToolTest):
             red, _, blue = rows[70][85]  # y is up in OBJ. The map colors MOVING alone
             self.assertEqual(red > blue + 60, sees)
 
+    def test_z_is_up_over_a_bed_and_else_as_the_formats_of_all_inputs_have_it(self):
+        slab = ([tuple(s * c for s, c in zip((4, 4, 1), p)) for p in cube()[0]], cube()[1])
+        up_in = {}
+        for name in ("a.obj", "a.ply"):
+            self.tool = TOOL
+            part = write(self.path("a.obj"), slab)
+            if name != "a.obj":
+                self.tool = MEND
+                self.run_tool(part, "-o", self.path(name), status=0)
+            self.tool = PLACE
+            up_in[name] = {
+                "drop": self.picture("drop", self.path(name), "-n", "--bed", "0", "--view", "front"),
+                "arrange": self.picture("arrange", self.path(name), self.path(name), "--size", "19,19",
+                                        "-n", "--view", "front")}
+            self.tool = BOOLEAN
+            up_in[name]["union"] = self.picture("union", self.path(name), self.path(name), "-n",
+                                                "--view", "front")
+        for what, same in (("drop", True), ("arrange", True), ("union", False)):
+            self.assertEqual(up_in["a.obj"][what] == up_in["a.ply"][what], same, msg=what)
+
     def test_findings_have_the_color_of_their_kind_and_there_are_none_in_a_sound_mesh(self):
         red = lambda r, g, b: r > g + 40 and r > b + 40
         found = self.picture(write(self.path("a.obj"), TWO_CUBES), status=1)
@@ -136,6 +156,10 @@ class Pictures(ToolTest):
         self.run_tool(part, "--png", "no/such/p.png", status=4)
         if os.path.exists("/dev/full"):
             self.run_tool(part, "--png", "/dev/full", status=4)
+            self.run_tool(part, "--html", "p.html", "--png", "/dev/full", status=4)
+            self.tool = MEND
+            self.run_tool(part, "-o", "/dev/full", "--output-format", "obj", "--html", "p.html",
+                          "--png", "p.png", status=4)
         self.assertEqual(self.listing(), ["part.obj"])
 
     def test_an_existing_picture_is_not_overwritten_without_force(self):

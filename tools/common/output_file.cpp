@@ -125,13 +125,17 @@ void output_file::write_full_pieces(std::string& text) {
     text.clear();
 }
 
-void output_file::commit() {
+void output_file::finish() {
+    if (file_ == nullptr) return;
     if (std::fflush(file_) != 0) fail();
-    if (file_ != stdout) {
-        const int closed = std::fclose(file_);
-        file_ = nullptr;
-        if (closed != 0) fail();
-    }
+    if (file_ == stdout) return;
+    const int closed = std::fclose(file_);
+    file_ = nullptr;
+    if (closed != 0) fail();
+}
+
+void output_file::commit() {
+    finish();
     place_.commit();
 }
 

@@ -66,6 +66,9 @@ class output_file {
     /// Writes and empties `text` where it is long, so that that of a million lines is never in
     /// memory at once.
     void write_full_pieces(std::string& text);
+    /// Hands over all that was written, so that a full device is known of before a `commit` of
+    /// another file. \throws failure (bad_output)
+    void finish();
     void commit();
 
   private:

@@ -150,7 +150,9 @@ class session {
                 halted ? outcome{stopped, "not-started", name_of_input(input) + ": not started"}
                        : attempt([&] {
                              keeper_.check();
-                             return body(one);
+                             const exit_status status = body(one);
+                             for (const auto& file : one.last_outputs) file->commit();
+                             return status;
                          });
             finish(one, result);
             halted = halted || result.status == stopped;

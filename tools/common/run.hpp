@@ -8,6 +8,7 @@
 #include "tools/common/entries.hpp"
 #include "tools/common/exit_status.hpp"
 #include "tools/common/guard.hpp"
+#include "tools/common/output_file.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -16,6 +17,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,6 +76,8 @@ class job {
     guard& keeper;
     std::map<std::string, double>& seconds;  ///< of the report, by step
     json entry;                              ///< of the report's `files`
+    /// Finished files that get their names after all others, unless the body throws.
+    std::vector<std::unique_ptr<output_file>> last_outputs{};
 
   private:
     /// What came of reading a file that has not been asked for yet.

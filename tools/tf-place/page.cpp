@@ -262,6 +262,9 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     const auto timing = work.time("write");
     scene shown = scene_of(work, "tf-place");
     shown.title = work.name + ": " + name_of(p.settings.mode);
+    // Down to a bed is -z in every format.
+    if (p.settings.mode == place_mode::drop || p.settings.mode == place_mode::lay)
+        shown.y_is_up = false;
     shown.verdict = sentence(p);
     shown.good =
         p.at && (!p.aligned || p.aligned->converged) && p.at.at_place != tf::standing::penetrating;
@@ -301,6 +304,7 @@ void write_page(job& work, const place_settings& settings, const tf::body_set& p
     const auto timing = work.time("write");
     scene shown = scene_of(work, "tf-place");
     shown.title = work.name + ": arrange";
+    shown.y_is_up = false;  // the plates lie flat
     shown.verdict = found.message();
     shown.good = found.not_placed.empty();
     constexpr std::size_t most = 200;

@@ -38,7 +38,7 @@ void write_marked(job& work, tf::mesh_file& file, const findings& result,
                   const std::filesystem::path& path);
 
 /// The findings as an HTML page, where one was asked for.
-void write_page(const job& work, const findings& result, const search_settings& settings);
+void write_page(job& work, const findings& result, const search_settings& settings);
 
 /// By `resolve_mode`.
 inline constexpr std::array<const char*, 3> repair_modes{"split", "outer", "remove"};

@@ -111,7 +111,7 @@ void add_facts(scene& shown, const findings& result, const search_settings& sett
 
 }  // namespace
 
-void write_page(const job& work, const findings& result, const search_settings& settings) {
+void write_page(job& work, const findings& result, const search_settings& settings) {
     if (!work.options.shows()) return;
     scene shown = scene_of(work, "tf-selfintersect");
     shown.verdict = verdict(result, settings);
