@@ -3,10 +3,8 @@
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/place/point_sides.hpp>
 #include <treeform/mesh/measure.hpp>
-#include <treeform/tree/detail/morton_order.hpp>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -32,19 +30,12 @@ void lower_sides(const prepared_mesh& solid, points_view points, std::vector<std
     if (mesh.faces.empty() || solid.is_cloud() || !box) return;
     const auto numbers = points_in(*box, points);
     if (numbers.empty() || !detail::intersect::is_closed(solid)) return;
-    const auto order = detail::morton_order<3>(numbers.size(), [&](std::size_t i) {
-        const point3& p = points[numbers[i]];
-        return std::array<double, 3>{p.x, p.y, p.z};
-    });
-    std::vector<point3> queries;
-    for (const std::uint32_t i : order) queries.push_back(points[numbers[i]]);
-    const std::vector<double> unknown(queries.size());
-    const auto found = detail::place::sides_in_order(mesh, build_face_tree(solid, "count_sides"),
-                                                     queries, unknown, 0.0);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        std::int8_t& one = side[numbers[order[i]]];
-        one = std::min(one, found.side[i]);
-    }
+    std::vector<point3> within;
+    within.reserve(numbers.size());
+    for (const std::uint32_t i : numbers) within.push_back(points[i]);
+    const auto found = detail::place::sides_of(mesh, build_face_tree(solid, "count_sides"), within);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        side[numbers[i]] = std::min(side[numbers[i]], found[i]);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/aabb.hpp>
+#include <treeform/tree/detail/morton_order.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search.hpp>
 
@@ -128,6 +129,22 @@ point_sides sides_in_order(mesh_view mesh, const tree<3>& tree, std::span<const 
                });
     result.winding_numbers = std::accumulate(counted.begin(), counted.end(), std::uint64_t{0});
     return result;
+}
+
+std::vector<std::int8_t> sides_of(mesh_view mesh, const tree<3>& tree,
+                                  std::span<const point3> queries) {
+    const auto order = morton_order<3>(queries.size(), [&](std::size_t i) {
+        return std::array<double, 3>{queries[i].x, queries[i].y, queries[i].z};
+    });
+    std::vector<point3> in_order;
+    in_order.reserve(queries.size());
+    for (const std::uint32_t i : order) in_order.push_back(queries[i]);
+    // Distances would cost more than the few faces that they save from being counted.
+    const std::vector<double> unknown(queries.size());
+    const point_sides found = sides_in_order(mesh, tree, in_order, unknown, 0.0);
+    std::vector<std::int8_t> side(queries.size());
+    for (std::size_t i = 0; i < order.size(); ++i) side[order[i]] = found.side[i];
+    return side;
 }
 
 }  // namespace treeform::detail::place

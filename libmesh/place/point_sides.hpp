@@ -28,4 +28,11 @@ struct point_sides {
                                          std::span<const point3> queries,
                                          std::span<const double> distance, double error);
 
+/// [Q] The side of each query, given in any order: -1 inside, 0 on the surface, 1 outside.
+///
+/// \pre  `mesh` is closed and `tree` that of its faces; queries are finite
+/// \same   on any number of threads
+[[nodiscard]] std::vector<std::int8_t> sides_of(mesh_view mesh, const tree<3>& tree,
+                                                std::span<const point3> queries);
+
 }  // namespace treeform::detail::place

@@ -1,15 +1,17 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/intersect/point_locator.hpp>
+#include <libmesh/place/point_sides.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace treeform {
@@ -28,6 +30,7 @@ plane_points plane_of(mesh_view mesh, std::uint32_t f) {
 /// way.
 std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
                                         const progress_callback& progress) {
+    if (a.whose().is_cloud() || b.whose().is_cloud()) return std::nullopt;  // points only touch
     mesh_intersection_options options;
     options.first_only = true;
     options.kinds = pair_kind::crossing;
@@ -89,11 +92,14 @@ std::optional<std::uint32_t> face_inside(const shape& of, const shape& solid, bo
             faces.push_back(f);
             points.push_back(a.points[corner]);
         }
-    if (points.empty()) return std::nullopt;
-    const auto found =
-        detail::intersect::point_locator(solid.joined(), solid.faces()).locate(points);
-    for (std::size_t i = 0; i < found.size(); ++i)
-        if (found[i].where == location::inside) return faces[i];
+    // Of a cloud that penetrates, one of the first few is inside; of one that does not, none is.
+    for (std::size_t from = 0, count = 1024; from < points.size(); from += count, count *= 8) {
+        const auto batch = std::span(points).subspan(from, std::min(count, points.size() - from));
+        const auto side = detail::place::sides_of(solid.joined(), solid.faces(), batch);
+        const auto inside = std::find(side.begin(), side.end(), std::int8_t{-1});
+        if (inside != side.end())
+            return faces[from + static_cast<std::size_t>(inside - side.begin())];
+    }
     return std::nullopt;
 }
 

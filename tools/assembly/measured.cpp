@@ -129,7 +129,6 @@ exit_status enter_measured(job& work, const deviation_settings& settings,
     enter_points(work, moving, fixed);
     enter_depth(work, moving, fixed, at);
     if (!settings.wanted()) return done;
-    check_output(settings.distances, work.options.force);
     {
         const auto timing = work.time("search");
         found = tf::deviation(moving.shapes[0], fixed.shapes,

@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
         [&] { tools::check_settings(line, s, options); },
         [&](tools::job& work) {
             tools::enter_blank_report(work, s);
-            tools::check_outputs(work, {s.matrix});
+            tools::check_outputs(work, {s.matrix}, {s.deviation.distances});
             return options.joined ? tools::arrange_all(work, s) : tools::place_one(work, s, fixed);
         });
 }
