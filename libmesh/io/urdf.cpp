@@ -1,4 +1,6 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/io/number.hpp>
+#include <libmesh/io/urdf_shapes.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/read.hpp>
 
@@ -113,17 +115,47 @@ class urdf_reader {
 
     void read_shape(pugi::xml_node node, std::uint32_t link, const std::string& whose) {
         const pugi::xml_node geometry = node.child("geometry"), mesh = geometry.child("mesh");
-        if (!mesh) {
-            const std::string kind = geometry.first_child().name();
-            robot_.skipped.push_back(
-                whose + ": " + (kind.empty() ? "empty geometry" : "a " + kind) + " is no mesh");
-            return;
-        }
+        if (!mesh) return make_shape(node, geometry.first_child(), link, whose);
         const point3 s = vector(mesh, "scale", {1.0, 1.0, 1.0}, whose);
         transform<3> scale;
         for (std::size_t k = 0; k < 3; ++k) scale.rows[k][k] = s[k];
-        robot_.meshes.push_back({link, mesh_file_of(mesh.attribute("filename").value(), whose),
-                                 after(origin_of(node, whose), scale)});
+        robot_.meshes.push_back({link,
+                                 mesh_file_of(mesh.attribute("filename").value(), whose),
+                                 after(origin_of(node, whose), scale),
+                                 {}});
+    }
+
+    [[nodiscard]] double length(pugi::xml_node node, const char* attribute,
+                                const std::string& whose) const {
+        const double value = numbers<1>(node, attribute, {0.0}, whose)[0];
+        if (!(value > 0.0)) fail(whose + ": " + attribute + " is missing, or not above 0");
+        return value;
+    }
+
+    void make_shape(pugi::xml_node node, pugi::xml_node shape, std::uint32_t link,
+                    const std::string& whose) {
+        const std::string kind = shape.name(), of = whose + ": a " + kind;
+        mesh made;
+        if (kind == "box") {
+            const auto size = numbers<3>(shape, "size", {}, of);
+            if (!(std::min({size[0], size[1], size[2]}) > 0.0))
+                fail(of + ": size is missing, or not above 0");
+            made = detail::io::box_shape(size);
+        } else if (kind == "cylinder") {
+            made = detail::io::cylinder_shape(length(shape, "radius", of),
+                                              length(shape, "length", of));
+        } else if (kind == "sphere") {
+            made = detail::io::sphere_shape(length(shape, "radius", of));
+        } else {
+            robot_.skipped.push_back(
+                whose + ": " + (kind.empty() ? "empty geometry" : "a " + kind) + " is not read");
+            return;
+        }
+        if (!detail::base::all_finite(made.points)) fail(of + ": is too large");
+        if (kind != "box")
+            robot_.approximated.push_back(of + " is " + std::to_string(made.faces.size()) +
+                                          " triangles around it");
+        robot_.meshes.push_back({link, {}, origin_of(node, whose), std::move(made)});
     }
 
     [[nodiscard]] std::filesystem::path mesh_file_of(const std::string& name,

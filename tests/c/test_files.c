@@ -188,7 +188,8 @@ static void test_folders(void) {
 static void test_robots(void) {
     static const char urdf[] =
         "<robot name=\"arm\"><link name=\"base\"/><link name=\"hand\"><collision><geometry>"
-        "<mesh filename=\"hand.stl\"/></geometry></collision></link><joint name=\"turn\" "
+        "<mesh filename=\"hand.stl\"/></geometry></collision><collision><geometry>"
+        "<box size=\"1 2 3\"/></geometry></collision></link><joint name=\"turn\" "
         "type=\"revolute\"><parent link=\"base\"/><child link=\"hand\"/><axis xyz=\"0 0 1\"/>"
         "<limit lower=\"-1\" upper=\"2\"/></joint></robot>";
     const char* const joints[1] = {"turn"};
@@ -207,8 +208,11 @@ static void test_robots(void) {
     OK(treeform_robot_look(robot, &view));
     CHECK(is(view->name, "arm") && view->link_count == 2 && is(view->links[1], "hand"));
     CHECK(view->joint_count == 1 && view->joints[0].kind == 1 && view->joints[0].upper == 2.0);
-    CHECK(view->mesh_count == 1 && view->meshes[0].link == 1 && view->meshes[0].place[0] == 1.0);
+    CHECK(view->mesh_count == 2 && view->meshes[0].link == 1 && view->meshes[0].place[0] == 1.0);
     CHECK(strstr(view->meshes[0].file, "hand.stl") != NULL && view->adjacent_count == 1);
+    CHECK(view->meshes[0].face_count == 0 && is(view->meshes[1].file, ""));
+    CHECK(view->meshes[1].point_count == 8 && view->meshes[1].face_count == 12);
+    CHECK(view->meshes[1].points[2] == -1.5 && view->meshes[1].faces[35] == 5);
     treeform_free(view);
     OK(treeform_link_transforms(robot, joints, &quarter, 1, places));
     CHECK(places[0] == 1.0 && near(places[12], 0.0) && near(places[13], -1.0));

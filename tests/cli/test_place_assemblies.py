@@ -140,6 +140,21 @@ class Assemblies(PlaceTest):
         self.assertEqual(self.run_tool("check", "robot.urdf", "--poses", "angles.jsonl", "--ignore",
                                        "base:tip").status, 0)
 
+    def test_check_of_a_robot_of_boxes_and_spheres(self):
+        shapes = {"base": "<box size='2 2 2'/>", "arm": "<cylinder radius='0.2' length='4'/>",
+                  "tip": "<sphere radius='0.5'/>"}
+        links = "".join(f"<link name='{name}'><collision><geometry>{shape}</geometry></collision>"
+                        "</link>" for name, shape in shapes.items())
+        self.put("robot.urdf", f"<robot name='r'>{links}"
+                 "<joint name='lift' type='prismatic'><parent link='base'/><child link='arm'/>"
+                 "<axis xyz='0 0 1'/></joint>"
+                 "<joint name='slide' type='prismatic'><parent link='arm'/><child link='tip'/>"
+                 "<axis xyz='0 0 1'/></joint></robot>")
+        self.put("angles.jsonl", '{"slide": 1.5}\n{"slide": 1.4999}\n{"slide": 1.501}\n')
+        entry = self.entry("check", "robot.urdf", "--poses", "angles.jsonl", status=1)
+        self.assertEqual([one["pose"] for one in entry["poses"]["list"]], [0, 1])
+        self.assertEqual([one["code"] for one in entry["warnings"]], ["approximated"] * 2)
+
     def test_check_says_what_is_wrong_with_poses(self):
         self.robot()
         for text, words in (('{"bend": "x"}\n', "poses.jsonl:1: the value of joint bend is no number"),

@@ -163,6 +163,20 @@ std::vector<std::array<std::string, 3>> odd_files() {
                    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
                    "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
                    "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 3 2 1\n"});
+    all.push_back(
+        {"read_urdf", "arm",
+         "<?xml version=\"1.0\"?>\n<robot name=\"r\"><link name=\"a\"><collision><origin "
+         "xyz=\"0 0 1\" rpy=\"0.1 0 -3\"/><geometry><box size=\"1 2 .5\"/></geometry></collision>"
+         "</link><link name=\"b\"><collision><geometry><cylinder radius=\"0.1\" length=\"2e-1\"/>"
+         "</geometry></collision><collision><geometry><sphere radius=\"3\"/></geometry></collision>"
+         "</link><link name=\"c\"/><joint name=\"i\" type=\"revolute\"><parent link=\"a\"/>"
+         "<child link=\"b\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\"/></joint>"
+         "<joint name=\"j\" type=\"prismatic\"><parent link=\"b\"/><child link=\"c\"/>"
+         "<mimic joint=\"i\" multiplier=\"2\" offset=\"1\"/></joint></robot>\n"});
+    all.push_back({"read_urdf", "mesh",
+                   "<robot name=\"r\"><link name=\"a\"><visual><geometry><mesh "
+                   "filename=\"package://a/b.stl\" scale=\"1 1 -1\"/></geometry></visual></link>"
+                   "</robot>"});
     return all;
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 
 std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
-    static constexpr std::array<tool_command, 9> all{{
+    static constexpr std::array<tool_command, 11> all{{
         {"drop @in -o @out.ply --matrix @matrix.txt"},
         {"drop @in --fixed @other -o @out.stl --precision float -r @report.json"},
         {"lay @in -o @out.obj"},
@@ -14,6 +14,8 @@ std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
         {"arrange @in @other -o @out.ply --size 100,100 --html @page.html"},
         {"fit @in --fixed @other -o @out.xyz --matrix @matrix.txt"},
         {"measure @in --fixed @other --html @page.html -r @report.json"},
+        {"clash @in @other -o @out.ply -r @report.json"},
+        {"check @other --poses @in --results @results.jsonl -r @report.json"},
     }};
     return all;
 }

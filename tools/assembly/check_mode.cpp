@@ -28,8 +28,16 @@ struct movable {
 /// The meshes of a link, in its frame, as one.
 void add_link(job& work, const tf::urdf_robot& robot, std::uint32_t link, movable& all) {
     tf::mesh joined;
+    const auto add = [&](tf::mesh_view mesh, const tf::transform<3>& place) {
+        const auto first = static_cast<std::uint32_t>(joined.points.size());
+        for (const tf::point3& p : mesh.points) joined.points.push_back(place(p));
+        for (const auto& [a, b, c] : mesh.faces)
+            joined.faces.push_back({first + a, first + b, first + c});
+    };
     for (const tf::urdf_mesh& one : robot.meshes) {
         if (one.link != link) continue;
+        add(one.shape, one.place);
+        if (one.file.empty()) continue;
         json about{{"input", one.file.string()}};
         tf::body_set set;
         const tf::body_file& file = set.add(work.read(one.file.string(), about), one.file.string());
@@ -38,12 +46,7 @@ void add_link(job& work, const tf::urdf_robot& robot, std::uint32_t link, movabl
         json& left_out = work.entry["skipped"]["non_finite"];
         left_out = left_out.get<std::uint64_t>() + file.left_out;
         work.entry["inputs"].push_back(std::move(about));
-        if (set.shapes.empty()) continue;
-        const auto first = static_cast<std::uint32_t>(joined.points.size());
-        for (const tf::point3& p : set.shapes[0].view().points)
-            joined.points.push_back(one.place(p));
-        for (const auto& [a, b, c] : set.shapes[0].view().faces)
-            joined.faces.push_back({first + a, first + b, first + c});
+        if (!set.shapes.empty()) add(set.shapes[0].view(), one.place);
     }
     if (joined.faces.empty()) return;
     all.links.push_back(link);
@@ -62,6 +65,7 @@ movable read_robot(job& work, const assembly_settings& settings) {
                                     {"sha256", nullptr},
                                     {"precision_in", nullptr},
                                     {"faces", nullptr}});
+    for (const std::string& text : all.robot->approximated) work.warn("approximated", text);
     for (const std::string& text : all.robot->skipped) work.warn("no-mesh", text);
     for (std::uint32_t link = 0; link < all.robot->links.size(); ++link)
         add_link(work, *all.robot, link, all);

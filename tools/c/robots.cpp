@@ -64,6 +64,10 @@ treeform_code treeform_robot_look(const treeform_robot* robot, treeform_robot_vi
             mesh.link = one.link;
             mesh.file = made->keep(one.file.string()).c_str();
             glue::copy(one.place, mesh.place);
+            mesh.points = one.shape.points.empty() ? nullptr : &one.shape.points[0].x;
+            mesh.point_count = one.shape.points.size();
+            mesh.faces = one.shape.faces.empty() ? nullptr : one.shape.faces[0].data();
+            mesh.face_count = one.shape.faces.size();
         }
         v.meshes = made->keep(std::move(meshes)).data();
         v.mesh_count = from.meshes.size();

@@ -1,5 +1,8 @@
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
+#include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -145,10 +148,58 @@ TEST_CASE("urdf: meshes are found beside the file, in packages, and where it is 
     options.package_folders = {folder.path() / "arm"};
     CHECK(tf::read_urdf(away, options).meshes.size() == 1);
     const auto r = tf::read_urdf(folder.write(with(
-        "meshes/a.stl", "<collision><geometry><sphere radius=\"1\"/></geometry></collision>")));
-    CHECK(r.skipped == std::vector<std::string>{"link a: a sphere is no mesh"});
+        "meshes/a.stl", "<collision><geometry><capsule radius=\"1\"/></geometry></collision>")));
+    CHECK(r.skipped == std::vector<std::string>{"link a: a capsule is not read"});
     options.visual = true;
     CHECK(tf::read_urdf(folder.write(with("meshes/a.stl")), options).meshes.empty());
+}
+
+TEST_CASE("urdf: boxes are exact, cylinders and spheres are closed meshes around them") {
+    const scratch folder;
+    const auto link = [](const std::string& shape) {
+        return robot("<link name=\"a\"><collision><origin xyz=\"0 0 1\"/><geometry>" + shape +
+                     "</geometry></collision></link>");
+    };
+    const auto made = [&](const std::string& shape) {
+        auto r = tf::read_urdf(folder.write(link(shape)));
+        REQUIRE(r.meshes.size() == 1);
+        CHECK(r.meshes[0].file.empty());
+        CHECK(r.skipped.empty());
+        CHECK(r.meshes[0].place(tf::point3{}) == tf::point3{0, 0, 1});
+        CHECK(r.approximated.size() == (shape.starts_with("<box") ? 0U : 1U));
+        tf::mesh mesh = std::move(r.meshes[0].shape);
+        CHECK_FALSE(tf::find_solid_defects(mesh).any());
+        return mesh;
+    };
+    const tf::mesh box = made("<box size=\"1 2 0.5\"/>");
+    CHECK(tf::signed_volume(box) == 1.0);
+
+    const double radius = 0.3, length = 0.7;
+    const tf::mesh cylinder = made("<cylinder radius=\"0.3\" length=\"0.7\"/>");
+    const double true_volume = std::numbers::pi * radius * radius * length;
+    CHECK(tf::signed_volume(cylinder) > true_volume);
+    CHECK(tf::signed_volume(cylinder) < true_volume * 1.0011);
+    for (const tf::face& f : cylinder.faces)  // middles of edges are out of the cylinder
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto &p = cylinder.points[f[i]], &q = cylinder.points[f[(i + 1) % 3]];
+            if (p.z != q.z || f[i] % 96 == 0 || f[(i + 1) % 3] % 96 == 0) continue;
+            CHECK(std::hypot(p.x, p.y) < radius * 1.00054);
+            if (std::abs(static_cast<int>(f[i]) - static_cast<int>(f[(i + 1) % 3])) == 1)
+                CHECK(std::hypot((p.x + q.x) / 2, (p.y + q.y) / 2) >= radius);
+        }
+
+    const tf::mesh sphere = made("<sphere radius=\"0.3\"/>");
+    CHECK(sphere.faces.size() == 5120);
+    for (const tf::point3& p : sphere.points) CHECK(std::hypot(p.x, p.y, p.z) < radius * 1.0013);
+    CHECK(tf::closest_point(sphere, tf::point3{})->distance >= radius);
+
+    for (const std::string wrong :
+         {"<box size=\"1 2\"/>", "<box size=\"1 2 0\"/>", "<box/>", "<sphere/>",
+          "<sphere radius=\"-1\"/>", "<cylinder radius=\"1\"/>", "<sphere radius=\"nan\"/>",
+          "<sphere radius=\"1.797e308\"/>"}) {
+        CAPTURE(wrong);
+        CHECK(refusal(link(wrong)).starts_with("link a: a "));
+    }
 }
 
 TEST_CASE("urdf: links are adjacent across links without meshes") {

@@ -300,11 +300,16 @@ TREEFORM_C_API treeform_code treeform_read_urdf(const char* path,
                                                 const treeform_robot_options* options,
                                                 treeform_robot** robot);
 
-/// A mesh of a link: `place` takes its points into the link's frame.
+/// A mesh of a link, in a file, or made of a box, cylinder or sphere: `place` takes its points into
+/// the link's frame.
 typedef struct treeform_robot_mesh {
     uint32_t link;
-    const char* file;
+    const char* file;  ///< "" where it was made
     double place[12];
+    const double* points;  ///< [point_count][3] as made
+    size_t point_count;
+    const uint32_t* faces;  ///< [face_count][3]
+    size_t face_count;
 } treeform_robot_mesh;
 
 /// A joint.
