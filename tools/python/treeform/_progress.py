@@ -9,11 +9,8 @@ from typing import Any, Callable, Optional, Union
 Progress = Optional[Union[Callable[[float], Any], Any]]
 
 
-def watched(progress: Progress) -> Callable[[float], Any] | None:
-    """`progress` as a function."""
-    if progress is None or not hasattr(progress, "update"):
-        return progress
-    bar: Any = progress
+def of_bar(bar: Any) -> Callable[[float], None]:
+    """A bar of tqdm as a function; jobs take it for what has `update`."""
     total = bar.total or 1
 
     def update(share: float) -> None:
