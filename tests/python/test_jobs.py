@@ -105,6 +105,12 @@ def test_all_work_tells_its_progress(verb):
         verb(lambda share: False)
 
 
+def test_progress_of_work_in_pieces_goes_up_once():
+    told = []
+    tf.PointTree(CUBE.vertices).query_ball_point(CUBE.vertices, range(8), progress=told.append)
+    assert told == sorted(told) and told[0] == 0 and told[-1] == 1
+
+
 def test_progress_may_stop_the_work():
     with pytest.raises(tf.Cancelled):
         tf.union(*CROWD, progress=lambda share: False)

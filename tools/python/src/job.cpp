@@ -282,8 +282,8 @@ std::size_t elements_of(py::handle argument) {
     return sum;
 }
 
-py::object call(const py::object& function, const py::args& arguments, const py::object& progress,
-                bool long_work) {
+py::object run_job(const py::object& function, const py::args& arguments,
+                   const py::object& progress, bool long_work) {
     if (ender.load() == std::this_thread::get_id()) return function(*arguments);
     if (progress.is_none() && !long_work && elements_of(arguments) < little)
         return function(*arguments);
@@ -291,6 +291,17 @@ py::object call(const py::object& function, const py::args& arguments, const py:
     mine->function = function;
     mine->arguments = arguments;
     return watch(mine, progress).result();
+}
+
+py::object call(const py::object& function, const py::args& arguments, const py::object& progress,
+                bool long_work) {
+    try {
+        return run_job(function, arguments, progress, long_work);
+    } catch (const py::error_already_set& error) {
+        if (error.matches(PyExc_TypeError))
+            py::module_::import("treeform._errors").attr("name_argument")(error.value());
+        throw;
+    }
 }
 
 }  // namespace

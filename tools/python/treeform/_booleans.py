@@ -55,7 +55,7 @@ def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: st
              volumes: bool, max_displacement: float, check: bool,
              progress: Progress) -> BooleanResult:
     return _result(_core.boolean(_operands(meshes), operation, "", [],
-                                 _arrays.word(inside, "inside"), precision, simplify,
+                                 inside, precision, simplify,
                                  volumes, max_displacement, progress=progress), check)
 
 
@@ -149,7 +149,7 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     names = list(meshes)
     held_meshes = [held(mesh) for mesh in meshes.values()]
     return _result(_core.boolean(held_meshes, "", expression, names,
-                                 _arrays.word(inside, "inside"), precision, simplify, volumes,
+                                 inside, precision, simplify, volumes,
                                  max_displacement, progress=progress), check)
 
 

@@ -150,10 +150,6 @@ def _rays(origins: ArrayLike, directions: ArrayLike) -> tuple[Floats, Floats]:
     return start, along
 
 
-def _range(t_min: float, t_max: float) -> tuple[float, float]:
-    return _arrays.number(t_min, "t_min"), _arrays.number(t_max, "t_max")
-
-
 def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
             t_max: float = np.inf, progress: Progress = None) -> RayHits:
     """The face that each ray hits first. `origins` and `directions` (of any length) are (n, 3).
@@ -161,14 +157,15 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
     Which face a ray hits, on which corner, edge or interior, is exact; only t is rounded. Of faces
     at one point, the lowest number. Faces include their edges and are hit from both sides.
 
-    Raises ValueError naming the ray or face.
+    Raises ValueError naming the ray or face; so it does where a direction is so short that t is no
+    number of float64.
 
     >>> import treeform
     >>> hits = treeform.raycast(treeform.read("data/cube.stl"), [[0.5, 0.25, 3]], [[0, 0, -1]])
     >>> hits.t.tolist(), hits.at.tolist()
     ([2.0], [6])
     """
-    return RayHits(*_core.raycast(held(mesh), *_rays(origins, directions), *_range(t_min, t_max),
+    return RayHits(*_core.raycast(held(mesh), *_rays(origins, directions), t_min, t_max,
                                   progress=progress))
 
 
@@ -198,7 +195,7 @@ def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     [[0.5, 0.25, 1.0], [0.5, 0.25, 0.0]]
     """
     start, along = _rays(origins, directions)
-    t, ray, face = _core.raycast_all(held(mesh), start, along, *_range(t_min, t_max),
+    t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max,
                                     progress=progress)
     return AllRayHits(start[ray] + t[:, None] * along[ray], ray, face)
 
@@ -212,7 +209,7 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     >>> treeform.raycast_any(cube, [[0.5, 0.5, 3], [5, 5, 5]], [[0, 0, -1], [0, 0, -1]])
     array([ True, False])
     """
-    return _core.raycast_any(held(mesh), *_rays(origins, directions), *_range(t_min, t_max),
+    return _core.raycast_any(held(mesh), *_rays(origins, directions), t_min, t_max,
                              progress=progress).view(np.bool_)
 
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats
-from ._progress import Progress
+from ._progress import Progress, part
 from ._results import tuple_repr
 
 Numbers = NDArray[np.int64]
@@ -136,7 +136,8 @@ class PointTree:
                          workers: int = -1, return_sorted: bool | None = None,
                          return_length: bool = False, *, progress: Progress = None) -> Any:
         """The numbers of all points within `r` of each query, inclusive, ascending: a list, or an
-        array of lists for many queries, each with its own `r` if that is an array; with `return_length`, how many they are.
+        array of lists for many queries, each with its own `r` if that is an array; with
+        `return_length`, how many they are.
 
         `query_ball` has the same in arrays, and much faster.
 
@@ -150,10 +151,11 @@ class PointTree:
         queries, shape = self._queries(x)
         radii = np.broadcast_to(_arrays.floats(r, "r"), shape).ravel()
         lists: list[Any] = [[]] * len(queries)
-        for radius in np.unique(radii):
+        different = np.unique(radii)
+        for piece, radius in enumerate(different):
             at = np.flatnonzero(radii == radius)
             begin, ids, _ = self._cloud.query_ball(queries[at], float(radius), True,
-                                                   progress=progress)
+                                                   progress=part(progress, piece, len(different)))
             found = np.diff(begin).tolist() if return_length else _core.lists(begin, ids)
             for i, one in zip(at.tolist(), found):
                 lists[i] = one
