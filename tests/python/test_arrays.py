@@ -192,6 +192,15 @@ V, F = CUBE.vertices, CUBE.faces
     (lambda: tf.write("a\0b.ply", CUBE), "path: .* has a zero in it"),
     (lambda: tf.read("a\0b.ply"), "path: .* has a zero in it"),
     (lambda: tf.raycast(CUBE, V, V + 1, t_min="a"), "t_min: a number is needed, not 'a'"),
+    (lambda: tf.closest_point(CUBE, V, radius="a"), "radius: a number is needed, not 'a'"),
+    (lambda: tf.PointTree(V).query_pairs("a"), "r: a number is needed, not 'a'"),
+    (lambda: tf.self_intersections(CUBE, limit=-1), "limit: a whole number, not negative, is needed"),
+    (lambda: tf.repair(CUBE, gap="a"), "gap: a number is needed, not 'a'"),
+    (lambda: tf.union(CUBE, simplify="a"), "simplify: True or False is needed, not 'a'"),
+    (lambda: tf.union(CUBE, precision=3), "precision: a word is needed, not 3"),
+    (lambda: tf.deviation(CUBE, CUBE, band=3), "band: a pair of numbers is needed, not 3"),
+    (lambda: tf.raycast(CUBE, V + 3, V * 0 - 5e-324), "directions: that of ray 0 is too short"),
+    (lambda: tf.raycast_all(CUBE, V + 3, V * 0 - 5e-324), "directions: that of ray 0 is too short"),
     (lambda: tf.boolean("a-inside", a=CUBE, inside=CUBE), "inside: a word is needed, not Mesh"),
     (lambda: tf.PointTree(V).query_ball_point(V, [1, 2]), "broadcast")])
 def test_options_that_make_no_sense_are_named(verb, message):

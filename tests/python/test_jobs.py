@@ -87,6 +87,30 @@ def test_a_bar_of_tqdm_will_do():
         assert bar.n == pytest.approx(1)
 
 
+@pytest.mark.parametrize("verb", [
+    lambda p: tf.closest_points(CUBE, SPHERES, progress=p),
+    lambda p: tf.find_features(CUBE, progress=p), lambda p: tf.find_defects(CUBE, progress=p),
+    lambda p: tf.count_topology(CUBE, progress=p), lambda p: tf.face_components(CUBE, progress=p),
+    lambda p: tf.faces_in_box(CUBE, [0] * 3, [1] * 3, progress=p),
+    lambda p: tf.intersection_curves(SPHERES, tf.self_intersections(SPHERES), progress=p),
+    lambda p: tf.intersection_regions(SPHERES, tf.self_intersections(SPHERES), progress=p),
+    lambda p: tf.join_equal_points(CUBE, progress=p),
+    lambda p: tf.rounded(CUBE.vertices, progress=p),
+    lambda p: tf.count_nearly_equal(CUBE.vertices, 0.5, progress=p)])
+def test_all_work_tells_its_progress(verb):
+    told = []
+    verb(told.append)
+    assert told[0] == 0 and told[-1] == 1
+    with pytest.raises(tf.Cancelled):
+        verb(lambda share: False)
+
+
+def test_progress_of_work_in_pieces_goes_up_once():
+    told = []
+    tf.PointTree(CUBE.vertices).query_ball_point(CUBE.vertices, range(8), progress=told.append)
+    assert told == sorted(told) and told[0] == 0 and told[-1] == 1
+
+
 def test_progress_may_stop_the_work():
     with pytest.raises(tf.Cancelled):
         tf.union(*CROWD, progress=lambda share: False)
@@ -141,7 +165,9 @@ def test_what_progress_raises_comes_through():
     "tf.union(*crowd)", "tf.self_intersections(soup)", "tf.wrap(crowd[0], 0.002)",
     "tf.repair(soup, max_loss=1, check=False)", "tf.weld(cloud, 0.05, rule='chain')",
     "tf.PointTree(cloud).query_pairs(0.05, output_type='ndarray')",
-    "tf.closest_point(crowd[0], far)"])
+    "tf.closest_point(crowd[0], far)", "boxes.pairs()", "boxes.pairs(boxes)",
+    "boxes.query([[0] * 3] * 3000, [[1] * 3] * 3000)", "same.query_ball([0] * 3, 1)",
+    "same.query_ball_point([0] * 3, 1)", "same.query([0] * 3, 10_000_000)"])
 def test_ctrl_c_stops_the_work(verb):
     """The work would take many seconds; the process sends itself the signal soon after it has begun.
     A job that does not notice is left alone, and the next one runs beside it."""
@@ -156,6 +182,10 @@ crowd = [(ball.vertices + c, ball.faces) for c in np.random.default_rng(1).rando
 soup = (np.random.default_rng(2).random((60_000, 3)), np.arange(60_000).reshape(-1, 3))
 cloud = np.random.default_rng(3).random((1_000_000, 3))
 far = np.random.default_rng(4).random((3_000_000, 3)) * 50
+if "boxes" in {verb!r}:
+    boxes = tf.BoxTree(np.zeros((30_000, 3)), np.ones((30_000, 3)))
+if "same" in {verb!r}:
+    same = tf.PointTree(cloud[:1] + np.zeros((4_000_000, 3)) * cloud[0])
 threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
 try:
     {verb}

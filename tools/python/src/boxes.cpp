@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -42,8 +43,9 @@ class boxes {
     /// [n][2] the pairs of boxes that overlap, ascending.
     py::array pairs() const {
         return as_pairs(run([&](const tf::progress_callback&) {
+            const std::atomic<bool>* const stop = stop_of_job();
             return tf::search_self_all(tree_, [&](std::uint32_t a, std::uint32_t b) {
-                return tf::overlaps(boxes_[a], boxes_[b]);
+                return (stop == nullptr || !*stop) && tf::overlaps(boxes_[a], boxes_[b]);
             });
         }));
     }
@@ -51,8 +53,9 @@ class boxes {
     /// [n][2] the pairs of a box of this and a box of the other that overlap, ascending.
     py::array pairs_with(const boxes& other) const {
         return as_pairs(run([&](const tf::progress_callback&) {
+            const std::atomic<bool>* const stop = stop_of_job();
             return tf::search_all(tree_, other.tree_, [&](std::uint32_t a, std::uint32_t b) {
-                return tf::overlaps(boxes_[a], other.boxes_[b]);
+                return (stop == nullptr || !*stop) && tf::overlaps(boxes_[a], other.boxes_[b]);
             });
         }));
     }
@@ -60,20 +63,20 @@ class boxes {
     /// The boxes that overlap each query: where its list begins, and numbers, ascending.
     py::tuple query(const array_of<double>& mins, const array_of<double>& maxs) const {
         const std::vector<box> all = boxes_of(mins, maxs);
-        std::vector<std::vector<std::uint32_t>> found(all.size());
+        std::vector<id> begins{0}, ids;
         run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
-            tf::for_chunks(end - begin, 64, [&](std::size_t from, std::size_t to, std::size_t) {
-                for (std::size_t q = begin + from; q < begin + to; ++q)
-                    found[q] = tf::search_all(tree_, all[q], [&](std::uint32_t i) {
-                        return tf::overlaps(boxes_[i], all[q]);
+            std::vector<std::vector<std::uint32_t>> found(end - begin);
+            tf::for_chunks(found.size(), 64, [&](std::size_t from, std::size_t to, std::size_t) {
+                for (std::size_t q = from; q < to; ++q)
+                    found[q] = tf::search_all(tree_, all[begin + q], [&](std::uint32_t i) {
+                        return tf::overlaps(boxes_[i], all[begin + q]);
                     });
             });
+            for (const auto& one : found) {
+                ids.insert(ids.end(), one.begin(), one.end());
+                begins.push_back(static_cast<id>(ids.size()));
+            }
         });
-        std::vector<id> begins{0}, ids;
-        for (const auto& one : found) {
-            ids.insert(ids.end(), one.begin(), one.end());
-            begins.push_back(static_cast<id>(ids.size()));
-        }
         return py::make_tuple(as_array<id>(std::move(begins)), as_array<id>(std::move(ids)));
     }
 

@@ -128,8 +128,10 @@ py::list lists(const array_of<id>& begins, const array_of<id>& ids) {
     py::list made(begin.size() - 1);
     for (std::size_t q = 0; q + 1 < begin.size(); ++q) {
         py::list one(static_cast<std::size_t>(begin[q + 1] - begin[q]));
-        for (std::size_t i = 0; i < one.size(); ++i)
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            if (i % 65536 == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
             one[i] = py::int_(all[static_cast<std::size_t>(begin[q]) + i]);
+        }
         made[q] = std::move(one);
     }
     return made;

@@ -268,19 +268,22 @@ class watch {
     std::exception_ptr why_;
 };
 
-/// How much there is to do: numbers in arrays, elements of meshes.
+/// How much there is to do: numbers in arrays, elements of meshes, of trees that are asked.
 std::size_t elements_of(py::handle argument) {
     if (py::isinstance<py::array>(argument))
         return static_cast<std::size_t>(py::reinterpret_borrow<py::array>(argument).size());
     if (py::isinstance<held_mesh>(argument)) return argument.cast<const held_mesh&>().size();
+    const PySequenceMethods* const methods = Py_TYPE(argument.ptr())->tp_as_sequence;
     std::size_t sum = 0;
     if (py::isinstance<py::list>(argument) || py::isinstance<py::tuple>(argument))
         for (const py::handle one : argument) sum += elements_of(one);
+    else if (methods != nullptr && methods->sq_length != nullptr)
+        sum = py::len(argument);
     return sum;
 }
 
-py::object call(const py::object& function, const py::args& arguments, const py::object& progress,
-                bool long_work) {
+py::object run_job(const py::object& function, const py::args& arguments,
+                   const py::object& progress, bool long_work) {
     if (ender.load() == std::this_thread::get_id()) return function(*arguments);
     if (progress.is_none() && !long_work && elements_of(arguments) < little)
         return function(*arguments);
@@ -290,13 +293,26 @@ py::object call(const py::object& function, const py::args& arguments, const py:
     return watch(mine, progress).result();
 }
 
+py::object call(const py::object& function, const py::args& arguments, const py::object& progress,
+                bool long_work) {
+    try {
+        return run_job(function, arguments, progress, long_work);
+    } catch (const py::error_already_set& error) {
+        if (error.matches(PyExc_TypeError))
+            py::module_::import("treeform._errors").attr("name_argument")(error.value());
+        throw;
+    }
+}
+
 }  // namespace
 
 void make_job(const py::object& scope, const char* name, bool long_work) {
     const py::object function = scope.attr(name);
     const auto job_of = [=](const py::args& arguments, const py::kwargs& named) {
-        const py::object progress =
+        py::object progress =
             named.contains("progress") ? py::object(named["progress"]) : py::none();
+        if (py::hasattr(progress, "update"))
+            progress = py::module_::import("treeform._progress").attr("of_bar")(progress);
         return call(function, arguments, progress, long_work);
     };
     if (py::isinstance<py::module_>(scope))

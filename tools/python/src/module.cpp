@@ -96,6 +96,7 @@ void make_jobs(py::module_& module) {
                              "convex_hull",
                              "find_rounding_defects",
                              "join_equal_points",
+                             "rounded",
                              "weld_mesh",
                              "weld_cloud",
                              "count_nearly_equal",

@@ -166,7 +166,9 @@ py::dict convex_hull(const points_array& points) {
 }
 
 py::array rounded(const points_array& points, const std::string& precision) {
-    return as_array(tf::rounded(points_of(points), precision_of(precision)));
+    const tf::precision to = precision_of(precision);
+    return as_array(
+        run([&](const tf::progress_callback&) { return tf::rounded(points_of(points), to); }));
 }
 
 py::tuple find_rounding_defects(const held_mesh& mesh, const points_array& placed) {

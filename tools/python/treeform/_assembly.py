@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._mesh import MeshLike, held, held_body
-from ._progress import Progress, watched
+from ._progress import Progress
 from ._results import Result, tuple_repr
 
 #: How two parts lie to each other; a number in `PoseClashes.how` is a place in this list.
@@ -56,7 +56,7 @@ def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     array([ True, False])
     """
     found = _core.intersects(held(a), held(b), _poses(move_a, "move_a"), _poses(move_b, "move_b"),
-                             progress=watched(progress)).view(np.bool_)
+                             progress=progress).view(np.bool_)
     return bool(found[0]) if _one(move_a, move_b) else found
 
 
@@ -73,7 +73,7 @@ def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     0.5
     """
     found = _core.distance(held(a), held(b), _poses(move_a, "move_a"), _poses(move_b, "move_b"),
-                           radius, progress=watched(progress))
+                           radius, progress=progress)
     return float(found[0]) if _one(move_a, move_b) else found
 
 
@@ -94,7 +94,7 @@ class NearestPoints(NamedTuple):
 
 def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
                    move_b: ArrayLike | None = None,
-                   radius: float = np.inf) -> NearestPoints | None:
+                   radius: float = np.inf, progress: Progress = None) -> NearestPoints | None:
     """The nearest points of the surfaces; None where one has no faces, or beyond `radius`.
 
     >>> import treeform
@@ -103,7 +103,7 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     2.0
     """
     found = _core.closest_points(held(a), held(b), _arrays.matrix(move_a, "move_a"),
-                                 _arrays.matrix(move_b, "move_b"), radius)
+                                 _arrays.matrix(move_b, "move_b"), radius, progress=progress)
     return None if found is None else NearestPoints(*found)
 
 
@@ -173,7 +173,7 @@ def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *
     [(0, 1, 'penetrating', 0.125)]
     """
     made = _core.clash([held_body(part) for part in parts], clearance, volumes, depths, limit,
-                       _pairs(ignored), vertices, progress=watched(progress))
+                       _pairs(ignored), vertices, progress=progress)
     made["pairs"] = [PartClash(**one) for one in made["pairs"]]
     return ClashResult(**made)
 
@@ -232,4 +232,4 @@ def check_poses(parts: Iterable[Union[MeshLike, ArrayLike]], poses: ArrayLike,
         raise ValueError(f"poses: the shape is {array.shape}, not (n, {len(bodies)}, 4, 4)")
     return PoseClashes(**_core.check_poses(bodies, _poses(array.reshape(-1, 4, 4), "poses"),
                                            clearance, first_only, _pairs(ignored), vertices,
-                                           progress=watched(progress)))
+                                           progress=progress))

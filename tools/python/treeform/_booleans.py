@@ -12,7 +12,7 @@ from ._arrays import Floats, Ids
 from ._core import Certificate
 from ._errors import require
 from ._mesh import Mesh, MeshLike, MeshResult, held
-from ._progress import Progress, watched
+from ._progress import Progress
 
 
 @dataclass(frozen=True, repr=False)
@@ -55,8 +55,8 @@ def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: st
              volumes: bool, max_displacement: float, check: bool,
              progress: Progress) -> BooleanResult:
     return _result(_core.boolean(_operands(meshes), operation, "", [],
-                                 _arrays.word(inside, "inside"), precision, simplify,
-                                 volumes, max_displacement, progress=watched(progress)), check)
+                                 inside, precision, simplify,
+                                 volumes, max_displacement, progress=progress), check)
 
 
 def union(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
@@ -149,8 +149,8 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     names = list(meshes)
     held_meshes = [held(mesh) for mesh in meshes.values()]
     return _result(_core.boolean(held_meshes, "", expression, names,
-                                 _arrays.word(inside, "inside"), precision, simplify, volumes,
-                                 max_displacement, progress=watched(progress)), check)
+                                 inside, precision, simplify, volumes,
+                                 max_displacement, progress=progress), check)
 
 
 def clip(sheet: MeshLike, *solids: MeshLike, keep: str = "outside", inside: str = "nonzero",
@@ -173,7 +173,7 @@ def clip(sheet: MeshLike, *solids: MeshLike, keep: str = "outside", inside: str 
         raise ValueError(f"keep: {keep!r} is neither 'outside' nor 'inside'")
     operation = "difference" if keep == "outside" else "intersection"
     return _result(_core.clip([held(sheet), *map(held, solids)], 0, operation, "", [], inside,
-                              precision, max_displacement, progress=watched(progress)), check)
+                              precision, max_displacement, progress=progress), check)
 
 
 def split(*meshes: MeshLike, precision: str = "float64", max_displacement: float = np.inf,
@@ -186,7 +186,7 @@ def split(*meshes: MeshLike, precision: str = "float64", max_displacement: float
     >>> treeform.split(a, (a.vertices + 0.5, a.faces)).certificate
     Certificate(ok)
     """
-    return _result(_core.split(_operands(meshes), precision, max_displacement, progress=watched(progress)),
+    return _result(_core.split(_operands(meshes), precision, max_displacement, progress=progress),
                    check)
 
 
@@ -200,4 +200,4 @@ def check_solid(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
     >>> treeform.check_solid(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])).open_count
     3
     """
-    return _core.check_solid(held(mesh), progress=watched(progress))
+    return _core.check_solid(held(mesh), progress=progress)

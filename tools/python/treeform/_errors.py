@@ -3,6 +3,11 @@ not enough is a MemoryError."""
 
 from __future__ import annotations
 
+import sys
+from numbers import Real
+from types import FrameType
+from typing import Any, Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -66,3 +71,32 @@ def require(certificate: Certificate, *also: str) -> None:
     if certificate.status == "open_input":
         raise NotSolidError(certificate)
     raise NotCertifiedError(certificate)
+
+
+#: What annotations ask for, and how that is said.
+_KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "float": (lambda value: isinstance(value, Real), "a number"),
+    "int": (lambda value: isinstance(value, (int, np.integer)) and value >= 0,
+            "a whole number, not negative,"),
+    "bool": (lambda value: isinstance(value, (bool, np.bool_)), "True or False"),
+    "str": (lambda value: isinstance(value, str), "a word"),
+    "tuple[float, float]": (lambda value: np.shape(value) == (2,), "a pair of numbers"),
+}
+
+
+def name_argument(error: TypeError) -> None:
+    """Raises ValueError that names an argument which is not what its function's annotation asks for,
+    where the extension has refused those it was called with."""
+    frame: FrameType | None = sys._getframe(1)
+    if "incompatible function arguments" not in str(error):
+        return
+    while frame is not None and frame.f_globals.get("__name__", "").startswith("treeform."):
+        name = frame.f_code.co_name
+        function = getattr(type(frame.f_locals.get("self")), name, frame.f_globals.get(name))
+        for argument, annotation in getattr(function, "__annotations__", {}).items():
+            is_one, wanted = _KINDS.get(annotation.removesuffix(" | None"), (None, ""))
+            value = frame.f_locals.get(argument)
+            if is_one is None or (value is None and annotation.endswith("None")) or is_one(value):
+                continue
+            raise ValueError(f"{argument}: {wanted} is needed, not {value!r}") from None
+        frame = frame.f_back

@@ -8,7 +8,7 @@ from typing import Any, Union
 
 from . import _core
 from ._mesh import Attributes, Mesh, MeshLike, as_mesh
-from ._progress import Progress, watched
+from ._progress import Progress
 from ._results import Result
 
 Path = Union[str, "os.PathLike[str]"]
@@ -40,7 +40,7 @@ def read(path: Path, format: str = "", *, join: bool = True, progress: Progress 
     >>> treeform.read("data/cube.stl")
     Mesh(8 vertices, 12 faces)
     """
-    points, faces, data = _core.read(path_of(path), format, join, progress=watched(progress))
+    points, faces, data = _core.read(path_of(path), format, join, progress=progress)
     return Mesh._of(points, faces, None, Attributes(data))
 
 
@@ -82,4 +82,4 @@ def write(path: Path, mesh: MeshLike, format: str = "", *, ascii: bool = False,
     certified = made._certificate is not None and bool(made._certificate)
     data = None if made._attributes is None else made._attributes._data
     return Written(**_core.write(path_of(path), made._held, data, certified, format, ascii, precision,
-                                 round, progress=watched(progress)))
+                                 round, progress=progress))

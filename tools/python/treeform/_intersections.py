@@ -13,7 +13,7 @@ from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._files import Path
 from ._mesh import Mesh, MeshLike, held
-from ._progress import Progress, watched
+from ._progress import Progress
 from ._results import Result
 
 #: How two faces meet; a number in `kinds` is a place in this list.
@@ -70,7 +70,7 @@ def self_intersections(mesh: MeshLike, *, kinds: Iterable[str] | None = None,
     """
     return FacePairs(**_core.self_intersections(
         held(mesh), _ALL if kinds is None else list(kinds), vertices, first_only,
-        _NO_LIMIT if limit is None else limit, progress=watched(progress)))
+        _NO_LIMIT if limit is None else limit, progress=progress))
 
 
 def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None = None,
@@ -92,7 +92,7 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None 
     return FacePairs(**_core.mesh_intersections(
         held(a), held(b), _ALL if kinds is None else list(kinds), first_only,
         _NO_LIMIT if limit is None else limit, _arrays.matrix(move_a, "move_a"),
-        _arrays.matrix(move_b, "move_b"), progress=watched(progress)))
+        _arrays.matrix(move_b, "move_b"), progress=progress))
 
 
 @dataclass(frozen=True, repr=False)
@@ -133,7 +133,7 @@ def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None
     """
     made = _core.self_intersections_of_file(
         os.fspath(path), _ALL if kinds is None else list(kinds), vertices, format, memory,
-        os.fspath(folder), progress=watched(progress))
+        os.fspath(folder), progress=progress)
     mesh = Mesh._of(made.pop("points"), made.pop("faces"))
     return FilePairs(mesh=mesh, **made)
 
@@ -150,7 +150,8 @@ class Region(Result):
     pairs: int
 
 
-def intersection_regions(mesh: MeshLike, found: FacePairs) -> tuple[list[Region], Ids]:
+def intersection_regions(mesh: MeshLike, found: FacePairs, *,
+                         progress: Progress = None) -> tuple[list[Region], Ids]:
     """Where pairs of faces meet: regions of faces that hang together by pairs or shared corners, in
     the order of their lowest face, and (n,) the region of each pair.
 
@@ -160,12 +161,14 @@ def intersection_regions(mesh: MeshLike, found: FacePairs) -> tuple[list[Region]
     >>> len(regions), regions[0].pairs
     (1, 78)
     """
-    regions, of_pair = _core.group_pairs(held(mesh), found.pairs, found.kinds)
+    regions, of_pair = _core.group_pairs(held(mesh), found.pairs, found.kinds,
+                                         progress=progress)
     return [Region(faces, np.stack([low, high]), pairs)
             for faces, low, high, pairs in regions], of_pair
 
 
-def intersection_curves(mesh: MeshLike, found: FacePairs) -> list[Floats]:
+def intersection_curves(mesh: MeshLike, found: FacePairs, *,
+                        progress: Progress = None) -> list[Floats]:
     """The curves along which pairs of faces meet, each (n, 3); the last point of a closed curve is
     the first again. Which segments there are is exact; points are rounded to nearest.
 
@@ -177,11 +180,13 @@ def intersection_curves(mesh: MeshLike, found: FacePairs) -> list[Floats]:
     >>> [len(curve) for curve in curves]
     [79]
     """
-    points, paths = _core.intersection_paths(held(mesh), found.pairs, found.kinds)
+    points, paths = _core.intersection_paths(held(mesh), found.pairs, found.kinds,
+                                             progress=progress)
     return [points[np.append(path, path[:1]) if closed else path] for path, closed in paths]
 
 
-def faces_in_box(mesh: MeshLike, min: ArrayLike, max: ArrayLike) -> Ids:
+def faces_in_box(mesh: MeshLike, min: ArrayLike, max: ArrayLike, *,
+                 progress: Progress = None) -> Ids:
     """(n,) the faces, ascending, that have a point in the closed box from `min` (3,) to `max` (3,).
     Exact: faces are tested, not their boxes.
 
@@ -189,4 +194,5 @@ def faces_in_box(mesh: MeshLike, min: ArrayLike, max: ArrayLike) -> Ids:
     >>> treeform.faces_in_box(treeform.read("data/cube.stl"), [0, 0, 0], [0, 0, 0]).size
     3
     """
-    return _core.faces_in_box(held(mesh), _arrays.vector(min, "min"), _arrays.vector(max, "max"))
+    return _core.faces_in_box(held(mesh), _arrays.vector(min, "min"), _arrays.vector(max, "max"),
+                              progress=progress)

@@ -12,7 +12,7 @@ from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import NotSolidError, require
 from ._mesh import MeshLike, as_mesh, held, held_body
-from ._progress import Progress, watched
+from ._progress import Progress
 from ._results import Result, tuple_repr
 
 
@@ -50,7 +50,7 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
     ([[0.5, 0.25, 1.0]], [2.0])
     """
     return ClosestPoints(*_core.closest_point(held(mesh), _arrays.points(points, "points"), radius,
-                                              progress=watched(progress)))
+                                              progress=progress))
 
 
 _OUTSIDE, _INSIDE, _BOUNDARY = 0, 1, 2
@@ -60,7 +60,7 @@ def _located(mesh: MeshLike, points: ArrayLike,
              progress: Progress) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
     """Raises NotSolidError where the mesh is open."""
     try:
-        return _core.locate(held(mesh), _arrays.points(points, "points"), progress=watched(progress))
+        return _core.locate(held(mesh), _arrays.points(points, "points"), progress=progress)
     except ValueError:
         if len(as_mesh(mesh).faces):
             require(as_mesh(mesh).solid_certificate)
@@ -121,7 +121,7 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
     cloud = _arrays.points(points, "points")
     if len(cloud) == 0:
         return np.empty(0)
-    made = _core.deviation(_core.HeldMesh(cloud), held(mesh), None, 0, False, progress=watched(progress))
+    made = _core.deviation(_core.HeldMesh(cloud), held(mesh), None, 0, False, progress=progress)
     if made is None:
         return np.full(len(cloud), -np.inf)
     if not made["is_signed"]:
@@ -150,10 +150,6 @@ def _rays(origins: ArrayLike, directions: ArrayLike) -> tuple[Floats, Floats]:
     return start, along
 
 
-def _range(t_min: float, t_max: float) -> tuple[float, float]:
-    return _arrays.number(t_min, "t_min"), _arrays.number(t_max, "t_max")
-
-
 def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
             t_max: float = np.inf, progress: Progress = None) -> RayHits:
     """The face that each ray hits first. `origins` and `directions` (of any length) are (n, 3).
@@ -161,15 +157,16 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
     Which face a ray hits, on which corner, edge or interior, is exact; only t is rounded. Of faces
     at one point, the lowest number. Faces include their edges and are hit from both sides.
 
-    Raises ValueError naming the ray or face.
+    Raises ValueError naming the ray or face; so it does where a direction is so short that t is no
+    number of float64.
 
     >>> import treeform
     >>> hits = treeform.raycast(treeform.read("data/cube.stl"), [[0.5, 0.25, 3]], [[0, 0, -1]])
     >>> hits.t.tolist(), hits.at.tolist()
     ([2.0], [6])
     """
-    return RayHits(*_core.raycast(held(mesh), *_rays(origins, directions), *_range(t_min, t_max),
-                                  progress=watched(progress)))
+    return RayHits(*_core.raycast(held(mesh), *_rays(origins, directions), t_min, t_max,
+                                  progress=progress))
 
 
 class AllRayHits(NamedTuple):
@@ -198,8 +195,8 @@ def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     [[0.5, 0.25, 1.0], [0.5, 0.25, 0.0]]
     """
     start, along = _rays(origins, directions)
-    t, ray, face = _core.raycast_all(held(mesh), start, along, *_range(t_min, t_max),
-                                    progress=watched(progress))
+    t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max,
+                                    progress=progress)
     return AllRayHits(start[ray] + t[:, None] * along[ray], ray, face)
 
 
@@ -212,8 +209,8 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     >>> treeform.raycast_any(cube, [[0.5, 0.5, 3], [5, 5, 5]], [[0, 0, -1], [0, 0, -1]])
     array([ True, False])
     """
-    return _core.raycast_any(held(mesh), *_rays(origins, directions), *_range(t_min, t_max),
-                             progress=watched(progress)).view(np.bool_)
+    return _core.raycast_any(held(mesh), *_rays(origins, directions), t_min, t_max,
+                             progress=progress).view(np.bool_)
 
 
 @dataclass(frozen=True, repr=False)
@@ -273,7 +270,7 @@ def deviation(a: Union[MeshLike, ArrayLike], b: Union[MeshLike, ArrayLike], *,
     >>> map.distances.tolist(), map.band_counts, map.is_signed
     ([-0.25, 2.0], (0, 1, 1), True)
     """
-    made = _core.deviation(held_body(a), held_body(b), band, bins, both_ways, progress=watched(progress))
+    made = _core.deviation(held_body(a), held_body(b), band, bins, both_ways, progress=progress)
     if made is None:
         raise ValueError("deviation: a has no points, or b no faces")
     return Deviation(**made)

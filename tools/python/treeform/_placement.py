@@ -12,7 +12,7 @@ from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._core import Certificate
 from ._mesh import Mesh, MeshLike, MeshResult, held, held_body
-from ._progress import Progress, watched
+from ._progress import Progress
 from ._properties import Feature
 from ._results import Result, tuple_repr
 
@@ -139,7 +139,7 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     """
     body = held_body(moving)
     return _moved(body, _core.slide(body, _bodies(onto), _arrays.vector(direction, "direction"),
-                                    clearance, max_travel, bed, precision, progress=watched(progress)))
+                                    clearance, max_travel, bed, precision, progress=progress))
 
 
 def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0,
@@ -158,7 +158,7 @@ def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0,
     body = held_body(moving)
     return _moved(body, _core.drop(body, _bodies(onto), clearance, max_travel, bed,
                                    _arrays.vector(direction, "direction"), precision,
-                                   progress=watched(progress)))
+                                   progress=progress))
 
 
 def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float | None = None,
@@ -172,7 +172,7 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
     """
     body = held_body(moving)
     return _moved(body, _core.mate(body, _bodies(onto), clearance, max_travel, precision,
-                                   progress=watched(progress)))
+                                   progress=progress))
 
 
 def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: float | None = None,
@@ -188,7 +188,7 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     """
     body = held_body(moving)
     return _moved(body, _core.separate(body, _bodies(fixed), clearance, max_travel, precision,
-                                       progress=watched(progress)))
+                                       progress=progress))
 
 
 def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.0, 0.0), *,
@@ -209,7 +209,7 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     body = held_body(moving)
     return _moved(body, _core.turn(body, _bodies(fixed), _arrays.vector(axis, "axis"),
                                    _arrays.vector(origin, "origin"), clearance, max_angle,
-                                   tolerance, precision, progress=watched(progress)))
+                                   tolerance, precision, progress=progress))
 
 
 def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature, *,
@@ -231,7 +231,7 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     body = held_body(moving)
     return _moved(body, _core.mate_features(
         body, _bodies(onto), of_moving.kind, of_moving.origin, of_moving.direction,
-        of_fixed.origin, of_fixed.direction, clearance, flip, precision, progress=watched(progress)))
+        of_fixed.origin, of_fixed.direction, clearance, flip, precision, progress=progress))
 
 
 @dataclass(frozen=True, repr=False)
@@ -281,7 +281,7 @@ def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.
     """
     body = held(mesh)
     made = _core.lay_flat(body, choose, _arrays.vector(toward, "toward"), keep_spin, tolerance, bed,
-                          overhang_angle, precision, progress=watched(progress))
+                          overhang_angle, precision, progress=progress)
     if made is None:
         raise ValueError("lay_flat: no side: fewer than three points, or all on a line")
     made["mesh"] = Mesh._of(made.pop("points"), body.faces, made["certificate"])
@@ -347,7 +347,7 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
     body = held_body(moving)
     made = _core.align(body, held_body(onto), method, overlap, weights, max_distance, scale,
                        max_iterations, tolerance, starts, samples, _arrays.matrix(start, "start"),
-                       precision, progress=watched(progress))
+                       precision, progress=progress)
     made["mesh"] = Mesh._of(made.pop("points"), body.faces)
     return Alignment(**made)
 
@@ -407,7 +407,7 @@ def pack(parts: Iterable[MeshLike], size: ArrayLike, *, corner: ArrayLike = (0.0
     bodies = [held(part) for part in parts]
     made = _core.pack(bodies, _arrays.vector(extent, "size"), _arrays.vector(corner, "corner"),
                       spacing, turns, stack, plates, _arrays.vector(plate_step, "plate_step"), seed,
-                      tries, seconds, precision, progress=watched(progress))
+                      tries, seconds, precision, progress=progress)
     made["parts"] = [
         PackedPart(placed, plate, matrix, Mesh._of(points, body.faces))
         for (placed, plate, matrix, points), body in zip(made["parts"], bodies)]
@@ -426,7 +426,7 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     >>> how.relation, how.distance, how.on_a[2], how.on_b[2]
     ('separate', 2.0, 1.0, 3.0)
     """
-    made = _core.measure(held_body(a), held_body(b), radius, vertices, progress=watched(progress))
+    made = _core.measure(held_body(a), held_body(b), radius, vertices, progress=progress)
     return None if made is None else Measure(**made)
 
 
@@ -452,7 +452,7 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256,
     >>> treeform.penetration_depth(cube, (cube.vertices + [0.75, 0, 0], cube.faces)).depth
     0.25
     """
-    found = _core.penetration_depth(held(a), held(b), directions, progress=watched(progress))
+    found = _core.penetration_depth(held(a), held(b), directions, progress=progress)
     return None if found is None else Depth(*found)
 
 
@@ -486,4 +486,4 @@ def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *,
     return Impact(*_core.time_of_impact(held(a), held(b), _arrays.vector(motion, "motion"),
                                         _arrays.matrix(move_a, "move_a"),
                                         _arrays.matrix(move_b, "move_b"), latest,
-                                        progress=watched(progress)))
+                                        progress=progress))

@@ -9,11 +9,16 @@ from typing import Any, Callable, Optional, Union
 Progress = Optional[Union[Callable[[float], Any], Any]]
 
 
-def watched(progress: Progress) -> Callable[[float], Any] | None:
-    """`progress` as a function."""
-    if progress is None or not hasattr(progress, "update"):
-        return progress
-    bar: Any = progress
+def part(progress: Progress, index: int, count: int) -> Progress:
+    """`progress` for one of `count` jobs that are a piece of the work each."""
+    if progress is None:
+        return None
+    call = of_bar(progress) if hasattr(progress, "update") else progress
+    return lambda share: call((index + share) / count)
+
+
+def of_bar(bar: Any) -> Callable[[float], None]:
+    """A bar of tqdm as a function; jobs take it for what has `update`."""
     total = bar.total or 1
 
     def update(share: float) -> None:

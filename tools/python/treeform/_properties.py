@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from . import _core
 from ._arrays import Floats, Ids
 from ._mesh import MeshLike, held
-from ._progress import Progress, watched
+from ._progress import Progress
 from ._results import Result
 
 
@@ -51,7 +51,7 @@ def find_solid_defects(mesh: MeshLike, *, progress: Progress = None) -> SolidDef
     >>> treeform.find_solid_defects(treeform.read("data/two_spheres.stl")).meeting_pairs
     78
     """
-    return SolidDefects(**_core.find_solid_defects(held(mesh), progress=watched(progress)))
+    return SolidDefects(**_core.find_solid_defects(held(mesh), progress=progress))
 
 
 @dataclass(frozen=True, repr=False)
@@ -68,7 +68,7 @@ class MeshDefects(Result):
     out_of_range_faces: Ids
 
 
-def find_defects(mesh: MeshLike) -> MeshDefects:
+def find_defects(mesh: MeshLike, *, progress: Progress = None) -> MeshDefects:
     """Vertices and faces that operations refuse or treat in a special way. Exact.
 
     >>> import treeform
@@ -76,7 +76,7 @@ def find_defects(mesh: MeshLike) -> MeshDefects:
     >>> treeform.find_defects(mesh)
     MeshDefects(nonfinite_points=[3], nonfinite_faces=[1], degenerate_faces=[0], out_of_range_faces=[])
     """
-    return MeshDefects(**_core.find_defects(held(mesh)))
+    return MeshDefects(**_core.find_defects(held(mesh), progress=progress))
 
 
 @dataclass(frozen=True, repr=False)
@@ -108,7 +108,7 @@ class Topology(Result):
     closed: bool
 
 
-def count_topology(mesh: MeshLike) -> Topology:
+def count_topology(mesh: MeshLike, *, progress: Progress = None) -> Topology:
     """Edges, components and defects, by numbers of vertices; coordinates do not matter.
 
     >>> import treeform
@@ -116,10 +116,10 @@ def count_topology(mesh: MeshLike) -> Topology:
     >>> counts.closed, counts.points_used - counts.edges + counts.faces
     (True, 2)
     """
-    return Topology(**_core.count_topology(held(mesh)))
+    return Topology(**_core.count_topology(held(mesh), progress=progress))
 
 
-def face_components(mesh: MeshLike) -> Ids:
+def face_components(mesh: MeshLike, *, progress: Progress = None) -> Ids:
     """(F,) the component of each face, numbered in the order of their lowest face. Faces that share
     a vertex are in one.
 
@@ -127,7 +127,7 @@ def face_components(mesh: MeshLike) -> Ids:
     >>> treeform.face_components(treeform.read("data/two_spheres.stl")).max()
     1
     """
-    return _core.face_components(held(mesh))
+    return _core.face_components(held(mesh), progress=progress)
 
 
 @dataclass(frozen=True, repr=False)
@@ -154,7 +154,7 @@ class Feature(Result):
 
 def find_features(mesh: MeshLike, kind: str = "plane", *, tolerance: float | None = None,
                   plane_angle: float = 1.0, facet_angle: float = 46.0,
-                  arc: float = 60.0) -> list[Feature]:
+                  arc: float = 60.0, progress: Progress = None) -> list[Feature]:
     """The flat ('plane') or cylindrical ('axis') regions, largest area first.
 
     tolerance: largest distance of a corner, a length; None: 1e-4 of the diagonal.
@@ -166,4 +166,5 @@ def find_features(mesh: MeshLike, kind: str = "plane", *, tolerance: float | Non
     [1.0, 1.0, 1.0, 1.0, 1.0, 1.0]
     """
     return [Feature(**one) for one in
-            _core.find_features(held(mesh), kind, tolerance, plane_angle, facet_angle, arc)]
+            _core.find_features(held(mesh), kind, tolerance, plane_angle, facet_angle, arc,
+                                progress=progress)]

@@ -13,7 +13,7 @@ from ._arrays import Floats, Ids
 from ._core import Certificate
 from ._errors import require
 from ._mesh import Mesh, MeshLike, MeshResult, held
-from ._progress import Progress, watched
+from ._progress import Progress
 from ._results import Result
 
 
@@ -91,7 +91,7 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     """
     return ResolveResult(**_mesh_of(
         _core.resolve(held(mesh), mode, inside, precision, max_displacement, touching, max_loss,
-                      progress=watched(progress)), check))
+                      progress=progress), check))
 
 
 _STEPS = ("join", "orient", "fill", "resolve", "detach")
@@ -125,7 +125,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = _STEPS, gap: float | None =
     """
     return RepairResult(**_mesh_of(
         _core.repair(held(mesh), list(steps), gap, largest_hole, strays, inside, max_loss, sheet,
-                     precision, max_displacement, progress=watched(progress)), check, "sheet"))
+                     precision, max_displacement, progress=progress), check, "sheet"))
 
 
 def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision: str = "float64",
@@ -143,7 +143,7 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     (True, True)
     """
     return WrapResult(**_mesh_of(
-        _core.wrap(held(mesh), size, offset, precision, progress=watched(progress)), check))
+        _core.wrap(held(mesh), size, offset, precision, progress=progress), check))
 
 
 @dataclass(frozen=True, repr=False)
@@ -171,10 +171,11 @@ def convex_hull(points: ArrayLike, *, progress: Progress = None) -> ConvexHull:
     >>> hull.dimension, len(hull.faces), hull.areas.tolist()
     (3, 12, [1.0, 1.0, 1.0, 1.0, 1.0, 1.0])
     """
-    return ConvexHull(**_core.convex_hull(_arrays.points(points, "points"), progress=watched(progress)))
+    return ConvexHull(**_core.convex_hull(_arrays.points(points, "points"), progress=progress))
 
 
-def rounded(points: ArrayLike, precision: str = "float32") -> Floats:
+def rounded(points: ArrayLike, precision: str = "float32", *,
+            progress: Progress = None) -> Floats:
     """(n, 3) the points with each coordinate rounded to the nearest number of the precision, as
     float64.
 
@@ -182,7 +183,7 @@ def rounded(points: ArrayLike, precision: str = "float32") -> Floats:
     >>> treeform.rounded([[0.1, 0.2, 0.3]]).tolist()
     [[0.10000000149011612, 0.20000000298023224, 0.30000001192092896]]
     """
-    return _core.rounded(_arrays.points(points, "points"), precision)
+    return _core.rounded(_arrays.points(points, "points"), precision, progress=progress)
 
 
 def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
@@ -196,10 +197,10 @@ def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
     (0, 0)
     """
     return _core.find_rounding_defects(held(mesh), _arrays.points(placed, "placed"),
-                                       progress=watched(progress))
+                                       progress=progress)
 
 
-def join_equal_points(mesh: MeshLike) -> Mesh:
+def join_equal_points(mesh: MeshLike, *, progress: Progress = None) -> Mesh:
     """The mesh with vertices of equal coordinates joined. Faces keep their order and number.
 
     >>> import treeform
@@ -207,4 +208,4 @@ def join_equal_points(mesh: MeshLike) -> Mesh:
     >>> soup, treeform.join_equal_points(soup)
     (Mesh(36 vertices, 12 faces), Mesh(8 vertices, 12 faces))
     """
-    return Mesh._of(*_core.join_equal_points(held(mesh)))
+    return Mesh._of(*_core.join_equal_points(held(mesh), progress=progress))

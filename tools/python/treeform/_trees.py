@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats
-from ._progress import Progress, watched
+from ._progress import Progress, part
 from ._results import tuple_repr
 
 Numbers = NDArray[np.int64]
@@ -121,7 +121,7 @@ class PointTree:
         if not distance_upper_bound >= 0:
             raise ValueError(f"distance_upper_bound: {distance_upper_bound} is negative or NaN")
         d, i = self._cloud.query(queries, min(int(count), _MOST), distance_upper_bound,
-                                 progress=watched(progress))
+                                 progress=progress)
         if wanted is not None:
             d = d.reshape(-1, count)[:, wanted - 1]
             i = i.reshape(-1, count)[:, wanted - 1]
@@ -136,7 +136,8 @@ class PointTree:
                          workers: int = -1, return_sorted: bool | None = None,
                          return_length: bool = False, *, progress: Progress = None) -> Any:
         """The numbers of all points within `r` of each query, inclusive, ascending: a list, or an
-        array of lists for many queries, each with its own `r` if that is an array; with `return_length`, how many they are.
+        array of lists for many queries, each with its own `r` if that is an array; with
+        `return_length`, how many they are.
 
         `query_ball` has the same in arrays, and much faster.
 
@@ -150,10 +151,11 @@ class PointTree:
         queries, shape = self._queries(x)
         radii = np.broadcast_to(_arrays.floats(r, "r"), shape).ravel()
         lists: list[Any] = [[]] * len(queries)
-        for radius in np.unique(radii):
+        different = np.unique(radii)
+        for piece, radius in enumerate(different):
             at = np.flatnonzero(radii == radius)
             begin, ids, _ = self._cloud.query_ball(queries[at], float(radius), True,
-                                                   progress=watched(progress))
+                                                   progress=part(progress, piece, len(different)))
             found = np.diff(begin).tolist() if return_length else _core.lists(begin, ids)
             for i, one in zip(at.tolist(), found):
                 lists[i] = one
@@ -174,7 +176,7 @@ class PointTree:
         [0, 1]
         """
         queries, _ = self._queries(x)
-        return Neighbors(*self._cloud.query_ball(queries, r, False, progress=watched(progress)))
+        return Neighbors(*self._cloud.query_ball(queries, r, False, progress=progress))
 
     def query_pairs(self, r: float, p: float = 2.0, eps: float = 0.0, output_type: str = "set", *,
                     progress: Progress = None) -> Any:
@@ -189,7 +191,7 @@ class PointTree:
             raise ValueError(f"p: {p} is not 2, the only one there is")
         if output_type not in ("set", "ndarray"):
             raise ValueError(f"output_type: {output_type!r} is neither 'set' nor 'ndarray'")
-        pairs = self._cloud.query_pairs(self._data, r, progress=watched(progress))
+        pairs = self._cloud.query_pairs(self._data, r, progress=progress)
         return pairs if output_type == "ndarray" else set(map(tuple, pairs.tolist()))
 
     def __repr__(self) -> str:
@@ -232,10 +234,10 @@ class BoxTree:
         [[0, 1]]
         """
         if other is None:
-            return self._boxes.pairs(progress=watched(progress))
+            return self._boxes.pairs(progress=progress)
         if other._dimensions != self._dimensions:
             raise ValueError("other: a tree of other dimensions")
-        return self._boxes.pairs_with(other._boxes, progress=watched(progress))
+        return self._boxes.pairs_with(other._boxes, progress=progress)
 
     def query(self, min: ArrayLike, max: ArrayLike, *, progress: Progress = None) -> Any:
         """The boxes that overlap the one from `min` (m,) to `max`: (n,) ascending. For many boxes
@@ -253,7 +255,7 @@ class BoxTree:
         if low.shape != high.shape or low.ndim != 2 or low.shape[1] != self._dimensions:
             raise ValueError(f"min, max: the shapes are {low.shape} and {high.shape}, "
                              f"not (n, {self._dimensions})")
-        begin, ids = self._boxes.query(low, high, progress=watched(progress))
+        begin, ids = self._boxes.query(low, high, progress=progress)
         return ids if one else (begin, ids)
 
     def nearest(self, x: ArrayLike, k: int = 1, *, radius: float = np.inf,
@@ -272,7 +274,7 @@ class BoxTree:
             raise ValueError("k: less than 1")
         shape = array.shape[:-1]
         d, i = self._boxes.nearest(np.ascontiguousarray(array.reshape(-1, self._dimensions)),
-                                   min(int(k), _MOST), radius, progress=watched(progress))
+                                   min(int(k), _MOST), radius, progress=progress)
         if k != 1:
             shape = shape + (k,)
         return (d.reshape(shape), i.reshape(shape)) if shape else (float(d[0]), int(i[0]))

@@ -13,7 +13,7 @@ from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._files import Path, path_of
 from ._mesh import Attributes, Mesh, MeshLike, MeshResult, as_mesh, cloud_of
-from ._progress import Progress, watched
+from ._progress import Progress
 from ._results import Result
 
 
@@ -78,15 +78,15 @@ def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
         none if label is None else _arrays.ids(label, "label"))
     points = cloud_of(mesh_or_points)
     if points is not None:
-        made = _core.weld_cloud(points, None, settings, progress=watched(progress))
+        made = _core.weld_cloud(points, None, settings, progress=progress)
         made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
     else:
         mesh = as_mesh(mesh_or_points)
         data = None if mesh._attributes is None else mesh._attributes._data
         if len(mesh._faces):
-            made = _core.weld_mesh(mesh._held, data, settings, progress=watched(progress))
+            made = _core.weld_mesh(mesh._held, data, settings, progress=progress)
         else:
-            made = _core.weld_cloud(mesh._vertices, data, settings, progress=watched(progress))
+            made = _core.weld_cloud(mesh._vertices, data, settings, progress=progress)
             made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
     extra = made.pop("data")
     welded = Mesh._of(made.pop("points"), made.pop("faces"), None,
@@ -94,7 +94,7 @@ def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
     return WeldResult(mesh=welded, **made)
 
 
-def count_nearly_equal(points: ArrayLike, distance: float) -> int:
+def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress = None) -> int:
     """How many points fewer there would be if points within `distance` of each other were joined,
     beyond those that are equal to another.
 
@@ -102,7 +102,7 @@ def count_nearly_equal(points: ArrayLike, distance: float) -> int:
     >>> treeform.count_nearly_equal([[0, 0, 0], [0, 0, 0], [0, 0, 0.5]], 1.0)
     1
     """
-    return _core.count_nearly_equal(_arrays.points(points, "points"), distance)
+    return _core.count_nearly_equal(_arrays.points(points, "points"), distance, progress=progress)
 
 
 @dataclass(frozen=True, repr=False)
@@ -161,4 +161,4 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
         [path_of(path) for path in paths], path_of(out), path_of(removed), label,
         _arrays.number(tolerance, "tolerance"), relative, rule, list((same or {}).items()), keep,
         keep_by, order, order_by, _arrays.number(memory, "memory", 0), path_of(folder),
-        _arrays.number(points_per_tile, "points_per_tile", 0), progress=watched(progress)))
+        _arrays.number(points_per_tile, "points_per_tile", 0), progress=progress))
