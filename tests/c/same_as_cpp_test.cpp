@@ -48,15 +48,21 @@ tf::mesh mesh_of(const std::string& path) {
 
 handle<treeform_mesh> borrow(const tf::mesh& mesh) {
     return result_of<treeform_mesh>([&](treeform_mesh** out) {
-        return treeform_mesh_create(&mesh.points.data()->x, mesh.points.size(),
-                                    mesh.faces.data()->data(), mesh.faces.size(), 0, out);
+        return treeform_mesh_create(
+            reinterpret_cast<const double*>(mesh.points.data()), mesh.points.size(),
+            reinterpret_cast<const std::uint32_t*>(mesh.faces.data()), mesh.faces.size(), 0, out);
     });
+}
+
+/// Both may be null where there is none.
+bool same_bytes(const void* a, const void* b, std::size_t size) {
+    return size == 0 || std::memcmp(a, b, size) == 0;
 }
 
 bool same(const treeform_arrays& c, const tf::mesh& cpp) {
     return c.point_count == cpp.points.size() && c.face_count == cpp.faces.size() &&
-           std::memcmp(c.points, cpp.points.data(), c.point_count * sizeof(tf::point3)) == 0 &&
-           std::memcmp(c.faces, cpp.faces.data(), c.face_count * sizeof(tf::face)) == 0;
+           same_bytes(c.points, cpp.points.data(), c.point_count * sizeof(tf::point3)) &&
+           same_bytes(c.faces, cpp.faces.data(), c.face_count * sizeof(tf::face));
 }
 
 /// Models that come with the sources, and some real ones where they are.
