@@ -73,8 +73,9 @@ class tile_search {
     [[nodiscard]] std::string identity() const;
     void store_plan() const;
     [[nodiscard]] bool take_over();
-    /// What is stored of a tile; none where it is not finished.
-    [[nodiscard]] std::optional<tile_found> load(std::size_t tile) const;
+    /// What is stored of a tile; none where it is not finished. With `check`, of what it names, each
+    /// byte is looked at.
+    [[nodiscard]] std::optional<tile_found> load(std::size_t tile, bool check) const;
     void store(std::size_t tile, const tile_found& found) const;
 
     [[nodiscard]] std::size_t tile_count(std::uint64_t faces) const;
