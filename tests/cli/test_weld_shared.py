@@ -210,15 +210,15 @@ class Shared(WeldTest):
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
         expected = self.one("-t", "0.02", "-o", "out.ply")
-        work = ["in.ply", "-t", "0.02", "-o", "out.ply", "--tile-points", 150, "--work", "tiles"]
-        for size in (2, 3, 4):
-            for step in (1, 2, 3, 4):
+        work = ["in.ply", "-t", "0.02", "-o", "out.ply", "--tile-points", 400, "--work", "tiles"]
+        for size in (2, 4):
+            for step in range(1, 100):
                 run = self.mpi(size, *work, status=None, last=["--stop-at", step])
                 if run.status == 0:  # it had fewer steps
                     self.written()
-                    continue
+                    break
                 self.assertEqual(run.status, 128 + signal.SIGKILL)
-                self.assertNotIn("out.ply", self.listing())
+                self.assertEqual(self.listing(), ["in.ply", "tiles"])
                 run = self.mpi(self.rng.choice((1, 2, 4)), *work, "-v")
                 self.assertIn("finished before", run.err)
                 self.assertEqual(self.written(), expected)
