@@ -129,6 +129,13 @@ bool tile_search::take_over() {
     return true;
 }
 
+std::vector<std::size_t> tile_search::unfinished() const {
+    std::vector<std::size_t> found;
+    for (std::size_t t = 0; t < tiles(); ++t)
+        if (!load(t, false)) found.push_back(t);
+    return found;
+}
+
 void tile_search::store(std::size_t tile, const tile_found& found) const {
     state_writer state;
     store_count(found.pairs, state);

@@ -6,7 +6,7 @@ import random
 import signal
 
 # What is told of the way to the answer, not of the answer.
-WAY = ("skipped", "seconds", "warnings")
+WAY = ("skipped", "seconds", "warnings", "tiles")
 
 
 def heap(count, seed=1):
@@ -146,6 +146,12 @@ class Tiles(ToolTest):
         work = ["--work", "tiles"]
         run = self.run_tool("float.ply", *work, "--plan", "--tile-faces", 80, status=0)
         tiles = int(run.text.split()[1])
+        again = ["--plan", "-r", "-"]
+        self.run_tool("float.ply", *work, "--tile", 2, status=0)
+        run = self.run_tool("float.ply", *work, *again, status=0)
+        self.assertEqual(json.loads(run.text)["files"][0]["tiles"],
+                         {"count": tiles, "folder": "tiles",
+                          "unfinished": [t for t in range(tiles) if t != 2]})
         for t in range(tiles):
             self.run_tool("float.ply", *work, "--tile", t, status=0)
         for what in ("pairs", "hits"):
@@ -160,6 +166,12 @@ class Tiles(ToolTest):
                 self.run_tool("float.ply", *work, "--tile", victim, status=0)
                 self.assertEqual(self.read_bytes(f"tiles/{victim}.{what}"), whole[victim])
                 self.assertEqual(self.look("float.ply", *work, "--finish"), expected)
+
+    def test_a_folder_that_is_of_no_use_is_named(self):
+        self.put_all(heap(10))
+        run = self.run_tool("in.stl", "--work", "tiles")
+        self.assertIn("--work is not used", run.err)
+        self.assertNotIn("tiles", self.listing())
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_memory_decides(self):

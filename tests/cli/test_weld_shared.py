@@ -77,6 +77,12 @@ class Shared(WeldTest):
         run = self.run_tool(*work, "--plan", "--tile-points", 300, "--stop-at", 1)
         self.assertEqual(run.status, -signal.SIGKILL)  # when all was done
         tiles = int(self.run_tool(*work, "--plan", status=0).text.split()[1])
+        self.run_tool(*work, "--tile", 2, status=0)
+        entry = self.entry(*work, "--plan", status=0)
+        self.assertEqual(entry["tiles"], {"count": tiles, "folder": "tiles",
+                                          "unfinished": [t for t in range(tiles) if t != 2]})
+        self.assertIn(f"{tiles} tiles in tiles, 1 finished",
+                      self.run_tool(*work, "--plan", status=0).text)
         for t in range(tiles):
             process = self.start(*work, "--tile", t)
             time.sleep(self.rng.random() * 0.02)
