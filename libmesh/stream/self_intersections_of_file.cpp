@@ -66,6 +66,11 @@ std::size_t stream_search::tiles() {
     return s.search.tiles();
 }
 
+std::vector<std::size_t> stream_search::unfinished() {
+    static_cast<void>(tiles());
+    return state_->search.unfinished();
+}
+
 status stream_search::search_tile(std::size_t tile) {
     const std::size_t all = tiles();
     return state::until_cancelled([&] { state_->search.search(tile, tile, all); });

@@ -246,7 +246,7 @@ void tile_search::search(std::size_t tile, std::size_t part, std::size_t of) {
         throw std::out_of_range("treeform::stream_search: tile " + std::to_string(tile) + " of " +
                                 std::to_string(tiles()));
     pace_.show("pairs", static_cast<double>(part) / static_cast<double>(of));
-    if (load(tile)) return;
+    if (load(tile, true)) return;
     if (survey_.header.stored_as == precision::float32)
         search_as<float>(tile);
     else
@@ -305,7 +305,7 @@ stream_search_result tile_search::finish() {
     std::vector<tile_face<double>> faces;
     std::vector<std::size_t> missing;
     for (std::size_t t = 0; t < tiles(); ++t) {
-        const auto found = load(t);
+        const auto found = load(t, true);
         if (!found) missing.push_back(t);
         if (!missing.empty()) continue;
         const auto hits = all_of<tile_face<double>>(file(t, ".hits"), found->faces);

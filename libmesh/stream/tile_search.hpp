@@ -59,6 +59,7 @@ class tile_search {
     /// Whether the folder has tiles, be it of another input or of other options.
     [[nodiscard]] bool has_plan() const;
     [[nodiscard]] std::size_t tiles() const { return faces_.size(); }
+    [[nodiscard]] std::vector<std::size_t> unfinished() const;
     /// Searches it, unless it is finished. What two processes do at the same time is the same.
     /// `part` and `of` are for the progress. \throws std::out_of_range, stream_error, cancelled
     void search(std::size_t tile, std::size_t part, std::size_t of);
@@ -73,8 +74,9 @@ class tile_search {
     [[nodiscard]] std::string identity() const;
     void store_plan() const;
     [[nodiscard]] bool take_over();
-    /// What is stored of a tile; none where it is not finished.
-    [[nodiscard]] std::optional<tile_found> load(std::size_t tile) const;
+    /// What is stored of a tile; none where it is not finished. With `check`, of what it names, each
+    /// byte is looked at.
+    [[nodiscard]] std::optional<tile_found> load(std::size_t tile, bool check) const;
     void store(std::size_t tile, const tile_found& found) const;
 
     [[nodiscard]] std::size_t tile_count(std::uint64_t faces) const;

@@ -10,6 +10,8 @@
 namespace treeform::detail::stream {
 namespace {
 
+namespace fs = std::filesystem;
+
 const char* const search_name = "search";
 
 std::string name_of_found(std::size_t tile) { return std::to_string(tile) + ".found"; }
@@ -115,7 +117,7 @@ bool tile_search::take_over() {
                                     ? sizeof(tile_face<float>)
                                     : sizeof(tile_face<double>);
     for (std::size_t t = 0; t < cells.size(); ++t) {
-        if (load(t))
+        if (load(t, false))
             ++survey.finished_tiles;
         else if (size_of(file(t, ".faces")) != faces[t].records * bytes)
             return false;
@@ -127,6 +129,13 @@ bool tile_search::take_over() {
     return true;
 }
 
+std::vector<std::size_t> tile_search::unfinished() const {
+    std::vector<std::size_t> found;
+    for (std::size_t t = 0; t < tiles(); ++t)
+        if (!load(t, false)) found.push_back(t);
+    return found;
+}
+
 void tile_search::store(std::size_t tile, const tile_found& found) const {
     state_writer state;
     store_count(found.pairs, state);
@@ -135,17 +144,20 @@ void tile_search::store(std::size_t tile, const tile_found& found) const {
     folder_.store(name_of_found(tile), state);
 }
 
-std::optional<tile_found> tile_search::load(std::size_t tile) const {
+std::optional<tile_found> tile_search::load(std::size_t tile, bool check) const {
     auto state = folder_.load(name_of_found(tile));
     if (!state) return std::nullopt;
     tile_found found;
     found.pairs = load_count(*state);
     found.faces = load_count(*state);
     each_counter(found.counted, [&](std::uint64_t& n) { n = state->number(); });
-    if (!state->whole() ||
-        size_of(file(tile, ".pairs")) != found.pairs.records * sizeof(tile_pair) ||
-        size_of(file(tile, ".hits")) != found.faces.records * sizeof(tile_face<double>))
-        return std::nullopt;
+    const fs::path pairs = file(tile, ".pairs");
+    const fs::path hits = file(tile, ".hits");
+    const bool whole = check ? is_whole<tile_pair>(pairs, found.pairs) &&
+                                   is_whole<tile_face<double>>(hits, found.faces)
+                             : size_of(pairs) == found.pairs.records * sizeof(tile_pair) &&
+                                   size_of(hits) == found.faces.records * sizeof(tile_face<double>);
+    if (!state->whole() || !whole) return std::nullopt;
     return found;
 }
 

@@ -171,8 +171,11 @@ bool tile_steps::take_over() {
 }
 
 void tile_steps::count_finished() {
-    survey_.cloud.finished_tiles = 0;
-    for (const tile& t : tiles_) survey_.cloud.finished_tiles += t.finished ? 1 : 0;
+    std::vector<std::size_t>& unfinished = survey_.cloud.unfinished;
+    unfinished.clear();
+    for (std::size_t t = 0; t < tiles_.size(); ++t)
+        if (!tiles_[t].finished) unfinished.push_back(t);
+    survey_.cloud.finished_tiles = tiles_.size() - unfinished.size();
 }
 
 void tile_steps::store_tile(std::size_t t) const {

@@ -167,6 +167,7 @@ void tile_steps::scatter() {
     if (has_order()) rank_points();
     give_points();
     scattered_ = true;
+    count_finished();
     if (team_.leads()) store_plan();
     team_.meet();
     step_done();

@@ -6,7 +6,7 @@ import random
 import signal
 
 # What is told of the way to the answer, not of the answer.
-WAY = ("skipped", "seconds", "warnings")
+WAY = ("skipped", "seconds", "warnings", "tiles")
 
 
 def heap(count, seed=1):
@@ -139,6 +139,39 @@ class Tiles(ToolTest):
                 (["--tile", "0", *work, "--pairs", "p.csv"], "outputs belong to --finish"),
                 (["double.ply", "--plan", *work], "take one INPUT")):
             self.assertIn(words, self.run_tool("float.ply", *arguments, status=2).err)
+
+    def test_a_tile_that_is_damaged_is_named_and_done_again(self):
+        self.put_all(heap(40))
+        expected = self.look("float.ply")
+        work = ["--work", "tiles"]
+        run = self.run_tool("float.ply", *work, "--plan", "--tile-faces", 80, status=0)
+        tiles = int(run.text.split()[1])
+        again = ["--plan", "-r", "-"]
+        self.run_tool("float.ply", *work, "--tile", 2, status=0)
+        run = self.run_tool("float.ply", *work, *again, status=0)
+        self.assertEqual(json.loads(run.text)["files"][0]["tiles"],
+                         {"count": tiles, "folder": "tiles",
+                          "unfinished": [t for t in range(tiles) if t != 2]})
+        for t in range(tiles):
+            self.run_tool("float.ply", *work, "--tile", t, status=0)
+        for what in ("pairs", "hits"):
+            whole = {t: self.read_bytes(f"tiles/{t}.{what}") for t in range(tiles)}
+            victim = max(whole, key=lambda t: len(whole[t]))
+            changed = bytes([whole[victim][0] ^ 1]) + whole[victim][1:]
+            for damage in (b"", changed):
+                with open(self.path(f"tiles/{victim}.{what}"), "wb") as file:
+                    file.write(damage)
+                run = self.run_tool("float.ply", *work, "--finish", status=3)
+                self.assertIn(f"tile {victim} is not finished, or not as written", run.err)
+                self.run_tool("float.ply", *work, "--tile", victim, status=0)
+                self.assertEqual(self.read_bytes(f"tiles/{victim}.{what}"), whole[victim])
+                self.assertEqual(self.look("float.ply", *work, "--finish"), expected)
+
+    def test_a_folder_that_is_of_no_use_is_named(self):
+        self.put_all(heap(10))
+        run = self.run_tool("in.stl", "--work", "tiles")
+        self.assertIn("--work is not used", run.err)
+        self.assertNotIn("tiles", self.listing())
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_memory_decides(self):

@@ -128,6 +128,25 @@ class Tiles(WeldTest):
         entry = self.check("in.ply", "-t", "0.1", "--keep", "mean", size=80, also=())
         self.assertGreater(entry["output"]["within_tolerance"], 0)
 
+    def test_a_folder_that_is_left_or_of_no_use_is_named(self):
+        self.write("in.ply", ply(list(families(self.rng, 300))[0][1], self.rng))
+        os.symlink("/dev/full", self.path("full.ply"))
+        command = ["in.ply", "-t", "0.05", "--tile-points", 50, "--work", "tiles"]
+        run = self.run_tool(*command, "-o", "full.ply", status=4)
+        self.assertIn("tiles: tiles stay there; the same command goes on", run.err)
+        run = self.run_tool(*command, "-o", "full.ply", "-v", status=4)
+        self.assertIn("finished before", run.err)
+        self.run_tool(*command, "-o", "full.ply", "--order", "z", "--timeout", "1e-9", status=5)
+        self.run_tool(*command, "-o", "out.ply", status=0)
+        self.assertEqual(self.listing(), ["full.ply", "in.ply", "out.ply"])
+        run = self.run_tool(*command[:3], "--work", "tiles", "-o", "out.ply", "-f", status=0)
+        self.assertIn("--work is not used", run.err)
+        self.write("cube.obj", obj_bytes(cube()))
+        for option in (["--tile-points", 2], ["--work", "tiles"]):
+            entry = self.entry("cube.obj", *option, "-n", status=0)
+            self.assertIn("in-memory", [w["code"] for w in entry["warnings"]])
+            self.assertIsNone(entry["tiles"])
+
     def test_what_is_wrong_with_a_property_is_said_as_in_memory(self):
         self.write("in.ply", ply([(0.0, 0.0, float(i)) for i in range(40)], self.rng))
         for option, value in (("--same", "none"), ("--order", "none"), ("--keep", "min:none"),

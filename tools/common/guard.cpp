@@ -35,7 +35,8 @@ namespace tools {
 namespace {
 
 using clock = std::chrono::steady_clock;
-constexpr auto grace = std::chrono::seconds(1);
+constexpr auto grace = std::chrono::milliseconds(1000);
+constexpr auto grace_in_team = std::chrono::milliseconds(300);
 
 enum class reason : int { none, interrupt, terminate, hang_up, time, memory };
 
@@ -127,6 +128,7 @@ struct guard::state {
 
     void watch();
     [[nodiscard]] reason next_reason(bool signalled) const;
+    [[nodiscard]] clock::duration time_to_end();
     [[nodiscard]] std::string memory_text() const;
     [[nodiscard]] std::string text() const {
         return why == reason::memory ? memory_text() : text_of(why);
@@ -169,6 +171,13 @@ reason guard::state::next_reason(bool signalled) const {
     return reason::none;
 }
 
+/// When the first one of a team ends, or after a second, mpirun kills all. Who has files to remove is
+/// that first one.
+clock::duration guard::state::time_to_end() {
+    const std::lock_guard lock(mutex);
+    return bounds.beside_others && !open_files.empty() ? grace_in_team : grace;
+}
+
 void guard::state::watch() {
     clock::time_point asked{};
     while (true) {
@@ -182,7 +191,7 @@ void guard::state::watch() {
             if (next == reason::none) continue;
             why = next;
             asked = clock::now();
-        } else if ((signalled && next != reason::none) || clock::now() - asked > grace) {
+        } else if ((signalled && next != reason::none) || clock::now() - asked > time_to_end()) {
             end_process(why, stopped);
         }
     }

@@ -54,7 +54,11 @@ bool needs_tiles(job& work, const search_settings& settings, const tile_options&
         work.options.memory > 0 ? work.options.memory : tf::default_memory();
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(work.path, error);
-    if (!asked && (error || size < allowed / bytes_per_byte)) return false;
+    if (!asked && (error || size < allowed / bytes_per_byte)) {
+        const std::string remark = remark_on_folder(tiles);
+        if (!remark.empty()) work.warn("in-memory", remark);
+        return false;
+    }
     const std::string why = what_needs_memory(work, settings, changes_mesh);
     if (why.empty()) return true;
     const std::string text = why + " needs the whole mesh in memory, about " +
@@ -103,8 +107,8 @@ void share_search(job& work, const search_settings& settings, const tile_options
         tf::stream_search search(work.path, library_options(work, settings, tiles, folder));
         if (tiles.plan) {
             work.call_ended(search.scatter() == tf::status::cancelled);
-            work.out.result(work.name + ": " + counted(search.tiles(), "tile", "tiles") + " in " +
-                            folder);
+            enter_tiles(work, search.tiles(), folder, search.unfinished());
+            say_tiles(work);
             return;
         }
         if (*tiles.tile >= search.tiles())
@@ -148,6 +152,7 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
         work.name + ": searched in " + counted(r.tiles, "tile", "tiles") + " in " +
         folder.string() +
         (r.finished_tiles > 0 ? ", " + grouped(r.finished_tiles) + " finished before" : ""));
+    enter_tiles(work, r.tiles, folder, {});
     findings result = findings_of(std::move(r));
     group_findings(work, result, settings);
     return result;

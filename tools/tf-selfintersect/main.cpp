@@ -159,6 +159,7 @@ void check_request(const command_line& line, request& r, common_options& options
 
 exit_status look_at(tools::job& work, const request& r) {
     const common_options& o = work.options;
+    work.entry["tiles"] = nullptr;
     tools::check_outputs(work, {r.pairs}, {r.curves});
     const auto output = tools::mesh_output(o, work.path);
     const bool keeps_mesh = r.repairs || (output && !o.dry_run);
@@ -169,10 +170,11 @@ exit_status look_at(tools::job& work, const request& r) {
             tools::share_search(work, r.search, r.tiles);
             return tools::done;
         }
-        result = tools::search_in_tiles(
-            work, r.search, r.tiles,
-            r.tiles.folder_for(work, "tf-selfintersect",
-                               {r.pairs, r.curves, o.html, o.png, o.report}));
+        const auto folder = r.tiles.folder_for(work, "tf-selfintersect",
+                                               {r.pairs, r.curves, o.html, o.png, o.report});
+        result = tools::work_in(work, folder, r.tiles, [&] {
+            return tools::search_in_tiles(work, r.search, r.tiles, folder);
+        });
     } else {
         file = work.read();
         result = tools::search(work, file, r.search, keeps_mesh);

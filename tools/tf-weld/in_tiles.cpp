@@ -256,12 +256,13 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
         throw failure(bad_input, "label", work.name + ": too many points for --label");
     say_plan(work, survey, options.folder);
     take(work, "read", [&] { return weld->scatter(); });
+    enter_tiles(work, survey.tiles, options.folder, survey.unfinished);
     if (tiles.plan) {
-        work.out.result(work.name + ": " + counted(survey.tiles, "tile", "tiles") + " in " +
-                        options.folder.string());
+        say_tiles(work);
         return done;
     }
     take(work, "weld", [&] { return weld->weld(); });
+    work.entry["tiles"]["unfinished"] = json::array();
 
     const welding w = in_words_of_memory(survey, weld->counts());
     work.out.result(work.name + ": " + verdict(w, request));

@@ -73,20 +73,22 @@ std::string in_megabytes(std::uint64_t bytes) { return grouped(bytes / 1000000 +
 constexpr std::uint64_t most_per_byte = 16;
 
 /// Where memory is limited and this may need more: says so before, and why when it does.
-exit_status weld_mesh(job& work, const weld_request& request, std::uint64_t size) {
+exit_status weld_mesh(job& work, const weld_request& request, const tile_options& tiles,
+                      std::uint64_t size) {
+    const char* const words = "meshes are welded in memory, not in tiles";
     if (work.options.memory == 0 || size < work.options.memory / most_per_byte)
-        return weld_in_memory(work, request);
+        return weld_in_memory(work, request,
+                              tiles.per_tile > 0 ? words : remark_on_folder(tiles));
     const auto not_enough = [&] {
         return failure(stopped, "memory",
-                       work.name +
-                           ": meshes are welded in memory, not in tiles, as their faces "
-                           "name points anywhere; --memory is not enough for " +
+                       work.name + ": " + words +
+                           ", as their faces name points anywhere; --memory is not enough for " +
                            in_megabytes(size) + " of file");
     };
     if (size > work.options.memory) throw not_enough();
     try {
-        return weld_in_memory(
-            work, request, "meshes are welded in memory, not in tiles; --memory may not be enough");
+        return weld_in_memory(work, request,
+                              words + std::string("; --memory may not be enough"));
     } catch (const std::bad_alloc&) {
         throw not_enough();
     } catch (const failure& error) {
@@ -102,7 +104,8 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
         work.options.memory > 0 ? work.options.memory : tf::default_memory();
     const std::uint64_t size = size_of(inputs);
     if (tiles.team.rank > 0) tiles.team.exchange({});  // until the first one has looked
-    if (size == 0 || (!asked && size < allowed / 64)) return weld_in_memory(work, request);
+    if (size == 0 || (!asked && size < allowed / 64))
+        return weld_in_memory(work, request, remark_on_folder(tiles));
     std::optional<tf::cloud_outline> cloud;
     {
         const job::timer timing = work.time("read");
@@ -112,13 +115,17 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
         throw failure(
             bad_input, "read",
             work.name + ": is no cloud that can be read by blocks, as several processes do");
-    if (!cloud) return weld_mesh(work, request, size);
+    if (!cloud) return weld_mesh(work, request, tiles, size);
     const std::uint64_t needed =
         (std::uint64_t{32} << 20) +
         tf::memory_to_weld(cloud->header, cloud->points.value_or(size / 16));
-    if (!asked && needed <= allowed) return weld_in_memory(work, request);
+    if (!asked && needed <= allowed)
+        return weld_in_memory(work, request, remark_on_folder(tiles));
     const std::string only = what_needs_memory(work, request, cloud->header);
-    if (only.empty()) return weld_in_tiles(work, request, tiles, inputs, cloud->header);
+    if (only.empty())
+        return work_in(work, folder_for(work, request, tiles), tiles, [&] {
+            return weld_in_tiles(work, request, tiles, inputs, cloud->header);
+        });
     throw failure(asked ? bad_usage : stopped, asked ? "usage" : "memory",
                   work.name + ": " + only + " needs the whole cloud in memory, about " +
                       in_megabytes(needed) + "; without it, a smaller --memory would do");

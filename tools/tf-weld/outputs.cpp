@@ -105,6 +105,7 @@ void enter_blank_report(job& work, const weld_request& request) {
     json& entry = work.entry;
     for (const char* key : {"format", "sha256", "precision_in"}) entry[key] = nullptr;
     entry["sources"] = json::array();
+    entry["tiles"] = nullptr;
     entry["points"] = nullptr;
     entry["faces"] = nullptr;
     entry["polygons"] = nullptr;

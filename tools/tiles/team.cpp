@@ -5,9 +5,11 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -25,7 +27,26 @@ bool is_started_by_mpi() {
     return size != nullptr ? std::string_view(size) != "1" : std::getenv("PMIX_RANK") != nullptr;
 }
 
+/// Signals that ask for an end are not for threads of MPI: while it lives, none is given to those
+/// that are made.
+class signals_held {
+  public:
+    signals_held() {
+        sigset_t ends;
+        sigemptyset(&ends);
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ends, signal);
+        pthread_sigmask(SIG_BLOCK, &ends, &before_);
+    }
+    ~signals_held() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+    signals_held(const signals_held&) = delete;
+    signals_held& operator=(const signals_held&) = delete;
+
+  private:
+    sigset_t before_{};
+};
+
 const team_calls* join() {
+    const signals_held held;
     // Stays loaded: MPI has threads of its own.
     void* const library = ::dlopen(plug_in, RTLD_NOW | RTLD_GLOBAL);
     void* const found = library == nullptr ? nullptr : ::dlsym(library, "treeform_team");

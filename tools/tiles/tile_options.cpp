@@ -1,7 +1,9 @@
 #include "tools/tiles/tile_options.hpp"
 
+#include "tools/common/console.hpp"
 #include "tools/common/parse_value.hpp"
 
+#include <algorithm>
 #include <csignal>
 
 namespace tools {
@@ -67,8 +69,41 @@ void check_tile_options(const tile_options& tiles, const command_line& line,
         refuse("--plan, --tile and --finish need --work DIR, the same folder for all");
     if (options.inputs.size() != 1 && !options.joined)
         refuse("--plan, --tile and --finish take one INPUT");
-    if (tiles.is_part() && (!line.outputs().empty() || wants_mesh(options)))
+    const std::vector<fs::path> outputs = line.outputs();
+    const bool gives = std::ranges::any_of(
+        outputs, [&](const fs::path& path) { return path != options.report; });
+    if (tiles.is_part() && (gives || wants_mesh(options)))
         refuse("--plan and --tile give nothing back: outputs belong to --finish");
+}
+
+void say_what_is_left(job& work, const fs::path& folder, const tile_options& tiles) {
+    std::error_code error;
+    if (tiles.is_shared() || !fs::exists(folder, error)) return;
+    const bool piped = std::ranges::find(work.options.inputs, "-") != work.options.inputs.end();
+    work.warn("work-left",
+              folder.string() + (piped ? ": tiles stay there; remove the folder"
+                                       : ": tiles stay there; the same command goes on from them, "
+                                         "or remove the folder"));
+}
+
+void enter_tiles(job& work, std::size_t tiles, const fs::path& folder,
+                 const std::vector<std::size_t>& unfinished) {
+    work.entry["tiles"] = {
+        {"count", tiles}, {"folder", folder.string()}, {"unfinished", unfinished}};
+}
+
+void say_tiles(job& work) {
+    const json& tiles = work.entry["tiles"];
+    const auto count = tiles["count"].get<std::size_t>();
+    const std::size_t finished = count - tiles["unfinished"].size();
+    work.out.result(work.name + ": " + counted(count, "tile", "tiles") + " in " +
+                    tiles["folder"].get<std::string>() +
+                    (finished > 0 ? ", " + grouped(finished) + " finished" : ""));
+}
+
+std::string remark_on_folder(const tile_options& tiles) {
+    return tiles.folder.empty() ? std::string()
+                                : "enough memory to work without tiles: --work is not used";
 }
 
 failure failure_of(const job& work, const tf::stream_error& error) {

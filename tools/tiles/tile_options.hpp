@@ -9,11 +9,13 @@
 #include <treeform/tf.hpp>
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tools {
 
@@ -51,6 +53,30 @@ void add_sharing_options(command_line& line, tile_options& target);
 /// \throws failure (bad_usage) for options that exclude each other or need others
 void check_tile_options(const tile_options& tiles, const command_line& line,
                         const common_options& options);
+
+void say_what_is_left(job& work, const std::filesystem::path& folder, const tile_options& tiles);
+/// Does `step`, which works in `folder`. Where it fails and work is left there, says so.
+template <class Step>
+auto work_in(job& work, const std::filesystem::path& folder, const tile_options& tiles,
+             const Step& step) {
+    try {
+        return step();
+    } catch (const failure& error) {
+        if (error.code() != "work-folder") say_what_is_left(work, folder, tiles);
+        throw;
+    } catch (const std::exception&) {
+        say_what_is_left(work, folder, tiles);
+        throw;
+    }
+}
+
+/// For the report: how many tiles there are, where, and which are not finished.
+void enter_tiles(job& work, std::size_t tiles, const std::filesystem::path& folder,
+                 const std::vector<std::size_t>& unfinished);
+/// Says the same of tiles that are made.
+void say_tiles(job& work);
+/// Where a folder for tiles was asked for, but there are none: that. Else empty.
+[[nodiscard]] std::string remark_on_folder(const tile_options& tiles);
 
 /// What the library says of its files, for the person and the shell.
 [[nodiscard]] failure failure_of(const job& work, const tf::stream_error& error);

@@ -228,6 +228,7 @@ class TREEFORM_API stream_search {
     ///
     /// \throws stream_error before `scatter` has ended, here or elsewhere; so do the steps below
     [[nodiscard]] std::size_t tiles();
+    [[nodiscard]] std::vector<std::size_t> unfinished();  ///< tiles
     /// \throws std::out_of_range for a tile that is not there
     [[nodiscard]] status search_tile(std::size_t tile);
     /// Puts together what was found.

@@ -97,7 +97,8 @@ struct cloud_survey {
     double tolerance = 0.0;  ///< as a length
     std::vector<weld_condition> conditions{};  ///< on single columns
     std::size_t tiles = 0;
-    std::size_t finished_tiles = 0;  ///< by an earlier run
+    std::size_t finished_tiles = 0;         ///< by an earlier run
+    std::vector<std::size_t> unfinished{};  ///< the others
     bool continued = false;          ///< this run goes on from what an earlier one has left
     bool started_anew = false;       ///< what was left is of another job, or incomplete
     std::vector<std::filesystem::path> damaged{};  ///< files left by it that have changed since
@@ -241,9 +242,8 @@ class TREEFORM_API stream_weld {
 [[nodiscard]] TREEFORM_API std::uint64_t memory_to_weld(const mesh_file& header,
                                                         std::uint64_t points);
 
-/// The least `weld_stream_options::memory` with which `points` points can be welded in tiles, as long
-/// as tiles can be as small as they should be. Where points are crowded the limit may turn out to be
-/// higher (`stream_error`).
+/// The least `weld_stream_options::memory` with which `points` points can be welded in tiles. Where
+/// points are crowded, the limit may turn out to be higher (`stream_error`).
 [[nodiscard]] TREEFORM_API std::uint64_t memory_to_stream(const mesh_file& header,
                                                           std::uint64_t points);
 
